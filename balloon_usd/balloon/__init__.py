@@ -1,0 +1,1 @@
+"""The balloon itself: sizes, rubber and what theory says about inflated tubes."""

@@ -1,0 +1,275 @@
+"""The shape of a pinched bubble: an axisymmetric membrane between two necks, solved by quadrature.
+
+With r the radius, s the unstressed arc length, a = r / R0 and b the meridional stretch, a membrane at
+constant pressure minimises the integral of 2 pi R0 h0 W(a, b) - p pi r^2 dz/ds. That integrand knows neither
+z nor s, so two quantities are constant along the meridian (phi is its angle to the axis):
+
+    W - b W_b = C        and        W_b cos(phi) - p* a^2 / 2 = 0   (no axial force at the necks)
+
+Both hold for any stored energy W, so also for rubber that was stretched to the bulged phase and now retraces
+its softened path, whose potential is `Softening.stored_energy`. Each bubble sits at the Maxwell pressure, as
+it does while the tube still has an empty tail. All lengths scale with R0: one family serves every size.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from balloon_usd.balloon.rubber import relaxed_stretches
+from balloon_usd.balloon.tube_theory import inflated_rubber, maxwell_state
+
+if TYPE_CHECKING:
+    from balloon_usd.balloon.rubber import Floats, MembraneLaw, Rubber
+    from balloon_usd.balloon.sizes import BalloonSize
+    from balloon_usd.balloon.tube_theory import TubeState
+
+_MERIDIAN_NODES = 40
+_FAMILY_NODES = 28
+_HALVINGS = 46
+_LARGEST_AXIAL_STRETCH = 16.0
+# A family runs over u, where the widest hoop stretch is (1 - exp(-u)) times that of the tube. Beyond the end
+# (0.03 % thinner than the tube) a bubble is a cylinder between two fixed ends.
+_FAMILY_START, _FAMILY_END = 0.7, 8.0
+
+
+@dataclass(frozen=True)
+class BubbleShape:
+    """A bubble between two necks."""
+
+    rest_length: float
+    """Length of the unstressed tube it is made of, m."""
+    length: float
+    """Distance between its necks, m."""
+    diameter: float
+    """Largest diameter, m."""
+    volume: float
+    """Volume of gas, m3."""
+
+
+@lru_cache(maxsize=4096)
+def bubble_of_length(size: BalloonSize, rubber: Rubber, length: float) -> BubbleShape:
+    """Return the bubble of this inflated length, m, at the Maxwell pressure.
+
+    Below about half a tube diameter no bubble is stable at that pressure: a shorter one is a harder, smaller
+    copy of the shortest. The exact limit states up to twice the pressure have its rest length within 3 %.
+
+    Raises:
+        ValueError: the length is not positive and finite, or the rubber cannot hold a bubble.
+    """
+    if not (math.isfinite(length) and length > 0.0):
+        raise ValueError(f"a bubble needs a positive length, got {length}")
+    return _scaled(_family(rubber).of_length(length / size.radius), size.radius)
+
+
+@lru_cache(maxsize=4096)
+def bubble_of_rest_length(size: BalloonSize, rubber: Rubber, rest_length: float) -> BubbleShape:
+    """Return the bubble made of this length of unstressed tube, m, at the Maxwell pressure.
+
+    Raises:
+        ValueError: the rest length is not positive and finite, or the rubber cannot hold a bubble.
+    """
+    if not (math.isfinite(rest_length) and rest_length > 0.0):
+        raise ValueError(f"a bubble needs a positive rest length, got {rest_length}")
+    return _scaled(_family(rubber).of_rest_length(rest_length / size.radius), size.radius)
+
+
+def shortest_stable_bubble(size: BalloonSize, rubber: Rubber) -> BubbleShape:
+    """Return the shortest bubble that keeps its gas at the Maxwell pressure.
+
+    Raises:
+        ValueError: the rubber cannot hold a bubble.
+    """
+    return _scaled(_family(rubber).shortest, size.radius)
+
+
+def tube_diameter(size: BalloonSize, rubber: Rubber) -> float:
+    """Return the diameter of the bulged tube, m.
+
+    Raises:
+        ValueError: the rubber has no bulged phase.
+    """
+    return 2.0 * size.radius * maxwell_state(rubber).bulged.a
+
+
+def tube_volume_per_rest_length(size: BalloonSize, rubber: Rubber) -> float:
+    """Return the gas in the bulged tube for each length of unstressed tube, m2.
+
+    Raises:
+        ValueError: the rubber has no bulged phase.
+    """
+    return math.pi * size.radius**2 * maxwell_state(rubber).bulged.volume_ratio
+
+
+def tail_volume_per_rest_length(size: BalloonSize, rubber: Rubber) -> float:
+    """Return the gas in the thin tail for each length of unstressed tube, m2.
+
+    Raises:
+        ValueError: the rubber has no bulged phase.
+    """
+    return math.pi * size.radius**2 * maxwell_state(rubber).thin.volume_ratio
+
+
+def pinch_volume(size: BalloonSize, rubber: Rubber) -> float:
+    """Return the gas that one twist pushes out of a long tube, m3: what its two rounded ends lack.
+
+    Raises:
+        ValueError: the rubber cannot hold a bubble.
+    """
+    family = _family(rubber)
+    longest = family.longest
+    tube = math.pi * longest.rest_length * family.tube.volume_ratio
+    return (tube - longest.volume) * size.radius**3
+
+
+def pinch_length(size: BalloonSize, rubber: Rubber) -> float:
+    """Return the inflated length that one twist takes from a long tube, m: what its two rounded ends lack.
+
+    Raises:
+        ValueError: the rubber cannot hold a bubble.
+    """
+    family = _family(rubber)
+    longest = family.longest
+    return (longest.rest_length * family.tube.b - longest.length) * size.radius
+
+
+def twist_cost(size: BalloonSize, rubber: Rubber) -> float:
+    """Return the flat tail that one twist fills, m: the gas it displaces moves the front of the bulge on.
+
+    Raises:
+        ValueError: the rubber cannot hold a bubble.
+    """
+    gained = tube_volume_per_rest_length(size, rubber) - tail_volume_per_rest_length(size, rubber)
+    return pinch_volume(size, rubber) / gained
+
+
+def bubble_at_stretch(law: MembraneLaw, p_star: float, widest: Floats, tube_stretch: float) -> Floats:
+    """Return (rest length / R0, length / R0, volume / R0^3) of bubbles, (3, N), nan where there is none.
+
+    `widest`: hoop stretch at the middle, (N,). `tube_stretch`: hoop stretch of the tube that a long bubble
+    approaches; it only places the quadrature's nodes. `p_star`: Pa.
+    """
+    middle = _axial_stretch(law, widest, 0.5 * p_star * widest**2, axial_force=True)
+    constant = _legendre(law, widest, middle)
+    # From the middle (t = 0) to the neck (t = 1); a long bubble changes slowly near its middle.
+    slow = np.sqrt(np.maximum(1.0 - widest / tube_stretch, 1e-12))[:, None]
+    node, weight = np.polynomial.legendre.leggauss(_MERIDIAN_NODES)
+    span = np.arcsinh(1.0 / slow)
+    t = slow * np.sinh(0.5 * span * (node + 1.0))
+    weight = 0.5 * span * weight * slow * np.cosh(0.5 * span * (node + 1.0))
+    a = widest[:, None] * (1.0 - t**2)
+    da = 2.0 * widest[:, None] * t * weight
+    b = _axial_stretch(law, a, constant[:, None], axial_force=False)
+    cosine = 0.5 * p_star * a**2 / law.nominal_stress(*relaxed_stretches(a, b))[1]
+    with np.errstate(invalid="ignore"):
+        sine = np.sqrt(1.0 - cosine**2)
+        rest_length = 2.0 * np.sum(da / (b * sine), axis=1)
+        length = 2.0 * np.sum(da * cosine / sine, axis=1)
+        volume = 2.0 * math.pi * np.sum(da * a**2 * cosine / sine, axis=1)
+    return np.stack([rest_length, length, volume])
+
+
+def _legendre(law: MembraneLaw, a: Floats, b: Floats) -> Floats:
+    taut = relaxed_stretches(a, b)
+    return np.asarray(law.energy(*taut) - b * law.nominal_stress(*taut)[1])
+
+
+def _axial_stretch(law: MembraneLaw, a: Floats, wanted: Floats, *, axial_force: bool) -> Floats:
+    """Solve W_b = wanted (the axial force) or W - b W_b = wanted for the meridional stretch b, by halving."""
+    low, high = np.ones(a.shape), np.full(a.shape, _LARGEST_AXIAL_STRETCH)
+    for _ in range(_HALVINGS):
+        b = 0.5 * (low + high)
+        with np.errstate(invalid="ignore"):
+            if axial_force:
+                short = law.nominal_stress(*relaxed_stretches(a, b))[1] < wanted
+            else:
+                short = _legendre(law, a, b) > wanted
+        low, high = np.where(short, b, low), np.where(short, high, b)
+    return np.asarray(0.5 * (low + high))
+
+
+@dataclass(frozen=True, eq=False)
+class _BubbleFamily:
+    """All stable bubbles of a rubber, in units of R0, as polynomials over u."""
+
+    tube: TubeState
+    polynomial: Floats
+    """Chebyshev coefficients of rest length, length and volume over u, (_FAMILY_NODES, 3)."""
+    start: float
+    """u of the bubble with the least rest length."""
+
+    @property
+    def shortest(self) -> BubbleShape:
+        return self.at(self.start)
+
+    @property
+    def longest(self) -> BubbleShape:
+        return self.at(_FAMILY_END)
+
+    def at(self, u: float) -> BubbleShape:
+        rest_length, length, volume = _chebyshev(self.polynomial, u)
+        diameter = 2.0 * self.tube.a * (1.0 - math.exp(-u))
+        return BubbleShape(float(rest_length), float(length), diameter, float(volume))
+
+    def of_length(self, length: float) -> BubbleShape:
+        return self._found("length", length, self.tube.b)
+
+    def of_rest_length(self, rest_length: float) -> BubbleShape:
+        return self._found("rest_length", rest_length, 1.0)
+
+    def _found(self, measure: str, wanted: float, per_rest_length: float) -> BubbleShape:
+        shortest, longest = self.shortest, self.longest
+        if wanted <= getattr(shortest, measure):
+            return _scaled(shortest, wanted / getattr(shortest, measure))
+        if wanted >= getattr(longest, measure):
+            return self._lengthened(longest, (wanted - getattr(longest, measure)) / per_rest_length)
+        low, high = self.start, _FAMILY_END
+        for _ in range(_HALVINGS):
+            u = 0.5 * (low + high)
+            low, high = (u, high) if getattr(self.at(u), measure) < wanted else (low, u)
+        return self.at(0.5 * (low + high))
+
+    def _lengthened(self, shape: BubbleShape, rest_length: float) -> BubbleShape:
+        return BubbleShape(
+            rest_length=shape.rest_length + rest_length,
+            length=shape.length + rest_length * self.tube.b,
+            diameter=shape.diameter,
+            volume=shape.volume + math.pi * rest_length * self.tube.volume_ratio,
+        )
+
+
+@lru_cache(maxsize=32)
+def _family(rubber: Rubber) -> _BubbleFamily:
+    state = maxwell_state(rubber)
+    nodes = np.asarray(np.polynomial.chebyshev.chebpts1(_FAMILY_NODES), dtype=np.float64)
+    u = _FAMILY_START + 0.5 * (nodes + 1.0) * (_FAMILY_END - _FAMILY_START)
+    widest = state.bulged.a * (1.0 - np.exp(-u))
+    shapes = bubble_at_stretch(inflated_rubber(rubber), state.p_star, widest, state.bulged.a)
+    if not np.isfinite(shapes).all():
+        raise ValueError(
+            f"a pinched bubble of {rubber.name} bleeds away at the Maxwell pressure: it needs softening"
+        )
+    polynomial: Floats = np.asarray(
+        np.polynomial.chebyshev.chebfit(nodes, shapes.T, _FAMILY_NODES - 1), float
+    )
+    fine: Floats = np.linspace(_FAMILY_START, _FAMILY_END, 2001, dtype=np.float64)
+    start = float(fine[np.argmin(_chebyshev(polynomial, fine)[0])])
+    return _BubbleFamily(state.bulged, polynomial, start)
+
+
+def _chebyshev(polynomial: Floats, u: float | Floats) -> Floats:
+    x = (u - _FAMILY_START) / (_FAMILY_END - _FAMILY_START) * 2.0 - 1.0
+    return np.asarray(np.polynomial.chebyshev.chebval(x, polynomial))
+
+
+def _scaled(shape: BubbleShape, factor: float) -> BubbleShape:
+    return BubbleShape(
+        rest_length=shape.rest_length * factor,
+        length=shape.length * factor,
+        diameter=shape.diameter * factor,
+        volume=shape.volume * factor**3,
+    )

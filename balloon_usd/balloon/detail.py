@@ -1,0 +1,39 @@
+"""Levels of detail: how finely a balloon is meshed and how finely time is cut."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Detail:
+    """A level of detail of the mesh and the time step that it needs.
+
+    Mesh lengths are in unstressed radii R0, so that every size is meshed alike.
+    """
+
+    name: str
+    around: int
+    """Vertices round the tube, a multiple of four (the end caps are square grids)."""
+    axial: float
+    """Axial spacing of rings far from joints, in R0."""
+    axial_at_joint: float
+    """Axial spacing of rings beside a joint, in R0."""
+    substeps: int
+    """Substeps per frame at 24 frames per second."""
+
+
+DETAILS: dict[str, Detail] = {
+    "draft": Detail("draft", around=12, axial=0.66, axial_at_joint=0.34, substeps=120),
+    "preview": Detail("preview", around=20, axial=0.42, axial_at_joint=0.22, substeps=200),
+    "full": Detail("full", around=28, axial=0.27, axial_at_joint=0.15, substeps=300),
+}
+
+
+def detail_named(name: str) -> Detail:
+    """Return the level of detail with this name.
+
+    Raises:
+        KeyError: there is no such level.
+    """
+    return DETAILS[name]

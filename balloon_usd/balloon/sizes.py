@@ -1,0 +1,93 @@
+"""Balloon sizes: the flat, unstressed tube of each code.
+
+No published measurement of these tubes was found. Radii and lengths are the nominal inflated sizes (the
+first digit is the diameter in inches, the rest the length in inches) divided by the stretches at which latex
+carries its bulge (5.664 round the tube, 4.146 along it, see `tube_theory.maxwell_state`); the wall thickness
+is chosen to give a plausible weight. Uncertainty: radius 15 %, length 20 %, thickness 30 %.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields
+
+
+@dataclass(frozen=True)
+class BalloonSize:
+    """The unstressed tube of one balloon size.
+
+    Raises:
+        ValueError: a dimension is not a positive finite number.
+    """
+
+    name: str
+    """Size code, for example "260"."""
+    radius: float
+    """Unstressed tube radius R0, m."""
+    length: float
+    """Unstressed tube length L0, m."""
+    thickness: float
+    """Unstressed wall thickness h0, m."""
+
+    def __post_init__(self) -> None:
+        for field in fields(self)[1:]:
+            value = getattr(self, field.name)
+            if not (math.isfinite(value) and value > 0.0):
+                raise ValueError(
+                    f"balloon {self.name}: {field.name} must be positive and finite, got {value}"
+                )
+
+    @property
+    def flat_width(self) -> float:
+        """Width of the empty tube pressed flat, m."""
+        return math.pi * self.radius
+
+    @property
+    def rubber_volume(self) -> float:
+        """Volume of the rubber itself, m3."""
+        return 2.0 * math.pi * self.radius * self.thickness * self.length
+
+    def with_overrides(
+        self,
+        radius: float | None = None,
+        length: float | None = None,
+        thickness: float | None = None,
+    ) -> BalloonSize:
+        """Return this size with the given unstressed dimensions (m) instead of its own.
+
+        Raises:
+            ValueError: a given dimension is not a positive finite number.
+        """
+        return BalloonSize(
+            self.name,
+            radius=self.radius if radius is None else radius,
+            length=self.length if length is None else length,
+            thickness=self.thickness if thickness is None else thickness,
+        )
+
+
+SIZES: tuple[BalloonSize, ...] = (
+    BalloonSize("160", radius=2.24e-3, length=0.368, thickness=0.18e-3),
+    BalloonSize("260", radius=4.50e-3, length=0.367, thickness=0.18e-3),
+    BalloonSize("321", radius=6.73e-3, length=0.129, thickness=0.20e-3),
+    BalloonSize("350", radius=6.73e-3, length=0.306, thickness=0.20e-3),
+    BalloonSize("360", radius=6.73e-3, length=0.368, thickness=0.20e-3),
+    BalloonSize("646", radius=13.5e-3, length=0.282, thickness=0.25e-3),
+)
+"""Every size that a recipe can name."""
+
+_SIZES_BY_NAME = {size.name: size for size in SIZES}
+
+
+def size_named(name: str) -> BalloonSize:
+    """Return the balloon size with this code.
+
+    Raises:
+        ValueError: no such size.
+    """
+    try:
+        return _SIZES_BY_NAME[name]
+    except KeyError:
+        raise ValueError(
+            f"unknown balloon size {name!r}, expected one of {', '.join(_SIZES_BY_NAME)}"
+        ) from None

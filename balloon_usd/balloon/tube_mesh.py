@@ -1,0 +1,179 @@
+"""The closed all-quad mesh of a twisting balloon: lip, knot, tube and tip.
+
+The flat tube lies along +x with the knot at x = 0 and the nozzle lip at negative x. Every ring has the same number of
+vertices; the two ends are closed by square grids, so that all faces are quads. The cross-section is the polygon
+circumscribed to the circle of radius R0: hoop and axial equilibrium of a pressurised polygonal tube then are exactly
+those of the round tube, at every level of detail.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from balloon_usd.balloon.detail import Detail
+from balloon_usd.balloon.sizes import BalloonSize
+
+KNOT_LENGTH = 1.8
+"""Rubber taken by the knot bead, in R0 (judged by eye against a tied 260)."""
+LIP_LENGTH = 2.0
+"""Length of the nozzle left behind the knot, in R0."""
+LIP_FLARE = 1.35
+"""Radius of the lip's rim, in R0."""
+GRADING = 0.18
+"""Growth of the axial spacing per distance from the nearest joint."""
+
+Floats = NDArray[np.float32]
+Ints = NDArray[np.int32]
+
+
+@dataclass(frozen=True)
+class BalloonMesh:
+    """One balloon's mesh with the rings that the plan speaks of."""
+
+    points: Floats
+    """Unstressed vertex positions, (V, 3) float32, m."""
+    quads: Ints
+    """Faces, (Q, 4) int32, counter-clockwise from outside; first edge hoop, second axial on the tube."""
+    st: Floats
+    """Texture coordinates per face corner, (Q, 4, 2) float32: s round the tube, t along it."""
+    quad_bubble: Ints
+    """Bubble of every face, (Q,) int32, index into the balloon's own bubbles."""
+    along: Floats
+    """Unstressed distance from the knot of every vertex, (V,) float32, m; negative on knot and lip."""
+    around: int
+    """Vertices of a ring."""
+    ring_start: Ints
+    """First vertex of every ring, (R,) int32; a ring's vertices are consecutive."""
+    ring_along: NDArray[np.float64]
+    """Unstressed distance from the knot of every ring, (R,) float64, m."""
+
+    def ring_at(self, along: float) -> int:
+        """Return the ring nearest to this unstressed distance from the knot (m)."""
+        return int(np.argmin(np.abs(self.ring_along - along)))
+
+
+def ring_stations(detail: Detail, size: BalloonSize, joints: tuple[float, ...]) -> NDArray[np.float64]:
+    """Return the unstressed positions of the tube's rings, (R,) float64, m: one at every joint, finer beside them.
+
+    Raises:
+        ValueError: a joint lies outside the tube.
+    """
+    last = size.length - size.radius
+    marks = sorted({0.0, *joints, last})
+    if marks[0] < 0.0 or marks[-1] > last:
+        raise ValueError(f"joints must lie between 0 and {last:.4f} m, got {joints}")
+    fine, coarse = detail.axial_at_joint * size.radius, detail.axial * size.radius
+    stations = [np.zeros(1)]
+    for low, high in zip(marks[:-1], marks[1:], strict=True):
+        stations.append(_graded(low, high, fine, coarse, tail=high == last))
+    return np.concatenate(stations)
+
+
+def _graded(low: float, high: float, fine: float, coarse: float, *, tail: bool) -> NDArray[np.float64]:
+    """Cut (low, high] so that the spacing grows from both joints; towards the tip it only grows from `low`."""
+    s = np.linspace(low, high, 512)
+    distance = s - low if tail else np.minimum(s - low, high - s)
+    spacing = np.minimum(coarse, fine + GRADING * distance)
+    cells = np.concatenate([[0.0], np.cumsum(0.5 * (1 / spacing[1:] + 1 / spacing[:-1]) * np.diff(s))])
+    count = max(2, round(float(cells[-1])))
+    return np.interp(np.arange(1, count + 1) * cells[-1] / count, cells, s)
+
+
+def tube_mesh(
+    size: BalloonSize, detail: Detail, joints: tuple[float, ...], bubble_ends: tuple[float, ...]
+) -> BalloonMesh:
+    """Return the mesh of a balloon with a ring at every joint (m along the flat tube).
+
+    `bubble_ends`: where each bubble ends, m along the flat tube, ascending; the knot and lip belong to the first bubble
+    and the tip to the last.
+
+    Raises:
+        ValueError: a joint lies outside the tube.
+    """
+    knot, lip = KNOT_LENGTH * size.radius, LIP_LENGTH * size.radius
+    behind = np.concatenate(
+        [-knot - lip + lip * np.linspace(0, 1, 4), -knot + knot * np.linspace(0, 1, 5)[1:-1]]
+    )
+    along = np.concatenate([behind, ring_stations(detail, size, joints)])
+    rings, n = len(along), detail.around
+    inner = (n // 4 - 1) ** 2
+    radius = np.full(rings, size.radius / math.cos(math.pi / n))
+    flare = np.clip((-knot - along) / lip, 0.0, 1.0)
+    radius *= 1.0 + (LIP_FLARE - 1.0) * flare**2
+    theta = 2 * math.pi * np.arange(n) / n
+    circle = np.stack([np.cos(theta), np.sin(theta)], axis=1)
+    tube = np.empty((rings, n, 3))
+    tube[:, :, 0] = along[:, None]
+    tube[:, :, 1:] = radius[:, None, None] * circle
+    lip_cap, tip_cap = _cap_points(n, radius[0], 0.15), _cap_points(n, radius[-1], 1.0)
+    lip_cap[:, 0] = along[0] - lip_cap[:, 0] * 0.5
+    tip_cap[:, 0] = along[-1] + tip_cap[:, 0] * size.radius / radius[-1]
+    points = np.concatenate([lip_cap, tube.reshape(-1, 3), tip_cap]).astype(np.float32)
+    ring_start = (inner + n * np.arange(rings)).astype(np.int32)
+    quads, st, at = _faces(n, rings, inner, along)
+    quad_bubble = np.minimum(np.searchsorted(np.asarray(bubble_ends), at), len(bubble_ends) - 1).astype(
+        np.int32
+    )
+    vertex_along = np.concatenate([lip_cap[:, 0], np.repeat(along, n), tip_cap[:, 0]]).astype(np.float32)
+    return BalloonMesh(points, quads, st, quad_bubble, vertex_along, n, ring_start, along)
+
+
+def _cap_grid(n: int, ring: int, first_inner: int) -> Ints:
+    """Vertex numbers of a cap's square grid, (n/4 + 1, n/4 + 1): the border is the ring, walked once round."""
+    m = n // 4
+    grid = np.empty((m + 1, m + 1), dtype=np.int32)
+    border = ring + np.arange(n, dtype=np.int32)
+    grid[:m, 0], grid[m, :m] = border[:m], border[m : 2 * m]
+    grid[m:0:-1, m], grid[0, m:0:-1] = border[2 * m : 3 * m], border[3 * m :]
+    grid[1:m, 1:m] = first_inner + np.arange((m - 1) ** 2, dtype=np.int32).reshape(m - 1, m - 1)
+    return grid
+
+
+def _cap_points(n: int, radius: float, dome: float) -> NDArray[np.float64]:
+    """Inner points of a cap, ((n/4 - 1)^2, 3), m: a Coons patch of the circle lifted to a dome towards +x."""
+    grid = _cap_grid(n, 0, n)
+    theta = 2 * math.pi * np.arange(n) / n
+    flat = np.zeros((grid.max() + 1, 2))
+    flat[:n] = radius * np.stack([np.cos(theta), np.sin(theta)], axis=1)
+    m = n // 4
+    u = np.arange(1, m)[:, None, None] / m
+    v = np.arange(1, m)[None, :, None] / m
+    p = flat[grid]
+    ruled = (1 - u) * p[:1, 1:m] + u * p[m:, 1:m] + (1 - v) * p[1:m, :1] + v * p[1:m, m:]
+    corners = (1 - u) * (1 - v) * p[0, 0] + u * (1 - v) * p[m, 0] + u * v * p[m, m] + (1 - u) * v * p[0, m]
+    inner = (ruled - corners).reshape(-1, 2)
+    lift = dome * np.sqrt(np.maximum(radius**2 - np.sum(inner**2, axis=1), 0.0))
+    return np.column_stack([lift, inner])
+
+
+def _faces(
+    n: int, rings: int, inner: int, along: NDArray[np.float64]
+) -> tuple[Ints, Floats, NDArray[np.float64]]:
+    """Quads, texture coordinates per corner and the unstressed position of each quad's middle."""
+    r, k = np.meshgrid(np.arange(rings - 1), np.arange(n), indexing="ij")
+    start, after = inner + r * n, inner + (r + 1) * n
+    turn = (k + 1) % n
+    tube = np.stack([start + k, start + turn, after + turn, after + k], axis=-1).reshape(-1, 4)
+    t = (along - along[0]) / (along[-1] - along[0])
+    s_low, s_high = k / n, (k + 1) / n
+    corners = [(s_low, t[r]), (s_high, t[r]), (s_high, t[r + 1]), (s_low, t[r + 1])]
+    tube_st = np.stack([np.stack(c, axis=-1) for c in corners], axis=2).reshape(-1, 4, 2)
+    lip = _cap_grid(n, inner, 0)
+    tip = _cap_grid(n, inner + (rings - 1) * n, inner + rings * n)
+    lip_quads, tip_quads = _grid_quads(lip)[:, ::-1], _grid_quads(tip)
+    quads = np.concatenate([lip_quads, tube, tip_quads]).astype(np.int32)
+    m = n // 4
+    cap_st = np.tile(np.array([[0, 0], [1, 0], [1, 1], [0, 1]], dtype=np.float32) / m, (m * m, 1, 1))
+    st = np.concatenate([cap_st, tube_st, 1 - cap_st]).astype(np.float32)
+    middle = np.repeat(0.5 * (along[1:] + along[:-1]), n)
+    at = np.concatenate([np.full(m * m, along[0]), middle, np.full(m * m, along[-1])])
+    return quads, st, at
+
+
+def _grid_quads(grid: Ints) -> Ints:
+    """Quads of a vertex grid, counter-clockwise seen from +x when the border runs counter-clockwise."""
+    return np.stack([grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]], axis=-1).reshape(-1, 4)

@@ -1,0 +1,10 @@
+"""The command line: `balloon-usd run`, `plan`, `schema`, `preview`, `bench`.
+
+Commands import what they need when they run, so that `--help` answers at once.
+"""
+
+from __future__ import annotations
+
+from balloon_usd.cli.group import main
+
+__all__ = ["main"]

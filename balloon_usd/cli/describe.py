@@ -1,0 +1,67 @@
+"""From a plan and its meshes to what the stage shows."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from balloon_usd.stage import MeshDescription, StageDescription
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from balloon_usd.balloon.tube_mesh import BalloonMesh
+    from balloon_usd.plan import Plan, Strip
+
+SOLVER = "latex 1"
+"""Model of the physics and its version: another version may move points."""
+
+
+def describe_stage(plan: Plan, meshes: Sequence[BalloonMesh]) -> StageDescription:
+    """Describe the stage of a plan, one mesh a balloon in the order of its strips."""
+    recipe = plan.recipe
+    return StageDescription(
+        name=recipe.name,
+        title=recipe.title or recipe.name,
+        fps=recipe.fps,
+        meshes=tuple(
+            _describe_mesh(plan, strip, mesh)
+            for strip, mesh in zip(plan.strips.values(), meshes, strict=True)
+        ),
+        bubble_names=tuple(bubble.name for bubble in plan.bubbles),
+        provenance={
+            "recipe": Path(recipe.file).name,
+            "recipe_sha256": recipe.sha256,
+            "solver": SOLVER,
+        },
+        twists=moves_in_time(plan),
+    )
+
+
+def _describe_mesh(plan: Plan, strip: Strip, mesh: BalloonMesh) -> MeshDescription:
+    color = plan.recipe.balloons[strip.balloon].color
+    return MeshDescription(
+        name=strip.balloon,
+        quads=mesh.quads,
+        st=mesh.st,
+        quad_bubble=mesh.quad_bubble,
+        bubble_names=tuple(bubble.name for bubble in strip.bubbles),
+        color=color.rgb,
+        material=material_name(color.name),
+    )
+
+
+def material_name(color: str) -> str:
+    """Return the prim name of the latex of a colour, named or written as "#rrggbb"."""
+    letters = re.sub(r"[^A-Za-z0-9]+", "_", color).strip("_")
+    return f"latex_{letters}" if letters else "latex"
+
+
+def moves_in_time(plan: Plan) -> tuple[tuple[int, str], ...]:
+    """Return when the hands begin what: (time code, what), without the moments in which they only let go."""
+    marks: list[tuple[int, str]] = []
+    for move in plan.choreography.moves:
+        if move.seconds > 0.0 and (not marks or marks[-1][1] != move.text):
+            marks.append((1 + round(move.start * plan.recipe.fps), move.text))
+    return tuple(marks)

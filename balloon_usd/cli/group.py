@@ -1,0 +1,36 @@
+"""The group of commands and what they have in common."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import click
+
+from balloon_usd import __version__
+from balloon_usd.cli.bench import bench
+from balloon_usd.cli.failure import EXIT_CODES_HELP, ExitCode, Failure
+from balloon_usd.cli.plan import plan
+from balloon_usd.cli.preview import preview
+from balloon_usd.cli.run import run
+from balloon_usd.cli.schema import schema
+
+
+class Commands(click.Group):
+    """A group whose commands can be interrupted without a traceback."""
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Run the command; Ctrl-C ends it with its own exit code."""
+        try:
+            return super().invoke(ctx)
+        except KeyboardInterrupt as error:
+            raise Failure("interrupted, nothing half-written is left", ExitCode.INTERRUPTED) from error
+
+
+@click.group(cls=Commands, epilog=EXIT_CODES_HELP, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(__version__, prog_name="balloon-usd")
+def main() -> None:
+    """Physics-true balloon twisting: a YAML recipe becomes an animated USD stage."""
+
+
+for command in (run, plan, schema, preview, bench):
+    main.add_command(command)

@@ -1,0 +1,50 @@
+"""The output folder: refused before anything is computed for it."""
+
+from __future__ import annotations
+
+import tempfile
+from typing import TYPE_CHECKING
+
+from balloon_usd.cli.failure import ExitCode, Failure
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+    from pathlib import Path
+
+
+def require_writable(folder: Path) -> None:
+    """Make the folder if need be and try to write in it.
+
+    Raises:
+        Failure: that is not possible.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            pass
+    except OSError as error:
+        raise Failure(
+            f"{folder}: cannot write here ({error.strerror or error})", ExitCode.BAD_INPUT
+        ) from error
+
+
+def stage_path(folder: Path, name: str, *, flat: bool) -> Path:
+    """Return the file of a sculpture's stage that people open."""
+    return folder / f"{name}.usdc" if flat else folder / name / f"{name}.usda"
+
+
+def require_free(folder: Path, names: Iterable[str], *, flat: bool) -> None:
+    """Check that no file stands where a folder must go, nor a folder where a file must.
+
+    Raises:
+        Failure: with all that are in the way.
+    """
+    in_the_way = []
+    for name in names:
+        stage = stage_path(folder, name, flat=flat)
+        if flat and stage.is_dir():
+            in_the_way.append(f"{stage}: a folder is in the way")
+        if not flat and stage.parent.exists() and not stage.parent.is_dir():
+            in_the_way.append(f"{stage.parent}: a file is in the way")
+    if in_the_way:
+        raise Failure("\n".join(in_the_way), ExitCode.BAD_INPUT)

@@ -1,0 +1,113 @@
+"""`balloon-usd run`: recipes in, stages and contact sheets out."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from balloon_usd.cli.device import device_option, start_device
+from balloon_usd.cli.failure import EXIT_CODES_HELP, ExitCode, Failure
+from balloon_usd.cli.frame_range import FrameRange, frame_range
+from balloon_usd.cli.output import require_free, require_writable, stage_path
+from balloon_usd.cli.sources import plans_of, recipe_files
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from balloon_usd.cli.perform import Outcome
+    from balloon_usd.plan import Plan
+
+DETAILS = ("draft", "preview", "full")
+
+
+@click.command(epilog=EXIT_CODES_HELP)
+@click.argument("recipes", nargs=-1, required=True, metavar="RECIPE...", type=click.Path(path_type=Path))
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(path_type=Path),
+    default=Path(),
+    help="Folder for the stages; made if need be. Default: here.",
+)
+@click.option(
+    "--detail",
+    type=click.Choice(DETAILS),
+    default="draft",
+    show_default=True,
+    help="How fine the mesh and the time steps are.",
+)
+@device_option
+@click.option("--flat", is_flag=True, help="Write one NAME.usdc instead of the folder NAME with its layers.")
+@click.option(
+    "--frames",
+    type=frame_range,
+    metavar="A:B",
+    help="Write only these frames, counted from 1; A: and :B leave an end open.",
+)
+@click.option("--no-preview", is_flag=True, help="Draw no contact sheet.")
+def run(
+    recipes: tuple[Path, ...],
+    output: Path,
+    detail: str,
+    device: str,
+    flat: bool,
+    frames: FrameRange | None,
+    no_preview: bool,
+) -> None:
+    """Make sculptures: simulate recipes and write a USD stage and a contact sheet of each.
+
+    RECIPE is a recipe file, or a folder whose recipes (*.yaml) are all made. All sculptures advance together.
+    If a recipe is wrong nothing is run, and all problems of all recipes are listed.
+
+    Writes OUTPUT/NAME/NAME.usda with its payload, and OUTPUT/NAME.png, where NAME is the recipe's name.
+    """
+    plans = plans_of(recipe_files(recipes))
+    require_writable(output)
+    require_free(output, [plan.recipe.name for plan in plans], flat=flat)
+    used = start_device(device)
+    _print_cautions(plans)
+    outcomes = _perform_all(plans, output, detail, used, flat=flat, frames=frames or FrameRange())
+    if not no_preview:
+        _draw(outcomes, output, used, flat=flat)
+    failed = [f"{o.plan.recipe.file}: simulation failed {o.failed}" for o in outcomes if o.failed]
+    if failed:
+        raise Failure("\n".join(failed), ExitCode.SIMULATION_FAILED)
+
+
+def _print_cautions(plans: Sequence[Plan]) -> None:
+    for plan in plans:
+        for caution in plan.cautions:
+            place = "" if caution.step is None else f"step {caution.step + 1}: "
+            click.echo(f"{plan.recipe.file}: caution: {place}{caution.what} ({caution.why})", err=True)
+
+
+def _perform_all(
+    plans: Sequence[Plan], output: Path, detail: str, device: str, *, flat: bool, frames: FrameRange
+) -> list[Outcome]:
+    from balloon_usd.cli.perform import Order, perform, together  # noqa: PLC0415
+    from balloon_usd.cli.summary import print_summary  # noqa: PLC0415
+
+    order = Order(output, detail, device, flat, frames)
+    begin = time.perf_counter()
+    outcomes = [outcome for group in together(plans) for outcome in perform(group, order)]
+    print_summary(outcomes, time.perf_counter() - begin, detail, device)
+    return outcomes
+
+
+def _draw(outcomes: Sequence[Outcome], output: Path, device: str, *, flat: bool) -> None:
+    from balloon_usd.preview import PreviewError, draw_contact_sheet  # noqa: PLC0415
+
+    for outcome in outcomes:
+        if outcome.written is None:
+            continue
+        name = outcome.plan.recipe.name
+        try:
+            sheet = draw_contact_sheet(
+                stage_path(output, name, flat=flat), output / f"{name}.png", device=device
+            )
+        except PreviewError as error:
+            raise Failure(str(error), ExitCode.NOT_WRITTEN) from error
+        click.echo(f"contact sheet {sheet}")

@@ -1,0 +1,70 @@
+"""From the paths of the command line to plans, with all problems of all files at once."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from typing import TYPE_CHECKING
+
+from balloon_usd.cli.failure import ExitCode, Failure
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+    from pathlib import Path
+
+    from balloon_usd.plan import Plan
+
+SUFFIXES = frozenset({".yaml", ".yml"})
+
+
+def recipe_files(paths: Iterable[Path]) -> list[Path]:
+    """Return the recipe files: those named, and those directly inside folders, by name; each once.
+
+    Raises:
+        Failure: a folder holds no recipe.
+    """
+    files: dict[Path, Path] = {}
+    for path in paths:
+        found = _files_in(path) if path.is_dir() else [path]
+        if not found:
+            raise Failure(f"{path}: no recipes (*.yaml) in this folder", ExitCode.BAD_INPUT)
+        for file in found:
+            files.setdefault(file.resolve(), file)
+    return list(files.values())
+
+
+def _files_in(folder: Path) -> list[Path]:
+    return sorted(file for file in folder.iterdir() if file.suffix in SUFFIXES and file.is_file())
+
+
+def plans_of(files: Sequence[Path]) -> list[Plan]:
+    """Read and plan every file.
+
+    Raises:
+        Failure: with the problems of all files, one a line, if there is any.
+    """
+    from balloon_usd.plan import plan  # noqa: PLC0415
+    from balloon_usd.recipe import Recipe, RecipeError  # noqa: PLC0415
+
+    plans: list[Plan] = []
+    problems: list[str] = []
+    for file in files:
+        try:
+            plans.append(plan(Recipe.load(file)))
+        except RecipeError as error:
+            problems.append(str(error))
+    problems += _shared_names(plans)
+    if problems:
+        raise Failure("\n".join(problems), ExitCode.BAD_INPUT)
+    return plans
+
+
+def _shared_names(plans: Iterable[Plan]) -> list[str]:
+    """Say which recipes would write the same files, also where capitals make no difference."""
+    by_name: dict[str, list[Plan]] = defaultdict(list)
+    for plan in plans:
+        by_name[plan.recipe.name.casefold()].append(plan)
+    return [
+        f'{other.recipe.file}: name: "{other.recipe.name}" is taken by {first.recipe.file}'
+        for first, *others in by_name.values()
+        for other in others
+    ]

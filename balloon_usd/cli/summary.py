@@ -1,0 +1,44 @@
+"""The table at the end of a run."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from rich.console import Console
+from rich.table import Table
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from balloon_usd.cli.perform import Outcome
+
+MEGABYTE = 1e6
+
+
+def print_summary(outcomes: Sequence[Outcome], seconds: float, detail: str, device: str) -> None:
+    """Print what was written and how fast, on the standard stream.
+
+    Args:
+        outcomes: one a recipe.
+        seconds: time that the simulation and the writing took.
+        detail: level of detail.
+        device: where it was computed.
+    """
+    table = Table("sculpture", "stage", box=None, pad_edge=False)
+    for heading in ("frames", "animation", "size"):
+        table.add_column(heading, justify="right")
+    frames = 0
+    for outcome in outcomes:
+        recipe = outcome.plan.recipe
+        if outcome.written is None:
+            table.add_row(recipe.name, "failed")
+            continue
+        count = outcome.written.frames
+        size = sum(file.stat().st_size for file in outcome.written.files) / MEGABYTE
+        length = f"{count / recipe.fps:.1f} s"
+        table.add_row(recipe.name, str(outcome.written.files[0]), str(count), length, f"{size:.1f} MB")
+        frames += count
+    console = Console(soft_wrap=True, highlight=False)
+    console.print(table, no_wrap=True, crop=False)
+    rate = frames / max(seconds, 1e-9)
+    console.print(f"{frames} frames in {seconds:.1f} s, {rate:.0f} frames/s, {detail} on {device}")

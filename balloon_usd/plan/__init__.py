@@ -1,0 +1,25 @@
+"""The plan room: what a recipe means, in lengths, joints, gas and warnings, before any physics runs."""
+
+from __future__ import annotations
+
+from balloon_usd.plan.budget import Budget
+from balloon_usd.plan.drawing import plan_svg
+from balloon_usd.plan.graph import SculptureGraph
+from balloon_usd.plan.judgement import Caution
+from balloon_usd.plan.model import Plan
+from balloon_usd.plan.planning import plan
+from balloon_usd.plan.report import plan_json, plan_text
+from balloon_usd.plan.strip import PlannedBubble, Strip
+
+__all__ = [
+    "Budget",
+    "Caution",
+    "Plan",
+    "PlannedBubble",
+    "SculptureGraph",
+    "Strip",
+    "plan",
+    "plan_json",
+    "plan_svg",
+    "plan_text",
+]

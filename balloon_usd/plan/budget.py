@@ -1,0 +1,128 @@
+"""The budget of one balloon: its tail, twist by twist, and its gas."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from balloon_usd.balloon.bubble_shape import twist_cost
+from balloon_usd.balloon.tube_theory import gauge_pressure, maxwell_state
+from balloon_usd.plan.open_tube import inflated_tube, softened, tail_range
+
+if TYPE_CHECKING:
+    from balloon_usd.plan.strip import Strip
+
+GAS_CONSTANT = 8.314462618
+"""Molar gas constant, J/(mol K) (CODATA 2018)."""
+ATMOSPHERE = 101325.0
+"""Standard atmosphere, Pa (ISO 2533)."""
+ROOM_TEMPERATURE = 293.15
+"""Temperature of the gas, K."""
+
+
+@dataclass(frozen=True)
+class TwistEntry:
+    """What is open to the hands after the twist that ends a bubble."""
+
+    bubble: str
+    step: int
+    """Index of the step that makes the twist."""
+    tail_left: float
+    """Flat tail, m; 0 when it is used up."""
+    pressure: float
+    """Gauge pressure of the open part, Pa."""
+    hoop_stretch: float
+    """Hoop stretch of the open part."""
+    energy: float
+    """Elastic energy of its rubber, J/m3."""
+
+
+@dataclass(frozen=True)
+class Budget:
+    """Tail and gas of one balloon."""
+
+    balloon: str
+    tail: float
+    """Flat tail at the start, m."""
+    cost_per_twist: float
+    """Flat tail that one twist of a long bubble fills, m."""
+    twists: tuple[TwistEntry, ...]
+    """After every bubble that is twisted off, in order."""
+    tail_needed: float
+    """Flat tail that all twists fill, m."""
+    most_tail: float
+    """Longest flat tail with which the bubbles still find gas, m."""
+    full_length: float
+    """Inflated length of the balloon without tail, m."""
+    flat_length: float
+    """Unstressed length of the balloon, m."""
+    volume: float
+    """Gas volume when blown up, m3."""
+    pressure: float
+    """Gauge pressure when blown up, Pa: the Maxwell pressure."""
+
+    @property
+    def tail_left(self) -> float:
+        """Flat tail at the end, m."""
+        return self.twists[-1].tail_left if self.twists else self.tail
+
+    @property
+    def tail_used(self) -> float:
+        """Flat tail that the twists fill, m."""
+        return self.tail - self.tail_left
+
+    @property
+    def runs_out(self) -> TwistEntry | None:
+        """The first twist that finds no tail to fill."""
+        return next((twist for twist in self.twists if twist.tail_left <= 0.0), None)
+
+    @property
+    def inflated_length(self) -> float:
+        """Inflated length at the start, m."""
+        return self._inflated(self.tail)
+
+    @property
+    def shortest_inflation(self) -> float:
+        """Inflated length (m) below which the bubbles find no gas."""
+        return self._inflated(self.most_tail)
+
+    @property
+    def longest_inflation(self) -> float:
+        """Inflated length (m) above which the tail is used up before the last twist."""
+        return self._inflated(self.tail_needed)
+
+    @property
+    def gas_amount(self) -> float:
+        """Gas blown in, mol, at room temperature: (atmosphere + gauge pressure) volume / (R T)."""
+        return (ATMOSPHERE + self.pressure) * self.volume / (GAS_CONSTANT * ROOM_TEMPERATURE)
+
+    def _inflated(self, tail: float) -> float:
+        return self.full_length * (1.0 - min(tail, self.flat_length) / self.flat_length)
+
+
+def budget_of(strip: Strip) -> Budget:
+    """Return the budget of a strip: it is twisted off once more, bubble by bubble."""
+    rubber = softened(strip.rubber)
+    tube = inflated_tube(strip.size, rubber, strip.tail)
+    volume = tube.volume
+    twists: list[TwistEntry] = []
+    for bubble in strip.bubbles[:-1]:
+        _, tube = tube.pinched(bubble.length)
+        state = tube.state
+        pressure = gauge_pressure(strip.size, state.p_star)
+        energy = float(rubber.energy(state.a, state.b))
+        twists.append(TwistEntry(bubble.name, bubble.step, tube.tail, pressure, state.a, energy))
+    room = tail_range(strip.size, rubber, [bubble.length for bubble in strip.bubbles[:-1]])
+    maxwell = maxwell_state(rubber)
+    return Budget(
+        balloon=strip.balloon,
+        tail=strip.tail,
+        cost_per_twist=twist_cost(strip.size, rubber),
+        twists=tuple(twists),
+        tail_needed=room.least,
+        most_tail=room.most,
+        full_length=strip.size.length * maxwell.bulged.b,
+        flat_length=strip.size.length,
+        volume=volume,
+        pressure=gauge_pressure(strip.size, maxwell.p_star),
+    )

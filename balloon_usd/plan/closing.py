@@ -1,0 +1,85 @@
+"""Closing a chain of bubbles: where its joints go while its two ends are brought together.
+
+The joints of a closed chain lie on a circle; on the way every joint has the same share of its final turning angle, so
+that the bubbles keep their lengths. The held end stays at the origin, the other end comes along the balloon, the chain
+rises to the side that it shall point to, and is turned across the balloon at the end, as a maker does.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+TURN_ACROSS_FROM = 0.45
+"""Progress at which the chain begins to be turned across the balloon."""
+LONGEST_SIDE = 0.98
+"""A side longer than this share of all the others together cannot close; it is taken as this long."""
+
+
+def smooth(t: float) -> float:
+    """Return a progress of 0 to 1 that starts and ends at rest, with no jump in acceleration."""
+    t = min(max(t, 0.0), 1.0)
+    return t * t * t * (10.0 - 15.0 * t + 6.0 * t * t)
+
+
+def central_angles(lengths: Floats) -> Floats:
+    """Return the angles (radians) under which a circle through all corners sees the sides of a closed polygon.
+
+    `lengths`: (sides,) m, at least two.
+
+    Raises:
+        ValueError: fewer than two sides, or a length that is not positive.
+    """
+    if len(lengths) < 2 or np.any(lengths <= 0.0):
+        raise ValueError("a closed chain needs two or more sides of positive length")
+    if len(lengths) == 2:
+        return np.full(2, math.pi)
+    sides = lengths.copy()
+    longest = int(np.argmax(sides))
+    sides[longest] = min(sides[longest], LONGEST_SIDE * (sides.sum() - sides[longest]))
+    others = np.delete(sides, longest)
+    inside = np.sum(np.arcsin(others / sides[longest])) >= 0.5 * math.pi
+    low, high = 0.5 * sides[longest], 1e3 * sides.sum()
+    for _ in range(100):
+        radius = math.sqrt(low * high)
+        half = np.arcsin(np.minimum(sides / (2 * radius), 1.0))
+        rest = float(half.sum() - half[longest])
+        excess = rest + half[longest] - math.pi if inside else half[longest] - rest
+        low, high = (radius, high) if excess > 0.0 else (low, radius)
+    angles = 2.0 * np.arcsin(np.minimum(sides / (2 * radius), 1.0))
+    if not inside:
+        angles[longest] = 2.0 * math.pi - angles.sum() + angles[longest]
+    return angles
+
+
+def closing_pose(lengths: Floats, progress: float, along: Floats, point: Floats, gap: float) -> Floats:
+    """Return the joints of a chain that closes, (sides + 1, 3) float64, m, relative to its held last joint.
+
+    `lengths`: of the sides from the first joint to the last, m. `progress`: 0 straight, 1 closed. `along`: unit direction
+    of the balloon beyond the held joint; `point`: unit direction, across `along`, to which the chain rises. `gap`: distance
+    that stays between first and last joint, m.
+    """
+    if len(lengths) == 2:
+        # Two sides lie on each other when closed: as unequal sides they would tilt.
+        lengths = np.full(2, lengths.mean())
+    share = min(max(progress, 0.0), 1.0) * (1.0 - 1e-4)
+    sides, angles = lengths[::-1], central_angles(lengths)[::-1]
+    flat = np.zeros((len(sides) + 1, 2))
+    heading = 0.0
+    for k, side in enumerate(sides):
+        if k:
+            heading -= share * 0.5 * (angles[k - 1] + angles[k])
+        flat[k + 1] = flat[k] + side * np.array([math.cos(heading), math.sin(heading)])
+    chord = flat[-1]
+    far = float(np.linalg.norm(chord))
+    e = chord / far
+    flat = np.stack([flat @ e, flat @ np.array([-e[1], e[0]])], axis=1)
+    if far < gap:
+        flat[:, 0] += (gap - far) * np.linspace(0.0, 1.0, len(flat))
+    turned = 0.5 * math.pi * smooth((share - TURN_ACROSS_FROM) / (1.0 - TURN_ACROSS_FROM))
+    across = math.cos(turned) * -along + math.sin(turned) * np.cross(point, -along)
+    return (flat[:, :1] * across + flat[:, 1:] * point)[::-1]

@@ -1,0 +1,94 @@
+"""The plan as a drawing: every tube to scale with its marks, inflated and flat, and the sculpture graph."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from balloon_usd.balloon.bubble_shape import tube_diameter
+from balloon_usd.plan import svg
+from balloon_usd.plan.graph_drawing import HEIGHT, graph_shapes, graph_width
+from balloon_usd.plan.lengths import cm
+from balloon_usd.plan.open_tube import softened
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from balloon_usd.plan.model import Plan
+    from balloon_usd.plan.strip import PlannedBubble, Strip
+
+SCALE = 800.0
+"""Drawing units for a metre."""
+MARGIN = 40.0
+_HEAD = 44.0
+_ABOVE_TUBE = 84.0
+_BELOW_TUBE = 96.0
+_STYLE = (
+    "text{font:11px sans-serif;fill:#333}.name{text-anchor:middle}.head{font-size:16px;font-weight:bold}"
+    ".mark{stroke:#333;stroke-width:0.6}.bubble{stroke:#333;stroke-width:0.8;fill-opacity:0.8}"
+    ".flat{fill:#e8e2d8;stroke:#333;stroke-width:0.6}.empty{fill:#fff;stroke:#333;stroke-width:0.6}"
+    ".edge{fill:none;stroke-width:9;stroke-linecap:round;stroke-opacity:0.55}"
+    ".joint{fill:#333}.merged{fill:#fff;stroke:#333;stroke-width:2}"
+)
+
+
+def plan_svg(plan: Plan) -> str:
+    """Return the plan as an SVG drawing: strips inflated and flat to one scale, then the graph."""
+    colors = {name: svg.srgb(plan.recipe.balloons[name].color.rgb) for name in plan.strips}
+    body = [svg.text(plan.recipe.title or plan.recipe.name, (MARGIN, 28.0), "head")]
+    top, width = _HEAD, graph_width(plan.graph)
+    for name, strip in plan.strips.items():
+        body += _strip_shapes(strip, colors[name], top)
+        top += _strip_height(strip)
+        width = max(width, SCALE * max(strip.bubbles[-1].end, strip.size.length))
+    body += graph_shapes(plan.graph, colors, (MARGIN, top))
+    width, height = width + 2.0 * MARGIN, top + HEIGHT + MARGIN
+    size = f'width="{width:.0f}" height="{height:.0f}" viewBox="0 0 {width:.0f} {height:.0f}"'
+    head = f'<svg xmlns="http://www.w3.org/2000/svg" {size}><style>{_STYLE}</style>'
+    return "\n".join([head, '<rect width="100%" height="100%" fill="#fff"/>', *body, "</svg>"]) + "\n"
+
+
+def _thickness(strip: Strip) -> float:
+    return tube_diameter(strip.size, softened(strip.rubber)) * SCALE
+
+
+def _strip_height(strip: Strip) -> float:
+    return _ABOVE_TUBE + _thickness(strip) + _BELOW_TUBE
+
+
+def _strip_shapes(strip: Strip, color: str, top: float) -> Iterator[str]:
+    thick = _thickness(strip)
+    middle = top + _ABOVE_TUBE + 0.5 * thick
+    yield svg.text(f"{strip.balloon}: {strip.size.name}, leave {cm(strip.tail)} flat", (MARGIN, top + 12.0))
+    for bubble in strip.bubbles:
+        yield from _bubble_shapes(bubble, color, middle, thick)
+    yield from _ruler(strip.bubbles[-1].end, middle + 0.5 * thick + 10.0)
+    yield from _flat_shapes(strip, middle + 0.5 * thick + 44.0)
+
+
+def _bubble_shapes(bubble: PlannedBubble, color: str, middle: float, thick: float) -> Iterator[str]:
+    left, wide = MARGIN + bubble.start * SCALE, bubble.length * SCALE
+    # As the exact shapes: a bubble as long as the tube is wide is nearly as wide as the tube.
+    high = min(thick, 1.3 * wide)
+    rounding = 0.5 * min(wide, high)
+    yield svg.rectangle((left, middle - 0.5 * high), wide, high, "bubble", color, rounding)
+    label = (left + 0.5 * wide, middle - 0.5 * thick - 6.0)
+    yield svg.text(f"{bubble.name} {bubble.length * 100.0:.3g}", label, degrees=-28.0)
+
+
+def _ruler(length: float, y: float) -> Iterator[str]:
+    yield svg.line((MARGIN, y), (MARGIN + length * SCALE, y))
+    for decimetre in range(math.floor(length * 10.0) + 1):
+        x = MARGIN + decimetre * 0.1 * SCALE
+        yield svg.line((x, y - 3.0), (x, y + 3.0))
+        yield svg.text(f"{decimetre * 10}", (x, y + 14.0), "name")
+
+
+def _flat_shapes(strip: Strip, top: float) -> Iterator[str]:
+    height = strip.size.flat_width * SCALE
+    inflated = (strip.size.length - strip.tail) * SCALE
+    yield svg.rectangle((MARGIN, top), inflated, height, "flat")
+    yield svg.rectangle((MARGIN + inflated, top), strip.tail * SCALE, height, "empty")
+    for bubble in strip.bubbles[:-1]:
+        x = MARGIN + bubble.rest_end * SCALE
+        yield svg.line((x, top - 4.0), (x, top + height + 4.0))

@@ -1,0 +1,173 @@
+"""The judgement: what a maker would warn of before taking the balloon in hand."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import chain
+from typing import TYPE_CHECKING
+
+from balloon_usd.balloon.bubble_shape import shortest_stable_bubble
+from balloon_usd.balloon.rubber import BURST_ENERGY, BURST_STRETCH
+from balloon_usd.plan.lengths import at_least, cm
+from balloon_usd.plan.open_tube import softened
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from balloon_usd.plan.budget import Budget, TwistEntry
+    from balloon_usd.plan.graph import GraphJoint, SculptureGraph
+    from balloon_usd.plan.strip import Strip
+    from balloon_usd.recipe import Recipe
+
+FEWEST_TURNS = 2.0
+"""Turns below which a twist unwinds: makers advise 2 to 4, three as a rule."""
+MOST_TURNS = 5.0
+"""Turns above which a twist eats tail and can cut the rubber: makers stop at 5."""
+UNEQUAL = 0.10
+"""Difference of the lengths of a locked pair that shows, as a share of the longer one."""
+
+
+@dataclass(frozen=True)
+class Caution:
+    """A warning with its reason."""
+
+    step: int | None
+    """Index of the step it is about; None for the sculpture as a whole."""
+    what: str
+    why: str
+    remedy: str
+
+
+def cautions_of(
+    recipe: Recipe, strips: Mapping[str, Strip], graph: SculptureGraph, budgets: Mapping[str, Budget]
+) -> tuple[Caution, ...]:
+    """Return all cautions, those of the whole sculpture last."""
+    found = chain(
+        _turns(recipe),
+        _unequal_pairs(recipe),
+        _short_bubbles(strips),
+        chain.from_iterable(_tail(budget) for budget in budgets.values()),
+        _softening(recipe),
+        _unwinding(strips, graph),
+        _loose_pieces(strips, graph),
+    )
+    return tuple(
+        sorted(found, key=lambda caution: len(recipe.steps) if caution.step is None else caution.step)
+    )
+
+
+def _turns(recipe: Recipe) -> Iterator[Caution]:
+    for index, step in enumerate(recipe.steps):
+        if step.kind in {"rest", "bend", "wait"}:
+            continue
+        if step.turns < FEWEST_TURNS:
+            yield Caution(
+                index,
+                f"a twist of {_turns_text(step.turns)} may unwind",
+                "the friction of the wound neck grows with every turn",
+                "turns: 3",
+            )
+        elif step.turns > MOST_TURNS:
+            yield Caution(
+                index,
+                f"a twist of {_turns_text(step.turns)} strains its neck",
+                "every turn beyond the first winds up rubber, and too many cut it",
+                "turns: 3",
+            )
+
+
+def _turns_text(turns: float) -> str:
+    return "1 turn" if turns == 1.0 else f"{turns:g} turns"
+
+
+def _unequal_pairs(recipe: Recipe) -> Iterator[Caution]:
+    lengths = {name: length for step in recipe.steps for name, length in step.lengths.items()}
+    for index, step in enumerate(recipe.steps):
+        if not isinstance(step.lock, tuple) or len(step.lock) != 2:
+            continue
+        first, second = (lengths.get(name) for name in step.lock)
+        if first is None or second is None:
+            continue
+        if abs(first - second) > UNEQUAL * max(first, second):
+            yield Caution(
+                index,
+                f"{step.lock[0]} ({cm(first)}) and {step.lock[1]} ({cm(second)}) are an unequal pair",
+                "the longer one bows out and turns the pair aside",
+                "give both the same length",
+            )
+
+
+def _short_bubbles(strips: Mapping[str, Strip]) -> Iterator[Caution]:
+    for strip in strips.values():
+        shortest = shortest_stable_bubble(strip.size, softened(strip.rubber)).length
+        for bubble in strip.bubbles[:-1]:
+            if bubble.length < shortest:
+                yield Caution(
+                    bubble.step,
+                    f"{bubble.name} ({cm(bubble.length)}) will be a hard little ball",
+                    f"below {cm(shortest)} a {strip.size.name} bubble needs more pressure than the tube has",
+                    "soften the balloon before this twist, or make the bubble longer",
+                )
+
+
+def _tail(budget: Budget) -> Iterator[Caution]:
+    out = budget.runs_out
+    if out is None:
+        return
+    yield Caution(
+        out.step,
+        f"{budget.balloon} runs out of tail at the twist that ends {out.bubble}",
+        f"{len(budget.twists)} twists fill {cm(budget.tail_needed)} of flat tail, of {cm(budget.tail)} left",
+        f"leave a tail of at least {at_least(budget.tail_needed)}",
+    )
+    burst = next((twist for twist in budget.twists if _bursts(twist)), None)
+    if burst is not None:
+        yield Caution(
+            burst.step,
+            f"{budget.balloon} may burst at the twist that ends {burst.bubble}",
+            f"with no tail left the rubber is stretched {burst.hoop_stretch:.1f} times round, at "
+            f"{burst.pressure / 1e3:.1f} kPa; latex bears about {BURST_STRETCH:g} times",
+            f"leave a tail of at least {at_least(budget.tail_needed)}",
+        )
+
+
+def _bursts(twist: TwistEntry) -> bool:
+    return twist.hoop_stretch > BURST_STRETCH or twist.energy > BURST_ENERGY
+
+
+def _softening(recipe: Recipe) -> Iterator[Caution]:
+    if not recipe.physics.softening:
+        yield Caution(
+            None,
+            "bubbles will bleed into their necks",
+            "rubber that does not soften has no closed bubble at the pressure of the tube",
+            "softening: true",
+        )
+
+
+def _unwinding(strips: Mapping[str, Strip], graph: SculptureGraph) -> Iterator[Caution]:
+    steps = {bubble.name: bubble.step for strip in strips.values() for bubble in strip.bubbles}
+    for joint in graph.joints:
+        if graph.springs_back(joint.index):
+            yield Caution(
+                steps[joint.ends[0].bubble],
+                f"the twist between {_neighbours(joint)} will unwind",
+                "nothing holds it: both bubbles are free to spin, and no ring closes over it",
+                "lock it to another joint, or make one of its neighbours an ear",
+            )
+
+
+def _neighbours(joint: GraphJoint) -> str:
+    return " and ".join(dict.fromkeys(end.bubble for end in joint.ends))
+
+
+def _loose_pieces(strips: Mapping[str, Strip], graph: SculptureGraph) -> Iterator[Caution]:
+    if len(graph.pieces) > 1:
+        names = sorted({edge.balloon for edge in graph.edges}, key=list(strips).index)
+        yield Caution(
+            None,
+            f"{', '.join(names)} are not all joined: the sculpture has {len(graph.pieces)} pieces",
+            "no lock brings their joints together",
+            f"lock: {{joints: [{strips[names[0]].bubbles[0].name}.start, "
+            f"{strips[names[1]].bubbles[0].name}.start]}}",
+        )

@@ -1,0 +1,37 @@
+"""The plan: what a recipe means, before any physics runs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from balloon_usd.plan.budget import Budget
+    from balloon_usd.plan.choreography import Choreography
+    from balloon_usd.plan.graph import SculptureGraph
+    from balloon_usd.plan.judgement import Caution
+    from balloon_usd.plan.rings import RingTable
+    from balloon_usd.plan.strip import PlannedBubble, Strip
+    from balloon_usd.recipe import Recipe
+
+
+@dataclass(frozen=True)
+class Plan:
+    """Everything that follows from a recipe without simulating it."""
+
+    recipe: Recipe
+    strips: dict[str, Strip]
+    """By balloon, in the order of the recipe."""
+    graph: SculptureGraph
+    budgets: dict[str, Budget]
+    """By balloon, in the order of the recipe."""
+    cautions: tuple[Caution, ...]
+    table: RingTable
+    """Rings that hands hold and close."""
+    choreography: Choreography
+    """What the hands do, in time."""
+
+    @property
+    def bubbles(self) -> tuple[PlannedBubble, ...]:
+        """All bubbles in plan order: balloon after balloon, each from the knot to the tip."""
+        return tuple(bubble for strip in self.strips.values() for bubble in strip.bubbles)

@@ -1,0 +1,148 @@
+"""The tube still open to the hands: from the last twist to the tip, with its gas and its empty tail.
+
+While a tail is left the gas sits at the Maxwell pressure, so a twist only moves the front of the bulge on.
+When the tail is used up, every further twist blows up what is left.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from balloon_usd.balloon.bubble_shape import (
+    BubbleShape,
+    bubble_of_length,
+    pinch_length,
+    pinch_volume,
+    tail_volume_per_rest_length,
+    tube_volume_per_rest_length,
+)
+from balloon_usd.balloon.rubber import Softening
+from balloon_usd.balloon.tube_theory import TubeState, bulged_state_of_volume, maxwell_state
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from balloon_usd.balloon.rubber import Rubber
+    from balloon_usd.balloon.sizes import BalloonSize
+
+
+@dataclass(frozen=True)
+class OpenTube:
+    """The part of a balloon beyond its last twist."""
+
+    size: BalloonSize
+    rubber: Rubber
+    """Law of the rubber, with softening."""
+    rest_length: float
+    """Unstressed length of the open part, m."""
+    volume: float
+    """Gas in the open part at its pressure, m3."""
+
+    @property
+    def tail(self) -> float:
+        """Flat rubber left empty at the tip, m; 0 when it is used up."""
+        return max(self._tail_balance, 0.0)
+
+    @property
+    def inflated_rest_length(self) -> float:
+        """Unstressed length of the inflated part, m; negative where the gas is used up."""
+        return self.rest_length - self.tail
+
+    @property
+    def blown_up(self) -> bool:
+        """Whether there is gas enough for the rounded end at the last twist: less is no tube any more."""
+        return self.inflated_rest_length >= end_rest_length(self.size, self.rubber)
+
+    @property
+    def inflated_length(self) -> float:
+        """Length of the inflated part, m: one end is rounded by its twist or knot."""
+        full = self.inflated_rest_length * self.state.b
+        return max(full - 0.5 * pinch_length(self.size, self.rubber), 0.0)
+
+    @property
+    def state(self) -> TubeState:
+        """Stretches and pressure of the inflated part."""
+        bulged = maxwell_state(self.rubber).bulged
+        if self._tail_balance >= 0.0:
+            return bulged
+        unstressed = math.pi * self.size.radius**2 * self.rest_length
+        full = self.volume + 0.5 * pinch_volume(self.size, self.rubber)
+        return bulged_state_of_volume(self.rubber, max(full / unstressed, bulged.volume_ratio))
+
+    def pinched(self, length: float) -> tuple[BubbleShape, OpenTube]:
+        """Twist off a bubble of this inflated length (m); return it and what stays open.
+
+        From a tube blown harder than the Maxwell pressure, the same length takes less rubber and more gas.
+        """
+        bulged, now = maxwell_state(self.rubber).bulged, self.state
+        shape = bubble_of_length(self.size, self.rubber, length)
+        shape = replace(
+            shape,
+            rest_length=shape.rest_length * bulged.b / now.b,
+            diameter=shape.diameter * now.a / bulged.a,
+            volume=shape.volume * (now.a / bulged.a) ** 2,
+        )
+        left = replace(
+            self, rest_length=self.rest_length - shape.rest_length, volume=self.volume - shape.volume
+        )
+        return shape, left
+
+    @property
+    def _tail_balance(self) -> float:
+        bulged = tube_volume_per_rest_length(self.size, self.rubber)
+        thin = tail_volume_per_rest_length(self.size, self.rubber)
+        lacking = bulged * self.rest_length - 0.5 * pinch_volume(self.size, self.rubber) - self.volume
+        return lacking / (bulged - thin)
+
+
+@dataclass(frozen=True)
+class TailRange:
+    """The flat tails (m) with which some bubbles can be made."""
+
+    least: float
+    """With less, the tail is used up before the last twist."""
+    most: float
+    """With more, the last bubble finds no gas. Below zero: the balloon is too short."""
+
+
+def softened(rubber: Rubber) -> Rubber:
+    """Return the rubber with softening: a bubble's shape needs it, whatever the simulation is asked to do."""
+    return rubber if rubber.softening is not None else replace(rubber, softening=Softening())
+
+
+def inflated_tube(size: BalloonSize, rubber: Rubber, tail: float) -> OpenTube:
+    """Return a balloon blown up but for a flat tail (m) and knotted, before the first twist.
+
+    Raises:
+        ValueError: the rubber has no bulged phase.
+    """
+    rubber = softened(rubber)
+    bulged = tube_volume_per_rest_length(size, rubber) * (size.length - tail)
+    thin = tail_volume_per_rest_length(size, rubber) * tail
+    return OpenTube(size, rubber, size.length, bulged + thin - 0.5 * pinch_volume(size, rubber))
+
+
+def end_rest_length(size: BalloonSize, rubber: Rubber) -> float:
+    """Return the unstressed length (m) of bulged tube whose gas one rounded end lacks.
+
+    Raises:
+        ValueError: the rubber has no bulged phase.
+    """
+    return 0.5 * pinch_volume(size, rubber) / tube_volume_per_rest_length(size, rubber)
+
+
+def tail_range(size: BalloonSize, rubber: Rubber, lengths: Iterable[float]) -> TailRange:
+    """Return the flat tails with which bubbles of these inflated lengths (m) can be made.
+
+    Raises:
+        ValueError: the rubber has no bulged phase.
+    """
+    rubber = softened(rubber)
+    bulged = tube_volume_per_rest_length(size, rubber)
+    gained = bulged - tail_volume_per_rest_length(size, rubber)
+    shapes = [bubble_of_length(size, rubber, length) for length in lengths]
+    used = sum(bulged * shape.rest_length - shape.volume for shape in shapes) / gained
+    taken = sum(shape.rest_length for shape in shapes) + end_rest_length(size, rubber)
+    return TailRange(used, size.length - taken + used)

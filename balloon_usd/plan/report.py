@@ -1,0 +1,146 @@
+"""The plan as text for people and as data for programs."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Any
+
+from balloon_usd.plan.lengths import at_least, at_most, cm
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from balloon_usd.plan.budget import Budget
+    from balloon_usd.plan.judgement import Caution
+    from balloon_usd.plan.model import Plan
+    from balloon_usd.plan.strip import Strip
+
+PLAN_FORMAT = 1
+"""Version of the layout of `plan_json`."""
+
+
+def plan_text(plan: Plan) -> str:
+    """Return the plan as readable text: strips, tail, joints, locks and cautions with their reasons."""
+    recipe = plan.recipe
+    title = f"{recipe.title} ({recipe.name})" if recipe.title else recipe.name
+    lines = [title]
+    if recipe.source:
+        lines.append(f"after {recipe.source}")
+    for name, strip in plan.strips.items():
+        lines += ["", *_strip_lines(strip), *_budget_lines(plan.budgets[name])]
+    lines += ["", *_graph_lines(plan), "", *_caution_lines(plan.cautions)]
+    return "\n".join(lines) + "\n"
+
+
+def _strip_lines(strip: Strip) -> Iterator[str]:
+    width = max(len("bubble"), *(len(bubble.name) for bubble in strip.bubbles))
+    size = strip.size
+    yield f"balloon {strip.balloon}: {size.name}, {cm(size.length)} flat"
+    yield f"  {'bubble':{width}}  kind    length    from      to   of flat tube     gas"
+    for bubble in strip.bubbles:
+        yield (
+            f"  {bubble.name:{width}}  {bubble.kind:6}"
+            f"{bubble.length * 100:5.1f} cm  {bubble.start * 100:6.1f}  {bubble.end * 100:6.1f}   "
+            f"{bubble.rest_start * 100:5.1f} to {bubble.rest_end * 100:4.1f}  {bubble.volume * 1e6:5.0f} mL"
+        )
+
+
+def _budget_lines(budget: Budget) -> Iterator[str]:
+    twists = len(budget.twists)
+    yield (
+        f"  blow up {cm(budget.inflated_length)}, leave {cm(budget.tail)} flat: "
+        f"{budget.volume * 1e3:.2f} L at {budget.pressure / 1e3:.1f} kPa, {budget.gas_amount:.3f} mol"
+    )
+    yield (
+        f"  {twists} {'twist uses' if twists == 1 else 'twists use'} {cm(budget.tail_used)} of flat tail "
+        f"(about {cm(budget.cost_per_twist)} each), {cm(budget.tail_left)} are left"
+    )
+    if budget.most_tail > budget.tail_needed:
+        yield (
+            f"  fits when blown up {at_least(budget.shortest_inflation)} "
+            f"to {at_most(budget.longest_inflation)} "
+            f"(tail {at_most(budget.most_tail)} to {at_least(budget.tail_needed)})"
+        )
+
+
+def _graph_lines(plan: Plan) -> Iterator[str]:
+    graph = plan.graph
+    strokes = "one balloon" if graph.one_stroke else f"{graph.fewest_balloons} balloons"
+    yield (
+        f"{len(graph.joints)} joints, {len(graph.edges)} bubbles, {graph.rings} closed rings; "
+        f"{strokes} could make it"
+    )
+    for index, step in enumerate(plan.recipe.steps):
+        for joint in step.joints[:1]:
+            meeting = graph.joint_of(joint)
+            yield f"  step {index + 1} locks {', '.join(map(str, step.joints))} (joint {meeting.index})"
+    for place in graph.joints:
+        yield f"  joint {place.index}, {graph.degree(place.index)} bubble ends: {place}"
+
+
+def _caution_lines(cautions: tuple[Caution, ...]) -> Iterator[str]:
+    if not cautions:
+        yield "no cautions"
+        return
+    yield f"{len(cautions)} caution{'s' if len(cautions) > 1 else ''}"
+    for caution in cautions:
+        place = "" if caution.step is None else f"step {caution.step + 1}: "
+        yield f"  {place}{caution.what}"
+        yield f"    because {caution.why}"
+        yield f"    remedy: {caution.remedy}"
+
+
+def plan_json(plan: Plan) -> dict[str, Any]:
+    """Return the plan as plain data, ready for JSON: SI units, step indices from 0."""
+    graph = plan.graph
+    return {
+        "format": PLAN_FORMAT,
+        "name": plan.recipe.name,
+        "title": plan.recipe.title,
+        "recipe_sha256": plan.recipe.sha256,
+        "balloons": [_balloon_json(strip, plan.budgets[name]) for name, strip in plan.strips.items()],
+        "graph": {
+            "joints": [
+                {
+                    "index": joint.index,
+                    "ends": [str(end) for end in joint.ends],
+                    "degree": graph.degree(joint.index),
+                    "merged": joint.merged,
+                    "springs_back": graph.springs_back(joint.index),
+                }
+                for joint in graph.joints
+            ],
+            "edges": [asdict(edge) for edge in graph.edges],
+            "contacts": [asdict(contact) for contact in graph.contacts],
+            "rings": graph.rings,
+            "pieces": len(graph.pieces),
+            "odd_joints": list(graph.odd_joints),
+            "fewest_balloons": graph.fewest_balloons,
+        },
+        "cautions": [asdict(caution) for caution in plan.cautions],
+    }
+
+
+def _balloon_json(strip: Strip, budget: Budget) -> dict[str, Any]:
+    return {
+        "name": strip.balloon,
+        "size": asdict(strip.size),
+        "rubber": strip.rubber.name,
+        "softening": strip.rubber.softening is not None,
+        "tail": strip.tail,
+        "inflated_length": budget.inflated_length,
+        "bubbles": [asdict(bubble) for bubble in strip.bubbles],
+        "budget": {
+            "tail_needed": budget.tail_needed,
+            "tail_used": budget.tail_used,
+            "tail_left": budget.tail_left,
+            "most_tail": budget.most_tail,
+            "cost_per_twist": budget.cost_per_twist,
+            "shortest_inflation": budget.shortest_inflation,
+            "longest_inflation": budget.longest_inflation,
+            "volume": budget.volume,
+            "pressure": budget.pressure,
+            "gas_amount": budget.gas_amount,
+            "twists": [asdict(twist) for twist in budget.twists],
+        },
+    }

@@ -1,0 +1,24 @@
+"""The preview room: pictures of sculptures as shiny latex, from arrays or from any USD stage."""
+
+from __future__ import annotations
+
+from balloon_usd.preview.camera import VIEWS, View
+from balloon_usd.preview.contact_sheet import draw_contact_sheet, spread_moments
+from balloon_usd.preview.error import PreviewError
+from balloon_usd.preview.raycast import Raycaster, Shot, quad_surface, render_mesh, render_meshes
+from balloon_usd.preview.read_stage import StageScene, read_stage
+
+__all__ = [
+    "VIEWS",
+    "PreviewError",
+    "Raycaster",
+    "Shot",
+    "StageScene",
+    "View",
+    "draw_contact_sheet",
+    "quad_surface",
+    "read_stage",
+    "render_mesh",
+    "render_meshes",
+    "spread_moments",
+]

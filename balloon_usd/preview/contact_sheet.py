@@ -1,0 +1,147 @@
+"""Contact sheets: many moments of an animation on one picture."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from PIL import Image, ImageDraw, ImageFont
+
+from balloon_usd.preview.error import PreviewError
+from balloon_usd.preview.raycast import Raycaster
+from balloon_usd.preview.read_stage import read_stage
+from balloon_usd.preview.surface import SmoothSurface
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from balloon_usd.preview.camera import View
+    from balloon_usd.preview.raycast import Shot
+    from balloon_usd.preview.read_stage import StageScene
+
+    Font = ImageFont.ImageFont | ImageFont.FreeTypeFont
+
+MOMENTS = 8
+"""Pictures on a sheet when no frames are asked for."""
+
+# All in pixels.
+MARGIN = 24
+GUTTER = 14
+HEADER = 46
+CAPTION = 30
+TITLE_SIZE = 22
+TEXT_SIZE = 14
+WORD_GAP = 8
+
+PAPER = (247, 247, 249)
+INK = (38, 40, 46)
+PALE_INK = (120, 124, 134)
+
+BAR_LENGTHS = (0.01, 0.02, 0.05, 0.10, 0.20, 0.50, 1.0, 2.0, 5.0)
+"""Lengths that a scale bar may have (m)."""
+LONGEST_BAR = 0.25
+"""Share of the picture's width."""
+
+
+def draw_contact_sheet(
+    stage_path: str | Path,
+    png_path: str | Path,
+    *,
+    frames: Sequence[float] | None = None,
+    columns: int = 4,
+    size: tuple[int, int] = (480, 320),
+    view: View = "three-quarter",
+    device: str = "auto",
+) -> Path:
+    """Draw moments of a stage, each framed on its own, and write one PNG.
+
+    Args:
+        stage_path: any USD stage with meshes.
+        png_path: where the sheet goes; replaced when it is complete.
+        frames: time codes; None takes eight, the last frame among them.
+        columns: pictures in a row.
+        size: width and height of one picture (pixels).
+        view: side, three-quarter, top or front.
+        device: cpu, cuda:N, or auto for the first CUDA device and else the CPU.
+
+    Raises:
+        PreviewError: the stage cannot be read, the sheet cannot be written, or there is no such device.
+    """
+    scene = read_stage(stage_path)
+    moments = tuple(frames) if frames is not None else spread_moments(scene.start, scene.end)
+    surfaces = [SmoothSurface(mesh.face_counts, mesh.corners) for mesh in scene.meshes]
+    caster = Raycaster(surfaces, [mesh.colors for mesh in scene.meshes], device=device)
+    sheet = _empty_sheet(scene, len(moments), columns, size)
+    for number, moment in enumerate(moments):
+        shot = caster.shoot(scene.points(moment), view, size)
+        row, column = divmod(number, columns)
+        left = MARGIN + column * (size[0] + GUTTER)
+        top = HEADER + MARGIN + row * (size[1] + CAPTION + GUTTER)
+        sheet.paste(Image.fromarray(shot.picture), (left, top))
+        words = (f"frame {moment:g}", scene.doing(moment))
+        _caption(sheet, (left, top + size[1]), size[0], words, shot)
+    return _save(sheet, Path(png_path))
+
+
+def spread_moments(start: float, end: float, count: int = MOMENTS) -> tuple[float, ...]:
+    """Return up to `count` whole time codes, evenly spread, that end with the last frame."""
+    wanted = start + (end - start) * np.arange(1, count + 1) / count
+    return tuple(float(moment) for moment in np.unique(np.rint(wanted)))
+
+
+def _empty_sheet(scene: StageScene, count: int, columns: int, size: tuple[int, int]) -> Image.Image:
+    """Return the paper with its header."""
+    across = min(columns, count)
+    rows = -(-count // columns)
+    width = 2 * MARGIN + across * size[0] + (across - 1) * GUTTER
+    height = HEADER + 2 * MARGIN + rows * (size[1] + CAPTION) + (rows - 1) * GUTTER
+    sheet = Image.new("RGB", (width, height), PAPER)
+    pen = ImageDraw.Draw(sheet)
+    seconds = (scene.end - scene.start) / scene.fps
+    pen.text((MARGIN, MARGIN + 2), scene.title, INK, ImageFont.load_default(TITLE_SIZE), anchor="lt")
+    facts = f"frames {scene.start:g} to {scene.end:g},  {seconds:.1f} s at {scene.fps:g} fps"
+    pen.text((width - MARGIN, MARGIN + 6), facts, PALE_INK, ImageFont.load_default(TEXT_SIZE), anchor="rt")
+    return sheet
+
+
+def _caption(
+    sheet: Image.Image, corner: tuple[int, int], width: int, words: tuple[str, str], shot: Shot
+) -> None:
+    """Write the moment and what is done below a picture, and a scale bar: each picture has its own scale."""
+    pen = ImageDraw.Draw(sheet)
+    font = ImageFont.load_default(TEXT_SIZE)
+    left, middle = corner[0], corner[1] + CAPTION // 2
+    moment, doing = words
+    pen.text((left, middle), moment, INK, font, anchor="lm")
+    fitting = [bar for bar in BAR_LENGTHS if bar / shot.metres_per_pixel <= LONGEST_BAR * width]
+    bar = fitting[-1] if fitting else BAR_LENGTHS[0]
+    right, length = left + width - 1, bar / shot.metres_per_pixel
+    pen.line([(right - length, middle), (right, middle)], PALE_INK, 2)
+    for x in (right - length, right):
+        pen.line([(x, middle - 4), (x, middle + 4)], PALE_INK, 1)
+    label = f"{100 * bar:g} cm"
+    pen.text((right - length - WORD_GAP, middle), label, PALE_INK, font, anchor="rm")
+    beside = left + pen.textlength(moment, font) + 2 * WORD_GAP
+    room = right - length - 3 * WORD_GAP - pen.textlength(label, font) - beside
+    pen.text((beside, middle), _shortened(doing, room, pen, font), PALE_INK, font, anchor="lm")
+
+
+def _shortened(text: str, room: float, pen: ImageDraw.ImageDraw, font: Font) -> str:
+    """Return as many letters as fit into `room` pixels."""
+    if pen.textlength(text, font) <= room:
+        return text
+    fitting = [end for end in range(1, len(text)) if pen.textlength(text[:end] + "...", font) <= room]
+    return text[: fitting[-1]] + "..." if fitting else ""
+
+
+def _save(sheet: Image.Image, path: Path) -> Path:
+    """Write beside the final name and then replace it, so that no half-written sheet is ever seen."""
+    partial = path.with_name(f".{path.name}.partial")
+    try:
+        sheet.save(partial, format="PNG")
+        partial.replace(path)
+    except OSError as error:
+        partial.unlink(missing_ok=True)
+        raise PreviewError(f"{path} cannot be written: {error.strerror or error}") from error
+    return path

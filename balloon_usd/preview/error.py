@@ -1,0 +1,7 @@
+"""What can go wrong while a stage is drawn."""
+
+from __future__ import annotations
+
+
+class PreviewError(Exception):
+    """A stage cannot be drawn; the message is one line that says why."""

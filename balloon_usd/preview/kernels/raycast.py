@@ -1,0 +1,296 @@
+"""Ray casting of shiny, slightly translucent latex."""
+
+import warp as wp
+
+from balloon_usd.preview.kernels.studio import Studio, smooth_step, studio_radiance
+
+FAR = wp.constant(1.0e6)
+"""Length of a ray (m)."""
+SKIN = wp.constant(4.0e-4)
+"""Offset of a ray's origin from the surface (m), above the gap between a fine wall and its smooth normal."""
+FRESNEL_0 = wp.constant(0.043)
+"""Reflectance of rubber at normal incidence, index 1.52: ((n - 1) / (n + 1))^2."""
+BOUNCE = wp.constant(0.55)
+"""Share of the light that another balloon's wall sends back, in its own colour."""
+GLOW = wp.constant(0.16)
+"""Light that comes through the wall from the inside, in the wall's colour."""
+EXPOSURE = wp.constant(0.50)
+"""Share of the gathered light that leaves the wall again, before its colour."""
+SOFT_LAMP = wp.constant(1.5)
+"""Radiance at which the lamps are cut off on the floor: a picture of form wants no hard cast shadow."""
+TURNED_AWAY = wp.constant(-0.2)
+"""Cosine to the eye below which no pixel can see a vertex."""
+EDGE = wp.constant(0.035)
+"""Difference between neighbouring pixels, of a channel 0..1, that shows as a stair step."""
+
+
+@wp.struct
+class Scene:
+    """Triangles of all balloons, with what each vertex and triangle carries."""
+
+    mesh: wp.uint64
+    triangles: wp.array2d[wp.int32]
+    normals: wp.array[wp.vec3]
+    light: wp.array[wp.vec3]
+    colors: wp.array[wp.vec3]
+    directions: wp.array[wp.vec3]
+    """Fixed unit directions all over the sphere."""
+    radiances: wp.array[wp.float32]
+    """What the empty studio sends from each direction."""
+
+
+@wp.struct
+class Camera:
+    """A pinhole camera; `right` and `up` are scaled by the tangent of half the field of view."""
+
+    eye: wp.vec3
+    forward: wp.vec3
+    right: wp.vec3
+    up: wp.vec3
+
+
+@wp.struct
+class Floor:
+    """The baked shadow: `shade` covers the rectangle from `corner` with cells of `cell` metres."""
+
+    corner: wp.vec3
+    cell: float
+    shade: wp.array2d[wp.vec3]
+
+
+@wp.func
+def blend(
+    values: wp.array[wp.vec3], triangles: wp.array2d[wp.int32], face: int, u: float, v: float
+) -> wp.vec3:
+    """Interpolate a vertex quantity at barycentric (u, v) of a triangle."""
+    a = values[triangles[face, 0]]
+    b = values[triangles[face, 1]]
+    c = values[triangles[face, 2]]
+    return wp.vec3(u * a + v * b + (1.0 - u - v) * c)
+
+
+@wp.kernel
+def measure_studio(studio: Studio, directions: wp.array[wp.vec3], radiances: wp.array[wp.float32]):
+    """Measure the empty studio in every direction."""
+    i = wp.tid()
+    radiances[i] = studio_radiance(studio, directions[i])
+
+
+@wp.func
+def gathered_light(scene: Scene, origin: wp.vec3, normal: wp.vec3, stride: int) -> wp.vec3:
+    """Return the cosine-weighted mean radiance (rgb) that arrives from every `stride`th direction."""
+    total = wp.vec3(0.0, 0.0, 0.0)
+    weight = float(0.0)
+    for i in range(0, scene.directions.shape[0], stride):
+        direction = scene.directions[i]
+        facing = wp.dot(direction, normal)
+        if facing > 0.0:
+            arriving = scene.radiances[i] * wp.vec3(1.0, 1.0, 1.0)
+            hit = wp.mesh_query_ray(scene.mesh, origin, direction, FAR)
+            if hit.result:
+                color = scene.colors[hit.face]
+                arriving = BOUNCE * color
+            total += facing * arriving
+            weight += facing
+    return wp.vec3(total / wp.max(weight, 1.0e-6))
+
+
+@wp.kernel
+def light_vertices(
+    scene: Scene,
+    eye: wp.vec3,
+    points: wp.array[wp.vec3],
+    normals: wp.array[wp.vec3],
+    gathered: wp.array[wp.vec3],
+):
+    """Bake the light that arrives at each vertex; coarsely where only a reflection can show it."""
+    i = wp.tid()
+    normal = normals[i]
+    stride = wp.where(wp.dot(wp.normalize(eye - points[i]), normal) < TURNED_AWAY, 4, 1)
+    gathered[i] = gathered_light(scene, points[i] + SKIN * normal, normal, stride)
+
+
+@wp.kernel
+def light_floor(scene: Scene, floor: Floor, shade: wp.array2d[wp.vec3]):
+    """Bake the light on the floor, as a share of what an empty floor gets."""
+    row, column = wp.tid()
+    up = wp.vec3(0.0, 0.0, 1.0)
+    origin = floor.corner + floor.cell * wp.vec3(float(column) + 0.5, float(row) + 0.5, 0.0)
+    total = wp.vec3(0.0, 0.0, 0.0)
+    empty = float(0.0)
+    for i in range(scene.directions.shape[0]):
+        direction = scene.directions[i]
+        facing = wp.dot(direction, up)
+        if facing > 0.0:
+            radiance = facing * wp.min(scene.radiances[i], SOFT_LAMP)
+            empty += radiance
+            hit = wp.mesh_query_ray(scene.mesh, origin, direction, FAR)
+            if hit.result:
+                # A lit balloon is no black blocker: some light comes through in its colour.
+                total += 0.30 * radiance * scene.colors[hit.face]
+            else:
+                total += radiance * wp.vec3(1.0, 1.0, 1.0)
+    shade[row, column] = total / empty
+
+
+@wp.kernel
+def soften_floor(sharp: wp.array2d[wp.vec3], soft: wp.array2d[wp.vec3]):
+    """Blur the floor over 7 x 7 cells: the few directions of the light leave steps in a shadow."""
+    row, column = wp.tid()
+    total = wp.vec3(0.0, 0.0, 0.0)
+    weight = float(0.0)
+    for k in range(49):
+        i = k // 7 - 3
+        j = k % 7 - 3
+        share = wp.exp(-0.22 * float(i * i + j * j))
+        total += (
+            share
+            * sharp[wp.clamp(row + i, 0, sharp.shape[0] - 1), wp.clamp(column + j, 0, sharp.shape[1] - 1)]
+        )
+        weight += share
+    soft[row, column] = total / weight
+
+
+@wp.func
+def latex_body(scene: Scene, face: int, u: float, v: float, facing: float) -> wp.vec3:
+    """Return the diffuse and translucent light that leaves a wall at a cosine to its normal."""
+    # Light that leaves at a flat angle has come a longer way through the dyed wall.
+    depth = 1.0 + 0.35 * (1.0 - facing) * (1.0 - facing)
+    dye = scene.colors[face]
+    color = wp.vec3(wp.pow(dye[0], depth), wp.pow(dye[1], depth), wp.pow(dye[2], depth))
+    light = blend(scene.light, scene.triangles, face, u, v)
+    return wp.cw_mul(color, EXPOSURE * light + GLOW * wp.vec3(1.0, 1.0, 1.0))
+
+
+@wp.func
+def latex(
+    scene: Scene, studio: Studio, position: wp.vec3, ray: wp.vec3, face: int, u: float, v: float
+) -> wp.vec3:
+    """Return the radiance of the wall seen along a ray: body colour under a clear, reflecting skin."""
+    normal = wp.normalize(blend(scene.normals, scene.triangles, face, u, v))
+    facing = wp.max(-wp.dot(ray, normal), 0.0)
+    fresnel = FRESNEL_0 + (1.0 - FRESNEL_0) * wp.pow(1.0 - facing, 5.0)
+    mirrored = ray - 2.0 * wp.dot(ray, normal) * normal
+    seen = wp.vec3(1.0, 1.0, 1.0) * studio_radiance(studio, mirrored)
+    hit = wp.mesh_query_ray(scene.mesh, position + SKIN * normal, mirrored, FAR)
+    if hit.result:
+        seen = latex_body(scene, hit.face, hit.u, hit.v, 1.0)
+    return wp.vec3((1.0 - fresnel) * latex_body(scene, face, u, v, facing) + fresnel * seen)
+
+
+@wp.func
+def floor_shade(floor: Floor, position: wp.vec3) -> wp.vec3:
+    """Return the baked shade at a point of the floor, fading to none at the border."""
+    rows = floor.shade.shape[0]
+    columns = floor.shade.shape[1]
+    x = (position[0] - floor.corner[0]) / floor.cell - 0.5
+    y = (position[1] - floor.corner[1]) / floor.cell - 0.5
+    none = wp.vec3(1.0, 1.0, 1.0)
+    if x <= 0.0 or y <= 0.0 or x >= float(columns - 1) or y >= float(rows - 1):
+        return none
+    i = wp.int32(x)
+    j = wp.int32(y)
+    near = wp.lerp(floor.shade[j, i], floor.shade[j, i + 1], x - float(i))
+    far = wp.lerp(floor.shade[j + 1, i], floor.shade[j + 1, i + 1], x - float(i))
+    inside_x = wp.min(x / float(columns - 1), 1.0 - x / float(columns - 1))
+    inside_y = wp.min(y / float(rows - 1), 1.0 - y / float(rows - 1))
+    return wp.lerp(none, wp.lerp(near, far, y - float(j)), smooth_step(0.0, 0.15, wp.min(inside_x, inside_y)))
+
+
+@wp.func
+def backdrop(across: float, height: float) -> wp.vec3:
+    """Return the paper behind the sculpture for screen coordinates -1..1: pale, brighter in the middle."""
+    spread = 1.0 - 0.08 * (across * across + 0.8 * height * height)
+    return wp.vec3(0.86 * spread, 0.87 * spread, 0.885 * spread)
+
+
+@wp.func
+def seen_through(
+    scene: Scene, studio: Studio, camera: Camera, floor: Floor, across: float, height: float
+) -> wp.vec3:
+    """Return the display-referred rgb at screen coordinates -1..1."""
+    ray = wp.normalize(camera.forward + across * camera.right + height * camera.up)
+    radiance = backdrop(across, height)
+    hit = wp.mesh_query_ray(scene.mesh, camera.eye, ray, FAR)
+    if hit.result:
+        radiance = tone(latex(scene, studio, camera.eye + hit.t * ray, ray, hit.face, hit.u, hit.v))
+    elif ray[2] < -1.0e-4:
+        distance = (studio.floor - camera.eye[2]) / ray[2]
+        radiance = wp.cw_mul(radiance, floor_shade(floor, camera.eye + distance * ray))
+    return encode(radiance)
+
+
+@wp.kernel
+def draw(scene: Scene, studio: Studio, camera: Camera, floor: Floor, picture: wp.array2d[wp.vec3]):
+    """Draw each pixel from one ray through its middle, as display-referred rgb 0..1."""
+    row, column = wp.tid()
+    across = (float(column) + 0.5) / float(picture.shape[1]) * 2.0 - 1.0
+    height = 1.0 - (float(row) + 0.5) / float(picture.shape[0]) * 2.0
+    picture[row, column] = seen_through(scene, studio, camera, floor, across, height)
+
+
+@wp.func
+def contrast(picture: wp.array2d[wp.vec3], row: int, column: int) -> float:
+    """Return the largest difference of a channel between a pixel and its eight neighbours."""
+    here = picture[row, column]
+    most = float(0.0)
+    for k in range(9):
+        i = wp.clamp(row + k // 3 - 1, 0, picture.shape[0] - 1)
+        j = wp.clamp(column + k % 3 - 1, 0, picture.shape[1] - 1)
+        change = picture[i, j] - here
+        most = wp.max(most, wp.max(wp.abs(change)))
+    return most
+
+
+@wp.kernel
+def smooth_edges(
+    scene: Scene,
+    studio: Studio,
+    camera: Camera,
+    floor: Floor,
+    samples: int,
+    picture: wp.array2d[wp.vec3],
+    smoothed: wp.array2d[wp.vec3],
+):
+    """Draw the pixels that differ from a neighbour again, from samples x samples rays."""
+    row, column = wp.tid()
+    if contrast(picture, row, column) < EDGE:
+        smoothed[row, column] = picture[row, column]
+        return
+    total = wp.vec3(0.0, 0.0, 0.0)
+    for k in range(samples * samples):
+        x = float(column) + (float(k % samples) + 0.5) / float(samples)
+        y = float(row) + (float(k // samples) + 0.5) / float(samples)
+        across = x / float(picture.shape[1]) * 2.0 - 1.0
+        height = 1.0 - y / float(picture.shape[0]) * 2.0
+        total += seen_through(scene, studio, camera, floor, across, height)
+    smoothed[row, column] = total / float(samples * samples)
+
+
+@wp.func
+def tone(radiance: wp.vec3) -> wp.vec3:
+    """Compress highlights with a smooth shoulder, as film does."""
+    return wp.vec3(shoulder(radiance[0]), shoulder(radiance[1]), shoulder(radiance[2]))
+
+
+@wp.func
+def shoulder(x: float) -> float:
+    """Leave values below 0.6 as they are and bend what is above towards 1."""
+    if x <= 0.6:
+        return x
+    return 1.0 - 0.4 * wp.exp(-(x - 0.6) / 0.4)
+
+
+@wp.func
+def encode(radiance: wp.vec3) -> wp.vec3:
+    """Encode linear light for the display (sRGB, IEC 61966-2-1)."""
+    return wp.vec3(encode_channel(radiance[0]), encode_channel(radiance[1]), encode_channel(radiance[2]))
+
+
+@wp.func
+def encode_channel(x: float) -> float:
+    """Encode one channel of linear light."""
+    c = wp.clamp(x, 0.0, 1.0)
+    if c <= 0.0031308:
+        return 12.92 * c
+    return 1.055 * wp.pow(c, 1.0 / 2.4) - 0.055

@@ -1,0 +1,255 @@
+"""Pictures of balloons: a small ray caster on Warp, on the CPU or a CUDA device."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import warp as wp
+
+from balloon_usd.preview.camera import Axes, frame_points
+from balloon_usd.preview.error import PreviewError
+from balloon_usd.preview.kernels.raycast import (
+    Camera,
+    Floor,
+    Scene,
+    draw,
+    light_floor,
+    light_vertices,
+    measure_studio,
+    smooth_edges,
+    soften_floor,
+)
+from balloon_usd.preview.kernels.studio import Studio
+from balloon_usd.preview.lighting import SOFTBOXES, level, softbox_axes, sphere_directions
+from balloon_usd.preview.surface import SmoothSurface
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import numpy.typing as npt
+
+    from balloon_usd.preview.camera import Framing, View
+    from balloon_usd.preview.subdivide import Points
+
+    Picture = npt.NDArray[np.uint8]
+
+DIRECTIONS = 96
+"""Rays that gather light over the whole sphere."""
+SAMPLES = 3
+"""Rays along each side of a pixel with an edge."""
+FLOOR_CELLS = 96
+"""Cells along the longer side of the baked shadow."""
+FLOOR_SPREAD = 0.45
+"""Border of the baked shadow round the sculpture, as a share of its longer side."""
+CLEARANCE = 1.0e-4
+"""Gap between the lowest point and the floor (m)."""
+
+
+@dataclass(frozen=True)
+class Shot:
+    """One picture."""
+
+    picture: Picture
+    """(height, width, 3) rgb."""
+    metres_per_pixel: float
+    """Scale in the plane through the middle of the sculpture."""
+
+
+class Raycaster:
+    """Draws meshes of fixed topology; prepared once and then used for every frame."""
+
+    def __init__(
+        self,
+        surfaces: Sequence[SmoothSurface],
+        colors: Sequence[npt.ArrayLike],
+        *,
+        device: str = "auto",
+    ) -> None:
+        """Prepare the device.
+
+        Args:
+            surfaces: one a mesh.
+            colors: one a mesh, linear rgb: (3,) or one row for each face of the cage (F, 3).
+            device: cpu, cuda:N, or auto for the first CUDA device and else the CPU.
+        """
+        self._surfaces = tuple(surfaces)
+        self._device = drawing_device(device)
+        offsets = np.cumsum([0] + [s.vertex_count for s in surfaces])
+        quads = np.concatenate([s.quads + o for s, o in zip(surfaces, offsets[:-1], strict=True)])
+        triangles = quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3).astype(np.int32)
+        faces = [_face_colors(c, s) for c, s in zip(colors, surfaces, strict=True)]
+        with wp.ScopedDevice(self._device):
+            self._triangles: Any = wp.array(triangles, dtype=wp.int32)
+            self._colors = _vectors(np.repeat(np.concatenate(faces), 2, axis=0))
+            self._directions = _vectors(sphere_directions(DIRECTIONS))
+
+    def shoot(
+        self, points: Sequence[Points], view: View = "three-quarter", size: tuple[int, int] = (480, 320)
+    ) -> Shot:
+        """Draw one frame.
+
+        Args:
+            points: cage points (V, 3) of each mesh (m, z up).
+            view: side, three-quarter, top or front.
+            size: width and height (pixels).
+        """
+        refined = [s.refine(p) for s, p in zip(self._surfaces, points, strict=True)]
+        everything = np.concatenate(refined)
+        axes = Axes.of(view)
+        framing = frame_points(everything, axes, size[0] / size[1])
+        with wp.ScopedDevice(self._device):
+            # The mesh must outlive every launch that knows its id.
+            mesh = wp.Mesh(_vectors(everything), self._triangles.flatten())
+            studio = _studio(axes, float(everything[:, 2].min()) - CLEARANCE)
+            camera = _camera(framing, axes)
+            scene = self._scene(mesh, studio, camera, refined)
+            seen = [scene, studio, camera, _floor(everything, scene, studio.floor)]
+            picture = _develop(seen, size)
+        return Shot(picture, 2.0 * framing.half_height * framing.distance / size[1])
+
+    def _scene(self, mesh: wp.Mesh, studio: Studio, camera: Camera, refined: Sequence[Points]) -> Scene:
+        """Gather what the kernels need, with the light baked into the vertices."""
+        normals = [s.normals(r) for s, r in zip(self._surfaces, refined, strict=True)]
+        scene = Scene()
+        scene.mesh = mesh.id
+        scene.triangles = self._triangles
+        scene.normals = _vectors(np.concatenate(normals))
+        scene.colors = self._colors
+        scene.directions = self._directions
+        scene.radiances = wp.empty(len(self._directions), dtype=wp.float32)
+        wp.launch(measure_studio, dim=DIRECTIONS, inputs=[studio, scene.directions, scene.radiances])
+        scene.light = self._light(scene, camera, refined, normals)
+        return scene
+
+    def _light(
+        self, scene: Scene, camera: Camera, refined: Sequence[Points], normals: Sequence[Points]
+    ) -> Any:
+        """Bake the light at the vertices of the coarser level and spread it to the finest."""
+        counts = [s.lit_count for s in self._surfaces]
+        places = _vectors(np.concatenate([p[:n] for p, n in zip(refined, counts, strict=True)]))
+        facing = _vectors(np.concatenate([p[:n] for p, n in zip(normals, counts, strict=True)]))
+        gathered: Any = wp.empty_like(places)
+        wp.launch(light_vertices, dim=len(places), inputs=[scene, camera.eye, places, facing, gathered])
+        shares = np.split(gathered.numpy(), np.cumsum(counts)[:-1])
+        return _vectors(np.concatenate([s.spread(g) for s, g in zip(self._surfaces, shares, strict=True)]))
+
+
+def render_mesh(
+    points: npt.ArrayLike,
+    quads: npt.ArrayLike,
+    colors: npt.ArrayLike,
+    view: View = "three-quarter",
+    size: tuple[int, int] = (480, 320),
+    *,
+    device: str = "auto",
+) -> Picture:
+    """Draw one mesh and return its picture (height, width, 3).
+
+    Args:
+        points: (V, 3) m, z up.
+        quads: (Q, 4) vertex numbers, counter-clockwise seen from outside.
+        colors: linear rgb, (3,) or (Q, 3).
+        view: side, three-quarter, top or front.
+        size: width and height (pixels).
+        device: cpu, cuda:N, or auto for the first CUDA device and else the CPU.
+    """
+    return render_meshes([(points, quads, colors)], view, size, device=device)
+
+
+def render_meshes(
+    meshes: Sequence[tuple[npt.ArrayLike, npt.ArrayLike, npt.ArrayLike]],
+    view: View = "three-quarter",
+    size: tuple[int, int] = (480, 320),
+    *,
+    device: str = "auto",
+) -> Picture:
+    """Draw several meshes in one picture: (points, quads, colors) each, as in `render_mesh`."""
+    surfaces = [quad_surface(quads) for _, quads, _ in meshes]
+    caster = Raycaster(surfaces, [colors for _, _, colors in meshes], device=device)
+    cages = [np.asarray(points, dtype=np.float32) for points, _, _ in meshes]
+    return caster.shoot(cages, view, size).picture
+
+
+def quad_surface(quads: npt.ArrayLike) -> SmoothSurface:
+    """Prepare a cage of quads (Q, 4)."""
+    corners = np.asarray(quads, dtype=np.int64)
+    return SmoothSurface(np.full(len(corners), 4), corners.ravel())
+
+
+def drawing_device(name: str) -> Any:
+    """Return the Warp device of a name.
+
+    Raises:
+        PreviewError: there is no such device; the message lists those that there are.
+    """
+    try:
+        return wp.get_device(None if name == "auto" else name)
+    except ValueError as error:
+        there = ", ".join(device.alias for device in wp.get_devices())
+        raise PreviewError(f'there is no device "{name}", only {there}') from error
+
+
+def _vectors(rows: npt.ArrayLike) -> Any:
+    """Copy rows (N, 3) to the current device."""
+    return wp.array(np.ascontiguousarray(rows, dtype=np.float32), dtype=wp.vec3)
+
+
+def _face_colors(colors: npt.ArrayLike, surface: SmoothSurface) -> npt.NDArray[np.float32]:
+    """Return the colour of every refined quad, (Q, 3)."""
+    rows = np.asarray(colors, dtype=np.float32)
+    if rows.ndim == 1:
+        return np.broadcast_to(rows, (len(surface.quads), 3))
+    return rows[surface.cage_face]
+
+
+def _studio(axes: Axes, floor: float) -> Studio:
+    """Set up the lamps for a camera above a floor at height `floor` (m)."""
+    studio = Studio()
+    studio.floor = floor
+    studio.ahead = wp.vec3(*level(axes.forward))
+    for box in SOFTBOXES:
+        centre, right, up = softbox_axes(box, axes.forward)
+        setattr(studio, box.name, wp.vec3(*centre))
+        setattr(studio, f"{box.name}_right", wp.vec3(*right))
+        setattr(studio, f"{box.name}_up", wp.vec3(*up))
+        setattr(studio, f"{box.name}_radiance", box.radiance)
+    return studio
+
+
+def _camera(framing: Framing, axes: Axes) -> Camera:
+    """Stand the kernels' camera where the framing says."""
+    camera = Camera()
+    camera.eye = wp.vec3(*framing.eye)
+    camera.forward = wp.vec3(*axes.forward)
+    camera.right = wp.vec3(*(axes.right * framing.half_width))
+    camera.up = wp.vec3(*(axes.up * framing.half_height))
+    return camera
+
+
+def _develop(seen: list[object], size: tuple[int, int]) -> Picture:
+    """Draw what the camera sees, (height, width, 3), and its edges once more."""
+    picture: Any = wp.empty((size[1], size[0]), dtype=wp.vec3)
+    smoothed: Any = wp.empty_like(picture)
+    wp.launch(draw, dim=picture.shape, inputs=[*seen, picture])
+    wp.launch(smooth_edges, dim=picture.shape, inputs=[*seen, SAMPLES, picture, smoothed])
+    return np.asarray(np.rint(smoothed.numpy() * 255.0), dtype=np.uint8)
+
+
+def _floor(points: Points, scene: Scene, height: float) -> Floor:
+    """Bake the shadow of points (V, 3) on a floor at a height (m)."""
+    low, high = points[:, :2].min(axis=0), points[:, :2].max(axis=0)
+    border = FLOOR_SPREAD * float(max(high - low))
+    extent = high - low + 2.0 * border
+    cell = float(max(extent)) / FLOOR_CELLS
+    columns, rows = (int(n) + 1 for n in extent / cell)
+    floor = Floor()
+    floor.corner = wp.vec3(float(low[0]) - border, float(low[1]) - border, height)
+    floor.cell = cell
+    shade: Any = wp.empty((rows, columns), dtype=wp.vec3)
+    floor.shade = shade
+    sharp = wp.empty_like(floor.shade)
+    wp.launch(light_floor, dim=sharp.shape, inputs=[scene, floor, sharp])
+    wp.launch(soften_floor, dim=sharp.shape, inputs=[sharp, floor.shade])
+    return floor

@@ -1,0 +1,62 @@
+"""The plain colour of each face of a USD mesh, as its material or its displayColor gives it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from pxr import UsdGeom, UsdShade
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    Colors = npt.NDArray[np.float32]
+
+UNPAINTED = (0.55, 0.53, 0.50)
+"""Linear rgb of a mesh without any colour: undyed latex."""
+
+
+def face_colors(mesh: Any, face_counts: npt.NDArray[np.int64], corners: npt.NDArray[np.int64]) -> Colors:
+    """Return the linear rgb of every face (F, 3) of a `UsdGeom.Mesh` at its default time.
+
+    A material bound to a face subset is stronger than the mesh's own, which is stronger than displayColor.
+    """
+    binding = UsdShade.MaterialBindingAPI(mesh.GetPrim())
+    color = _material_color(binding)
+    colors = _display_colors(mesh, face_counts, corners) if color is None else _all(color, len(face_counts))
+    for subset in binding.GetMaterialBindSubsets():
+        color = _material_color(UsdShade.MaterialBindingAPI(subset.GetPrim()))
+        if color is not None:
+            colors[np.asarray(subset.GetIndicesAttr().Get(), dtype=np.int64)] = color
+    return colors
+
+
+def _material_color(binding: Any) -> tuple[float, float, float] | None:
+    """Return the constant diffuse colour of the preview surface that is bound, if there is one."""
+    material, _ = binding.ComputeBoundMaterial()
+    shader = material.ComputeSurfaceSource()[0] if material else None
+    if not shader or shader.GetIdAttr().Get() != "UsdPreviewSurface":
+        return None
+    color = shader.GetInput("diffuseColor")
+    if not color or color.HasConnectedSource():
+        return None
+    value = color.Get()
+    return None if value is None else (value[0], value[1], value[2])
+
+
+def _display_colors(mesh: Any, face_counts: npt.NDArray[np.int64], corners: npt.NDArray[np.int64]) -> Colors:
+    primvar = mesh.GetDisplayColorPrimvar()
+    values = np.asarray(primvar.ComputeFlattened() or [UNPAINTED], dtype=np.float32).reshape(-1, 3)
+    faces = len(face_counts)
+    if len(values) == 1:
+        return _all(values[0], faces)
+    interpolation = primvar.GetInterpolation()
+    if interpolation == UsdGeom.Tokens.uniform:
+        return values.copy()
+    by_corner = values if interpolation == UsdGeom.Tokens.faceVarying else values[corners]
+    starts = np.cumsum(face_counts) - face_counts
+    return np.asarray(np.add.reduceat(by_corner, starts, axis=0) / face_counts[:, None], dtype=np.float32)
+
+
+def _all(color: npt.ArrayLike, faces: int) -> Colors:
+    return np.tile(np.asarray(color, dtype=np.float32), (faces, 1))

@@ -1,0 +1,30 @@
+"""Recipes: the language balloon artists write, its strict reader, and its Python form.
+
+Knows nothing of physics: a `Recipe` is text with its meaning checked.
+"""
+
+from __future__ import annotations
+
+from .balloons import Balloon
+from .builder import RecipeBuilder
+from .colors import LATEX_COLORS, Color
+from .physics import Physics
+from .problem import Problem, RecipeError
+from .recipe import Recipe
+from .schema import recipe_schema
+from .steps import Joint, LockJoints, Step
+
+__all__ = [
+    "LATEX_COLORS",
+    "Balloon",
+    "Color",
+    "Joint",
+    "LockJoints",
+    "Physics",
+    "Problem",
+    "Recipe",
+    "RecipeBuilder",
+    "RecipeError",
+    "Step",
+    "recipe_schema",
+]

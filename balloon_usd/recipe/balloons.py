@@ -1,0 +1,34 @@
+"""A balloon as it is taken from the bag and inflated, before the first twist."""
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict
+
+from .colors import ColorEntry, color
+from .quantities import FlatTail, Length, LengthWithin
+
+BalloonSizeName = Literal["160", "260", "321", "350", "360", "646"]
+
+
+def _size_text(value: object) -> object:
+    return str(value) if isinstance(value, int) and not isinstance(value, bool) else value
+
+
+class Balloon(BaseModel):
+    """One balloon of the recipe; `tail` or `inflated` says how far it is blown up."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
+
+    size: Annotated[BalloonSizeName, BeforeValidator(_size_text)]
+    """Size code of the trade: 260 is 2 inches by 60."""
+    color: ColorEntry = color("red")
+    tail: FlatTail | None = None
+    """Flat rubber left empty at the end; m in Python."""
+    inflated: Length | None = None
+    """Length of the inflated part, instead of tail; m in Python."""
+    radius: Annotated[float, LengthWithin(0.0005, 0.1)] | None = None
+    """Unstressed radius, where a brand differs; m in Python."""
+    length: Length | None = None
+    """Unstressed length, where a brand differs; m in Python."""
+    thickness: Annotated[float, LengthWithin(0.00002, 0.003)] | None = None
+    """Unstressed wall thickness, where a brand differs; m in Python."""

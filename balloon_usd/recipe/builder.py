@@ -1,0 +1,201 @@
+"""Write a recipe in Python, as a chain of steps."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Self
+
+from .quantities import Units, length_entry
+from .recipe import Recipe
+from .steps import Kind, Point
+from .writer import Entries, recipe_text
+
+LengthLike = float | str
+"""Metres, or a text with its own unit such as "4 in"."""
+
+BUILDER_FILE = "<builder>"
+
+
+class RecipeBuilder:
+    """Collects balloons and steps; `build` checks them as a file is checked.
+
+    Lengths are in metres, angles in degrees, times in seconds. The words that follow the bubbles (balloon,
+    point, turns, seconds, note) are those of the recipe language.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        *,
+        title: str = "",
+        source: str = "",
+        units: Units = "cm",
+        fps: float | None = None,
+    ) -> None:
+        self._units = units
+        self._head = _given({"title": title or None, "source": source or None, "units": units, "fps": fps})
+        self._name = name
+        self._balloons: dict[str, Entries] = {}
+        self._steps: list[Entries] = []
+        self._physics: Entries = {}
+
+    def balloon(
+        self,
+        name: str,
+        *,
+        size: str | int,
+        color: str | Sequence[float] | None = None,
+        tail: LengthLike | None = None,
+        inflated: LengthLike | None = None,
+        radius: LengthLike | None = None,
+        length: LengthLike | None = None,
+        thickness: LengthLike | None = None,
+    ) -> Self:
+        """Take a balloon; give `tail` (flat) or `inflated`, m."""
+        lengths = {
+            "tail": tail,
+            "inflated": inflated,
+            "radius": radius,
+            "length": length,
+            "thickness": thickness,
+        }
+        code = int(size) if str(size).isdecimal() else size
+        written = {key: self._length(value) for key, value in lengths.items() if value is not None}
+        self._balloons[name] = _given({"size": code, "color": color}) | written
+        return self
+
+    def bubbles(
+        self,
+        lengths: Mapping[str, LengthLike] | None = None,
+        /,
+        *,
+        balloon: str | None = None,
+        turns: float | None = None,
+        seconds: float | None = None,
+        note: str | None = None,
+        **more: LengthLike,
+    ) -> Self:
+        """Twist off bubbles (inflated lengths, m), one after another."""
+        manner = {"balloon": balloon, "turns": turns, "seconds": seconds, "note": note}
+        return self._make("bubbles", {**(lengths or {}), **more}, manner)
+
+    def lock(
+        self,
+        *bubbles: str,
+        joints: Sequence[str] | None = None,
+        point: Point | None = None,
+        balloon: str | None = None,
+        turns: float | None = None,
+        seconds: float | None = None,
+        note: str | None = None,
+    ) -> Self:
+        """Lock neighbouring bubbles, or joints such as "nose.end"."""
+        what: object = list(bubbles) if joints is None else {"joints": list(joints)}
+        manner = {"point": point, "balloon": balloon, "turns": turns, "seconds": seconds, "note": note}
+        return self._step("lock", what, manner)
+
+    def loop(
+        self,
+        lengths: Mapping[str, LengthLike] | None = None,
+        /,
+        *,
+        point: Point | None = None,
+        balloon: str | None = None,
+        turns: float | None = None,
+        seconds: float | None = None,
+        note: str | None = None,
+        **more: LengthLike,
+    ) -> Self:
+        """Make long bubbles (m), each with its two ends twisted together."""
+        manner = {"point": point, "balloon": balloon, "turns": turns, "seconds": seconds, "note": note}
+        return self._make("loop", {**(lengths or {}), **more}, manner)
+
+    def fold(
+        self,
+        lengths: Mapping[str, LengthLike] | None = None,
+        /,
+        *,
+        point: Point | None = None,
+        balloon: str | None = None,
+        turns: float | None = None,
+        seconds: float | None = None,
+        note: str | None = None,
+        **more: LengthLike,
+    ) -> Self:
+        """Make bubbles (m) folded in their middle, with their two ends twisted together."""
+        manner = {"point": point, "balloon": balloon, "turns": turns, "seconds": seconds, "note": note}
+        return self._make("fold", {**(lengths or {}), **more}, manner)
+
+    def ear(
+        self,
+        lengths: Mapping[str, LengthLike] | None = None,
+        /,
+        *,
+        point: Point | None = None,
+        balloon: str | None = None,
+        turns: float | None = None,
+        seconds: float | None = None,
+        note: str | None = None,
+        **more: LengthLike,
+    ) -> Self:
+        """Make short soft bubbles (m), each pinched sideways with its two ends twisted together."""
+        manner = {"point": point, "balloon": balloon, "turns": turns, "seconds": seconds, "note": note}
+        return self._make("ear", {**(lengths or {}), **more}, manner)
+
+    def rest(
+        self, name: str, *, balloon: str | None = None, seconds: float | None = None, note: str | None = None
+    ) -> Self:
+        """Name what is left of the balloon."""
+        return self._step("rest", name, {"balloon": balloon, "seconds": seconds, "note": note})
+
+    def bend(
+        self,
+        angles: Mapping[str, float | str] | None = None,
+        /,
+        *,
+        point: Point | None = None,
+        balloon: str | None = None,
+        seconds: float | None = None,
+        note: str | None = None,
+        **more: float | str,
+    ) -> Self:
+        """Bend bubbles (degrees), their ends towards `point`."""
+        manner = {"point": point, "balloon": balloon, "seconds": seconds, "note": note}
+        return self._step("bend", {**(angles or {}), **more}, manner)
+
+    def wait(self, seconds: float, *, note: str | None = None) -> Self:
+        """Do nothing for some seconds."""
+        return self._step("wait", seconds, {"note": note})
+
+    def physics(self, **settings: str | float | bool) -> Self:
+        """Set entries of the physics block."""
+        self._physics |= settings
+        return self
+
+    def to_yaml(self) -> str:
+        """Write what was collected as YAML text, right or wrong."""
+        entries: Entries = {"format": 1, "name": self._name, **self._head, "balloons": self._balloons}
+        entries |= {"steps": self._steps} | ({"physics": self._physics} if self._physics else {})
+        return recipe_text(entries)
+
+    def build(self) -> Recipe:
+        """Check the recipe and return it.
+
+        Raises:
+            RecipeError: with all problems, at their places in the text of `to_yaml`.
+        """
+        return Recipe.parse(self.to_yaml(), file=BUILDER_FILE)
+
+    def _make(self, kind: Kind, lengths: Mapping[str, LengthLike], manner: Entries) -> Self:
+        return self._step(kind, {name: self._length(value) for name, value in lengths.items()}, manner)
+
+    def _step(self, kind: Kind, what: object, manner: Entries) -> Self:
+        self._steps.append({kind: what} | _given(manner))
+        return self
+
+    def _length(self, value: LengthLike) -> object:
+        return value if isinstance(value, str) else length_entry(float(value), self._units)
+
+
+def _given(entries: Entries) -> Entries:
+    return {key: value for key, value in entries.items() if value is not None}

@@ -1,0 +1,37 @@
+"""Where every part of a recipe stands in its file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+from .problem import Complaint, Path, Place, Problem, path_text
+
+_START = Place(1, 1)
+
+
+@dataclass(frozen=True)
+class Marks:
+    """The places of a file's keys and values, by path."""
+
+    file: str
+    keys: dict[Path, Place] = field(default_factory=dict)
+    values: dict[Path, Place] = field(default_factory=dict)
+    """Places of plain values only: a list or mapping is found by its key."""
+
+    def place(self, path: Path) -> Place:
+        """Find the place of a path, or of the nearest enclosing one that stands in the file."""
+        for end in range(len(path), 0, -1):
+            found = self.values.get(path[:end]) or self.keys.get(path[:end])
+            if found is not None:
+                return found
+        return _START
+
+    def problem(self, path: Path, text: str, at: Place | None = None) -> Problem:
+        """Make a problem of what is wrong at a path."""
+        line, column = at or self.place(path)
+        return Problem(self.file, line, column, path_text(path), text)
+
+    def problems(self, complaints: Iterable[Complaint]) -> list[Problem]:
+        """Look up the places of complaints."""
+        return [self.problem(complaint.path, complaint.text, complaint.at) for complaint in complaints]

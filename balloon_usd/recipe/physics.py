@@ -1,0 +1,32 @@
+"""The optional `physics:` block: a maker of balloons never needs it."""
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, StrictBool
+
+from .quantities import Between
+
+
+class Physics(BaseModel):
+    """How the simulation treats rubber, air and hands."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
+
+    model: Literal["latex"] = "latex"
+    """Physical model."""
+    rubber: Literal["ogden", "ogden-treloar", "gent", "mooney-rivlin", "neo-hooke"] = "ogden"
+    """Law of the rubber."""
+    softening: StrictBool = True
+    """Whether rubber that was stretched once stays softer (Mullins effect)."""
+    gravity: Annotated[float, Between(0.0, 100.0, "m/s2")] = 0.0
+    """Acceleration downwards, m/s2."""
+    friction: Annotated[float, Between(0.0, 3.0)] = 0.8
+    """Coulomb coefficient of latex on latex."""
+    substeps: Annotated[int, Between(20, 2000, whole=True)] | None = None
+    """Time steps in a frame; chosen by the level of detail when absent."""
+    burst: Literal["report", "stop"] = "report"
+    """What to do when a balloon bursts."""
+    hold: Annotated[float, Between(0.0, 60.0, "s")] = 2.0
+    """Seconds shown after the hands let go."""
+    mass_scaling: Literal["selective", "none"] = "selective"
+    """Whether vertices that would need a smaller time step are made heavier."""

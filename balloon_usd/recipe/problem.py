@@ -1,0 +1,91 @@
+"""What is wrong with a recipe, and where: a place in the file, a path in the recipe, a sentence."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import NamedTuple
+
+Path = tuple[str | int, ...]
+"""A place in a recipe by keys and positions, such as ("steps", 3, "lock")."""
+
+PROBLEMS_SHOWN = 100
+"""A file with more problems than this is not read line by line by anybody."""
+
+_PLAIN_KEY = re.compile(r"[A-Za-z_][A-Za-z0-9_]*", re.ASCII)
+_TEXT_SHOWN = 48
+
+
+class Place(NamedTuple):
+    """A character of a file: line and column, both counted from 1."""
+
+    line: int
+    column: int
+
+
+@dataclass(frozen=True)
+class Complaint:
+    """A problem before its place is looked up; `at` overrules the place of `path`."""
+
+    path: Path
+    text: str
+    at: Place | None = None
+
+
+@dataclass(frozen=True)
+class Problem:
+    """One thing wrong with a recipe: what, what was expected, and the nearest valid choice."""
+
+    file: str
+    line: int
+    column: int
+    path: str
+    text: str
+
+    def __str__(self) -> str:
+        """Format as `file:line:column: path: text`, as compilers do and editors understand."""
+        place = f"{self.file}:{self.line}:{self.column}: "
+        return f"{place}{self.path}: {self.text}" if self.path else place + self.text
+
+
+class RecipeError(ValueError):
+    """A recipe that cannot be used; `problems` holds all of them, in the order of the file."""
+
+    def __init__(self, problems: Iterable[Problem]) -> None:
+        ordered = sorted(problems, key=lambda problem: (problem.file, problem.line, problem.column))
+        self.problems: tuple[Problem, ...] = tuple(dict.fromkeys(ordered))
+        super().__init__(self.problems)
+
+    def __str__(self) -> str:
+        """One line for each problem."""
+        lines = [str(problem) for problem in self.problems[:PROBLEMS_SHOWN]]
+        hidden = len(self.problems) - len(lines)
+        if hidden > 0:
+            lines.append(f"{self.problems[0].file}: {hidden} more problems")
+        return "\n".join(lines)
+
+
+def path_text(path: Path) -> str:
+    """Write a path as in `steps[3].lock` or `balloons.main.tail`."""
+    text = ""
+    for part in path:
+        if isinstance(part, int):
+            text += f"[{part}]"
+        elif _PLAIN_KEY.fullmatch(part):
+            text += f".{shortened(part)}" if text else shortened(part)
+        else:
+            text += f"[{quoted(part)}]"
+    return text
+
+
+def shortened(text: str) -> str:
+    """Cut a text that would flood the message."""
+    return text if len(text) <= _TEXT_SHOWN else text[: _TEXT_SHOWN - 3] + "..."
+
+
+def quoted(value: object) -> str:
+    """Quote a value of the file for a message: no control characters, no flood."""
+    text = shortened(value if isinstance(value, str) else repr(value))
+    shown = "".join(letter if letter.isprintable() else ascii(letter)[1:-1] for letter in text)
+    return f'"{shown}"' if isinstance(value, str) else shown

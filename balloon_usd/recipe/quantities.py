@@ -1,0 +1,215 @@
+"""Lengths, angles and bounded numbers: from what a maker writes to SI units, and back without loss."""
+
+import math
+import re
+from dataclasses import dataclass
+from decimal import Decimal
+from typing import Annotated, Any, Literal
+
+from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema, core_schema
+
+from .choices import one_of
+from .problem import quoted
+
+Units = Literal["mm", "cm", "m", "in", "ft"]
+
+METRES: dict[str, Decimal] = {
+    "mm": Decimal("0.001"),
+    "cm": Decimal("0.01"),
+    "m": Decimal(1),
+    "in": Decimal("0.0254"),
+    '"': Decimal("0.0254"),
+    "ft": Decimal("0.3048"),
+}
+"""Metres in one unit (international inch and foot)."""
+
+LONGEST = 5.0
+"""Metres. Three times the longest balloon in the trade, so that a slip of the unit is seen."""
+
+_NUMBER = r"[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]{1,3})?"
+_QUANTITY = re.compile(rf"\s*({_NUMBER})\s*([A-Za-z\"]*)\s*", re.ASCII)
+_DECIMAL_COMMA = re.compile(r"\s*[0-9]+,[0-9]+\s*[a-z\"]*\s*", re.ASCII)
+_LONGEST_TEXT = 40
+
+
+class UnitMissingError(ValueError):
+    """A bare number where the recipe names no `units`."""
+
+
+@dataclass(frozen=True)
+class Reading:
+    """How bare numbers are meant while a file is read."""
+
+    units: str | None
+
+
+def metres(value: object, units: str | None) -> float:
+    """Read a length in metres: a number in `units`, or a text with its own unit.
+
+    Raises:
+        ValueError: if it is no length, has no unit or an unknown one.
+    """
+    number, unit = _number_and_unit(value, "length", '"12 mm" or "4 in"')
+    unit = unit or units or ""
+    if not unit:
+        remedy = f'expected units: cm at the top of the recipe, or a length such as "{_plain(number)} cm"'
+        raise UnitMissingError(f"{_plain(number)} has no unit, {remedy}")
+    if unit not in METRES:
+        raise ValueError(f"unknown length unit {quoted(unit)}, expected {one_of(METRES)}")
+    return float(number * METRES[unit])
+
+
+def radians(value: object) -> float:
+    """Read an angle in radians: a number is in degrees; "60 deg" and "1.2 rad" say so.
+
+    Raises:
+        ValueError: if it is no angle or has an unknown unit.
+    """
+    number, unit = _number_and_unit(value, "angle", '60 or "60 deg"')
+    if unit not in ("", "deg", "rad"):
+        raise ValueError(f"unknown angle unit {quoted(unit)}, expected one of deg, rad")
+    return float(number) if unit == "rad" else math.radians(float(number))
+
+
+def length_entry(length: float, units: str | None) -> int | float | str:
+    """Write a length (m) as it stands in a recipe with these `units`, so that it reads back the same."""
+    exact = Decimal(repr(float(length)))
+    if units is not None and exact.is_finite():
+        entry = short_number(float(exact / METRES[units]))
+        if metres(entry, units) == length:
+            return entry
+    return f"{length!r} m"
+
+
+def angle_entry(angle: float) -> int | float | str:
+    """Write an angle (radians) in degrees where that reads back the same."""
+    degrees = short_number(round(math.degrees(angle), 9))
+    return degrees if math.radians(degrees) == angle else f"{angle!r} rad"
+
+
+def short_number(number: float) -> int | float:
+    """Drop the `.0` of a whole number."""
+    return int(number) if math.isfinite(number) and number == int(number) else number
+
+
+def _number_and_unit(value: object, what: str, example: str) -> tuple[Decimal, str]:
+    if isinstance(value, (int, float)) and not isinstance(value, bool):
+        number = Decimal(repr(value))
+        if not number.is_finite():
+            raise ValueError(f"{value} is no {what}, expected a finite number such as {example}")
+        return number, ""
+    if not isinstance(value, str) or len(value) > _LONGEST_TEXT:
+        raise ValueError(f"{quoted(value)} is no {what}, expected {example}")
+    found = _QUANTITY.fullmatch(value)
+    if not found:
+        if _DECIMAL_COMMA.fullmatch(value):
+            point = quoted(value.replace(",", "."))
+            raise ValueError(f"{quoted(value)} has a decimal comma, expected a decimal point: {point}")
+        raise ValueError(f"{quoted(value)} is no {what}, expected {example}")
+    return Decimal(found[1]), found[2]
+
+
+def _plain(number: Decimal) -> str:
+    return f"{float(number):g}"
+
+
+@dataclass(frozen=True)
+class Between:
+    """A finite number from `low` to `high`, in steps of `step` where that is given."""
+
+    low: float
+    high: float
+    unit: str = ""
+    step: float | None = None
+    whole: bool = False
+
+    def check(self, value: object) -> object:
+        """Refuse what is no number, or out of range."""
+        wanted = f"{self.low:g} to {self.high:g}{self.unit and ' ' + self.unit}"
+        if self.step:
+            wanted += f" in steps of {self.step:g}"
+        kinds = (int,) if self.whole else (int, float)
+        if isinstance(value, bool) or not isinstance(value, kinds):
+            kind = "whole number" if self.whole else "number"
+            raise ValueError(f"{quoted(value)} is no {kind}, expected {wanted}")
+        in_steps = self.step is None or not math.isfinite(value) or value % self.step == 0
+        if not (self.low <= value <= self.high and in_steps):
+            clamped = min(max(value, self.low), self.high) if math.isfinite(value) else self.low
+            near = round(clamped / self.step) * self.step if self.step else clamped
+            raise ValueError(f"{value:g} is out of range, expected {wanted}, the nearest is {near:g}")
+        return value
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.no_info_before_validator_function(self.check, handler(source))
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        step = {"multipleOf": self.step} if self.step else {}
+        return handler(schema) | {"minimum": self.low, "maximum": self.high} | step
+
+
+@dataclass(frozen=True)
+class LengthWithin:
+    """A length above `low` (or at it, if `low_included`) and at most `high`, in metres."""
+
+    low: float = 0.0
+    high: float = LONGEST
+    low_included: bool = False
+
+    def read(self, value: object, info: ValidationInfo) -> float:
+        """Convert to metres: bare numbers are metres in Python and in the recipe's `units` in a file."""
+        units = info.context.units if isinstance(info.context, Reading) else "m"
+        length = metres(value, units)
+        above = length >= self.low if self.low_included else length > self.low
+        if not (above and length <= self.high):
+            more = "at least" if self.low_included else "more than"
+            wanted = f"{more} {_shown(self.low)} and at most {_shown(self.high)}"
+            raise ValueError(f"{_shown(length)} is out of range, expected {wanted}")
+        return length
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.with_info_before_validator_function(self.read, handler(source))
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        least = "minimum" if self.low_included else "exclusiveMinimum"
+        units = "|".join(METRES)
+        text = {"type": "string", "pattern": rf"^\s*\+?[0-9.]+([eE][-+]?[0-9]+)?\s*({units})\s*$"}
+        return {"anyOf": [{"type": "number", least: 0}, text]}
+
+
+class AngleWithin:
+    """An angle above 0 and at most half a turn, in radians; written in degrees."""
+
+    def read(self, value: object) -> float:
+        """Convert to radians."""
+        angle = radians(value)
+        if not 0.0 < angle <= math.pi:
+            degrees = f"{math.degrees(angle):g}"
+            raise ValueError(f"{degrees} degrees is out of range, expected more than 0 and at most 180")
+        return angle
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.no_info_before_validator_function(self.read, handler(source))
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        text = {"type": "string", "pattern": r"^\s*\+?[0-9.]+\s*(deg|rad)?\s*$"}
+        return {"anyOf": [{"type": "number", "exclusiveMinimum": 0, "maximum": 180}, text]}
+
+
+def _shown(length: float) -> str:
+    for unit, scale in (("m", 1.0), ("cm", 0.01)):
+        if abs(length) >= scale:
+            return f"{length / scale:g} {unit}"
+    return f"{length / 0.001:g} mm" if length else "0"
+
+
+Length = Annotated[float, LengthWithin()]
+FlatTail = Annotated[float, LengthWithin(low_included=True)]
+Angle = Annotated[float, AngleWithin()]

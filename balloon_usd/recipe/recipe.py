@@ -1,0 +1,152 @@
+"""The recipe: what is read from a file, checked, and handed to the plan."""
+
+import hashlib
+from dataclasses import dataclass, field
+from typing import Annotated, Literal, Self
+
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Field,
+    PrivateAttr,
+    ValidationError,
+    ValidationInfo,
+    model_validator,
+)
+
+from .balloons import Balloon
+from .marks import Marks
+from .meaning import meaning_complaints
+from .names import Name, Text
+from .physics import Physics
+from .problem import Complaint, Path, Problem, RecipeError, path_text
+from .quantities import METRES, Between, Reading, Units
+from .recipe_file import FilePath, read_recipe_file
+from .steps import Step
+from .translation import validation_complaints
+from .writer import recipe_entries, recipe_text
+from .yaml_reader import Document, read_yaml
+
+FRAMES_PER_SECOND = 24.0
+
+
+@dataclass(frozen=True)
+class _Origin:
+    """The text a recipe was read from."""
+
+    marks: Marks = field(default_factory=lambda: Marks("<python>"))
+    text: str | None = None
+
+
+class Recipe(BaseModel):
+    """A recipe of balloon twists (format 1), complete and consistent."""
+
+    model_config = ConfigDict(
+        frozen=True, extra="forbid", use_attribute_docstrings=True, title="Balloon recipe"
+    )
+
+    format: Literal[1]
+    """Version of the recipe language."""
+    name: Name
+    """Identifier: names the file and the prim."""
+    title: Text = ""
+    """Name of the figure for people."""
+    source: Text = ""
+    """Where the recipe comes from."""
+    units: Units | None = None
+    """Unit of lengths written as bare numbers."""
+    fps: Annotated[float, Between(1.0, 240.0, "frames/s")] = FRAMES_PER_SECOND
+    """Frames in a second."""
+    balloons: Annotated[dict[Name, Balloon], Field(min_length=1)]
+    """Balloons by name."""
+    steps: Annotated[tuple[Step, ...], Field(min_length=1)]
+    """What the hands do, in order."""
+    physics: Physics = Physics()
+    """How it is simulated."""
+
+    _origin: _Origin = PrivateAttr(default_factory=_Origin)
+
+    @classmethod
+    def load(cls, path: FilePath) -> Self:
+        """Read a recipe file.
+
+        Raises:
+            RecipeError: with all problems of the file, also if it cannot be read at all.
+        """
+        return cls.parse(read_recipe_file(path), file=str(path))
+
+    @classmethod
+    def parse(cls, text: str, file: str = "<text>") -> Self:
+        """Read a recipe from YAML text; `file` is how messages call it.
+
+        Raises:
+            RecipeError: with all problems of the text.
+        """
+        document = read_yaml(text, file)
+        complaints = list(document.complaints)
+        try:
+            recipe = cls.model_validate(document.data, context=Reading(_units_in(document.data)))
+        except ValidationError as error:
+            recipe = None
+            complaints += validation_complaints(error, document.data, cls)
+        complaints += meaning_complaints(document.data)
+        if recipe is None or complaints:
+            raise RecipeError(document.marks.problems(_without_echoes(complaints, document)))
+        recipe._origin = _Origin(document.marks, text)
+        return recipe
+
+    @model_validator(mode="after")
+    def _check_meaning(self, info: ValidationInfo) -> Self:
+        if not isinstance(info.context, Reading):  # parse() reports meaning with places
+            complaints = meaning_complaints(recipe_entries(self))
+            if complaints:
+                texts = [f"{path_text(complaint.path)}: {complaint.text}" for complaint in complaints]
+                raise ValueError("; ".join(texts))
+        return self
+
+    @property
+    def file(self) -> str:
+        """Name of the file it was read from."""
+        return self._origin.marks.file
+
+    @property
+    def sha256(self) -> str:
+        """Hash of the text, hexadecimal."""
+        text = self.to_yaml() if self._origin.text is None else self._origin.text
+        return hashlib.sha256(text.encode("utf-8")).hexdigest()
+
+    def problem(self, path: Path, text: str) -> Problem:
+        """Make a problem found later, such as in the plan, at its place in this file."""
+        return self._origin.marks.problem(path, text)
+
+    def to_yaml(self) -> str:
+        """Write the recipe as YAML text that reads back as an equal recipe."""
+        return recipe_text(recipe_entries(self))
+
+    def __eq__(self, other: object) -> bool:
+        """Compare what the recipes say, not where they were written."""
+        if not isinstance(other, Recipe):
+            return NotImplemented
+        return all(getattr(self, name) == getattr(other, name) for name in Recipe.model_fields)
+
+    __hash__ = None  # type: ignore[assignment]
+
+
+def _units_in(data: object) -> str | None:
+    """Units to read bare numbers with; a wrong name is reported once, not at every number."""
+    units = data.get("units") if isinstance(data, dict) else None
+    if units is None:
+        return None
+    return units if isinstance(units, str) and units in METRES else "cm"
+
+
+def _without_echoes(complaints: list[Complaint], document: Document) -> list[Complaint]:
+    """Drop complaints about what the reader has already refused."""
+    refused = [complaint.path for complaint in document.complaints]
+    later = complaints[len(refused) :]
+    prefixes = set(refused)
+    return complaints[: len(refused)] + [
+        complaint
+        for complaint in later
+        if not any(complaint.path[:end] in prefixes for end in range(1, len(complaint.path) + 1))
+    ]

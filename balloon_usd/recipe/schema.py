@@ -1,0 +1,32 @@
+"""JSON Schema of the recipe language, for completion and checks in editors."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from .recipe import Recipe
+
+SCHEMA_DIALECT = "https://json-schema.org/draft/2020-12/schema"
+
+
+def recipe_schema() -> dict[str, Any]:
+    """JSON Schema made from the models that check a recipe."""
+    schema = _without_null(Recipe.model_json_schema())
+    return {"$schema": SCHEMA_DIALECT, **schema}
+
+
+def _without_null(schema: Any) -> Any:
+    """Let an optional entry be absent, but not null: editors then say what is wrong with a value."""
+    if isinstance(schema, list):
+        return [_without_null(entry) for entry in schema]
+    if not isinstance(schema, dict):
+        return schema
+    entries = {key: _without_null(value) for key, value in schema.items()}
+    choices = entries.get("anyOf")
+    if isinstance(choices, list) and {"type": "null"} in choices:
+        kept = [choice for choice in choices if choice != {"type": "null"}]
+        del entries["anyOf"]
+        if entries.get("default", 0) is None:
+            del entries["default"]
+        return {**kept[0], **entries} if len(kept) == 1 else {"anyOf": kept, **entries}
+    return entries

@@ -1,0 +1,111 @@
+"""Say in the words of a recipe what pydantic found, at the place where it stands."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from .balloons import Balloon
+from .choices import one_of, unknown
+from .physics import Physics
+from .problem import PROBLEMS_SHOWN, Complaint, Path, quoted
+from .quantities import UnitMissingError
+from .steps import KINDS, LockJoints, Step
+
+if TYPE_CHECKING:
+    from pydantic import BaseModel, ValidationError
+    from pydantic_core import ErrorDetails
+
+_EXPECTED: dict[str, str] = {
+    "missing": "is missing",
+    "bool_type": "expected true or false",
+    "tuple_type": "expected a list such as [left_ear, right_ear]",
+    "dict_type": "expected entries such as {nose: 10}",
+    "model_type": "expected entries such as key: value",
+    "model_attributes_type": "expected entries such as key: value",
+    "too_short": "is empty, expected at least one entry",
+    "union_tag_not_found": "expected a list of bubbles, or {joints: [nose.end, tail.start]}",
+}
+_CHOICE = re.compile(r"'([^']*)'|(\d+)")
+
+
+def validation_complaints(error: ValidationError, data: object, root: type[BaseModel]) -> list[Complaint]:
+    """Translate the errors of one validation; `root` is the model of the whole recipe."""
+    details = error.errors(include_url=False)
+    unitless = [detail for detail in details if isinstance(_cause(detail), UnitMissingError)]
+    shown = [detail for detail in details if detail not in unitless[1:]][: PROBLEMS_SHOWN + 1]
+    complaints = [_complaint(detail, data, root) for detail in shown]
+    if len(unitless) > 1:
+        at = shown.index(unitless[0])
+        more = f" ({len(unitless) - 1} more lengths have none)"
+        complaints[at] = Complaint(complaints[at].path, complaints[at].text + more)
+    return complaints
+
+
+def _complaint(detail: ErrorDetails, data: object, root: type[BaseModel]) -> Complaint:
+    path = _path(detail["loc"], data)
+    kind, value = detail["type"], detail["input"]
+    if kind == "missing":
+        path = (*path, detail["loc"][-1])
+        return Complaint(path, f"is missing, expected {_wanted(path)}")
+    if kind == "extra_forbidden":
+        return Complaint(path, _unknown_key(path, root))
+    if kind == "literal_error":
+        return Complaint(path, _unknown_choice(path, value, str(detail["ctx"]["expected"])))
+    cause = _cause(detail)
+    if cause is not None:
+        return Complaint(path, str(cause))
+    expected = _EXPECTED.get(kind, detail["msg"])
+    begin = "" if kind == "too_short" else f"{quoted(value)} does not fit, "
+    return Complaint(path, begin + expected)
+
+
+def _cause(detail: ErrorDetails) -> Exception | None:
+    cause = detail.get("ctx", {}).get("error")
+    return cause if isinstance(cause, Exception) else None
+
+
+def _path(location: Sequence[str | int], data: object) -> Path:
+    """Keep the parts of a pydantic location that exist in the file, dropping tags of unions."""
+    path: list[str | int] = []
+    at: Any = data
+    for part in location:
+        in_mapping = isinstance(at, Mapping) and part in at
+        in_list = isinstance(at, (list, tuple)) and isinstance(part, int) and part < len(at)
+        if in_mapping or in_list:
+            at = at[part]
+            path.append(part)
+    return tuple(path)
+
+
+def _model_at(path: Path, root: type[BaseModel]) -> type[BaseModel]:
+    models: dict[str, type[BaseModel]] = {"balloons": Balloon, "steps": Step, "physics": Physics}
+    if not path:
+        return root
+    return LockJoints if path[-1] == "lock" else models.get(str(path[0]), root)
+
+
+def _unknown_key(path: Path, root: type[BaseModel]) -> str:
+    model = _model_at(path[:-1], root)
+    return unknown("key", path[-1], model.model_fields)
+
+
+def _unknown_choice(path: Path, value: object, expected: str) -> str:
+    choices = [word or number for word, number in _CHOICE.findall(expected)]
+    what = {"size": "balloon size"}.get(str(path[-1]), str(path[-1])) if path else "value"
+    if isinstance(value, (str, int)) and not isinstance(value, bool):
+        return unknown(what, str(value) if isinstance(value, int) else value, choices)
+    return f"{quoted(value)} is no {what}, expected {one_of(choices)}"
+
+
+def _wanted(path: Path) -> str:
+    wanted = {
+        "format": "format: 1",
+        "name": "a name for the file such as dog",
+        "balloons": "balloons such as {main: {size: 260, color: red, tail: 10}}",
+        "steps": f"a list of steps, each with {one_of(KINDS)}",
+        "size": "the size of the balloon, such as 260",
+        "joints": "a list such as [nose.end, tail.start]",
+    }
+    return wanted.get(str(path[-1]), "it here")

@@ -1,0 +1,108 @@
+"""Write a recipe as YAML, the way a maker would: blocks outside, one line for each step."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from .quantities import angle_entry, length_entry, short_number
+from .scalars import plain_scalar
+
+if TYPE_CHECKING:
+    from .balloons import Balloon
+    from .recipe import Recipe
+    from .steps import Step
+
+Entries = dict[str, object]
+
+_PLAIN_WORD = re.compile(r"[A-Za-z_][A-Za-z0-9_.+ -]*", re.ASCII)
+
+
+def recipe_entries(recipe: Recipe) -> Entries:
+    """Plain data of a recipe as it stands in a file: lengths in its units, angles in degrees."""
+    written = recipe.model_dump(exclude_defaults=True)
+    kept = {key: written[key] for key in ("name", "title", "source", "units", "fps") if key in written}
+    balloons = {name: _balloon_entries(entry, recipe.units) for name, entry in recipe.balloons.items()}
+    steps = [_step_entries(step, recipe.units) for step in recipe.steps]
+    entries: Entries = {"format": recipe.format, **kept, "balloons": balloons, "steps": steps}
+    if "physics" in written:
+        entries["physics"] = written["physics"]
+    return entries
+
+
+def recipe_text(entries: Mapping[str, object]) -> str:
+    """YAML text of the plain data of a recipe."""
+    lines: list[str] = []
+    for key, value in entries.items():
+        if key == "steps" and isinstance(value, list) and value:
+            lines.append("steps:")
+            for step in value:
+                lines += _step_lines(step)
+        elif key in ("balloons", "physics") and isinstance(value, Mapping) and value:
+            lines.append(f"{key}:")
+            lines += [f"  {_text(name)}: {_flow(entry)}" for name, entry in value.items()]
+        else:
+            lines.append(f"{_text(key)}: {_flow(value)}")
+    return "\n".join(lines) + "\n"
+
+
+def _balloon_entries(balloon: Balloon, units: str | None) -> Entries:
+    entries: Entries = {"size": int(balloon.size)}
+    if "color" in balloon.model_fields_set:
+        entries["color"] = balloon.model_dump(include={"color"})["color"]
+    for key in ("tail", "inflated", "radius", "length", "thickness"):
+        length = getattr(balloon, key)
+        if length is not None:
+            entries[key] = length_entry(length, units)
+    return entries
+
+
+def _step_entries(step: Step, units: str | None) -> Entries:
+    entries: Entries = step.model_dump(exclude_defaults=True)
+    if step.lengths:
+        entries[step.kind] = {name: length_entry(length, units) for name, length in step.lengths.items()}
+    if step.bend:
+        entries["bend"] = {name: angle_entry(angle) for name, angle in step.bend.items()}
+    return entries
+
+
+def _step_lines(step: object) -> list[str]:
+    if not isinstance(step, Mapping) or not step:
+        return [f"  - {_flow(step)}"]
+    lines = [f"    {_text(key)}: {_flow(value)}" for key, value in step.items()]
+    return ["  - " + lines[0][4:], *lines[1:]]
+
+
+def _flow(value: object) -> str:
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(f"{_text(key)}: {_flow(entry)}" for key, entry in value.items()) + "}"
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(_flow(entry) for entry in value) + "]"
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, (int, float)):
+        return _number(value)
+    return "null" if value is None else _text(str(value))
+
+
+def _number(value: float) -> str:
+    if value != value:
+        return ".nan"
+    if value in (float("inf"), float("-inf")):
+        return ".inf" if value > 0 else "-.inf"
+    return repr(short_number(value))
+
+
+def _text(text: str) -> str:
+    plain = _PLAIN_WORD.fullmatch(text) and not text.endswith(" ") and plain_scalar(text) == text
+    return text if plain else '"' + "".join(_escaped(letter) for letter in text) + '"'
+
+
+def _escaped(letter: str) -> str:
+    """Escape what YAML would fold, refuse, or take for the end of the text."""
+    if letter in '"\\':
+        return "\\" + letter
+    if letter.isprintable():
+        return letter
+    return f"\\U{ord(letter):08X}"

@@ -1,0 +1,26 @@
+"""Frames: what a simulation gives out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True)
+class Frame:
+    """One frame of one sculpture."""
+
+    time_code: int
+    """Number of the frame, from 1."""
+    points: tuple[NDArray[np.float32], ...]
+    """Vertex positions of every balloon, (V, 3) float32, m."""
+    stretch: tuple[NDArray[np.float32], ...]
+    """Largest principal stretch at every vertex of every balloon, (V,) float32."""
+    pressure: NDArray[np.float32]
+    """Gauge pressure of every bubble in plan order, (bubbles,) float32, Pa."""
+    volume: NDArray[np.float32]
+    """Gas volume of every bubble in plan order, (bubbles,) float32, m3."""
+    doing: str
+    """What the hands do."""

@@ -1,0 +1,284 @@
+"""Rubber on rubber: which walls face each other, how hard they press, and Coulomb friction between them."""
+
+import warp as wp
+
+TARGETS = 2
+"""Walls that one vertex may touch at a time."""
+HITS = 24
+"""Vertices that may press on one quad at a time."""
+
+FACING = wp.constant(-0.1)
+"""Walls face each other when the dot product of their outward normals is below this."""
+DEPTH_LIMIT = wp.constant(0.6)
+"""Deepest overlap taken for a contact, in local tube radii: beyond it the other wall is the tube's far side."""
+REACH = wp.constant(0.85)
+"""Search reach in lengths of a quad's side: more than half its diagonal."""
+SIDE_SLIP = wp.constant(0.25)
+"""How far beside a quad, in lengths of its side, its plane still holds a vertex."""
+STICK = wp.constant(0.5)
+"""Tangential stiffness of a contact, in normal stiffnesses."""
+STABLE = wp.constant(0.25)
+"""Largest contact stiffness, in vertex masses per squared time step."""
+NORMAL_DAMPING = wp.constant(0.2)
+"""Damping of the approach, as a share of what would stop the vertex in one substep."""
+
+
+@wp.struct
+class Touch:
+    """How walls press on each other."""
+
+    offset: float
+    """Distance at which walls begin to press, m."""
+    pressure: float
+    """Contact pressure where the offset is used up, Pa."""
+    margin: float
+    """Further distance within which walls are watched between two searches, m."""
+    apart: float
+    """Unstressed distance along one balloon, in R0, within which its wall never meets itself."""
+
+
+@wp.kernel
+def quad_surface(
+    quads: wp.array[wp.vec4i],
+    x: wp.array[wp.vec3],
+    middle: wp.array[wp.vec3],
+    area: wp.array[wp.vec3],
+):
+    """Write the middle (m) and the vector area (m2) of every quad."""
+    q = wp.tid()
+    c = quads[q]
+    middle[q] = 0.25 * (x[c[0]] + x[c[1]] + x[c[2]] + x[c[3]])
+    area[q] = 0.5 * wp.cross(x[c[2]] - x[c[0]], x[c[3]] - x[c[1]])
+
+
+@wp.kernel
+def vertex_surface(
+    corners: wp.array[wp.vec4i],
+    quad_area: wp.array[wp.vec3],
+    normal: wp.array[wp.vec3],
+    area: wp.array[float],
+):
+    """Write the outward unit normal and the share of the wall's area (m2) of every vertex."""
+    i = wp.tid()
+    slots = corners[i]
+    total = wp.vec3(0.0)
+    size = float(0.0)
+    for k in range(4):
+        if slots[k] >= 0:
+            a = quad_area[slots[k] // 4]
+            total += a
+            size += 0.25 * wp.length(a)
+    normal[i] = wp.normalize(total)
+    area[i] = size
+
+
+@wp.kernel
+def ring_radii(
+    ring_first: wp.array[int],
+    ring_around: wp.array[int],
+    x: wp.array[wp.vec3],
+    radius: wp.array[float],
+):
+    """Write the radius (m) of every ring, its girth over 2 pi."""
+    r = wp.tid()
+    girth = float(0.0)
+    first = ring_first[r]
+    n = ring_around[r]
+    last = x[first + n - 1]
+    for k in range(n):
+        here = x[first + k]
+        girth += wp.length(here - last)
+        last = here
+    radius[r] = girth / (2.0 * wp.pi)
+
+
+@wp.func
+def nearest_on_patch(x0: wp.vec3, x1: wp.vec3, x2: wp.vec3, x3: wp.vec3, p: wp.vec3):
+    """Return the coordinates (-1/2 .. 1/2) of the point of a bilinear patch nearest to p, by Gauss-Newton."""
+    c = 0.25 * (x0 + x1 + x2 + x3) - p
+    a = 0.5 * (x1 - x0 + x2 - x3)
+    b = 0.5 * (x3 - x0 + x2 - x1)
+    h = x0 - x1 + x2 - x3
+    u = float(0.0)
+    w = float(0.0)
+    for _ in range(3):
+        r = c + u * a + w * b + u * w * h
+        du = a + w * h
+        dw = b + u * h
+        aa = wp.dot(du, du)
+        bb = wp.dot(dw, dw)
+        ab = wp.dot(du, dw)
+        det = wp.max(aa * bb - ab * ab, 1.0e-20)
+        ra = wp.dot(r, du)
+        rb = wp.dot(r, dw)
+        u = wp.clamp(u - (bb * ra - ab * rb) / det, -0.5, 0.5)
+        w = wp.clamp(w - (aa * rb - ab * ra) / det, -0.5, 0.5)
+    return wp.vec2(u, w)
+
+
+@wp.func
+def patch_shares(uw: wp.vec2):
+    """Return how a point of a bilinear patch is shared by its four corners."""
+    u = uw[0]
+    w = uw[1]
+    return wp.vec4((0.5 - u) * (0.5 - w), (0.5 + u) * (0.5 - w), (0.5 + u) * (0.5 + w), (0.5 - u) * (0.5 + w))
+
+
+@wp.kernel
+def find_walls(
+    grid: wp.uint64,
+    quads: wp.array[wp.vec4i],
+    quad_segment: wp.array[int],
+    quad_ring: wp.array[int],
+    quad_along: wp.array[float],
+    quad_balloon: wp.array[int],
+    vertex_ring: wp.array[int],
+    vertex_along: wp.array[float],
+    vertex_balloon: wp.array[int],
+    balloon_world: wp.array[int],
+    balloon_radius: wp.array[float],
+    touch: Touch,
+    x: wp.array[wp.vec3],
+    quad_middle: wp.array[wp.vec3],
+    quad_area: wp.array[wp.vec3],
+    normal: wp.array[wp.vec3],
+    area: wp.array[float],
+    ring_radius: wp.array[float],
+    target: wp.array2d[int],
+    slip: wp.array2d[wp.vec3],
+    hit_count: wp.array[int],
+    hits: wp.array2d[int],
+):
+    """Choose for every vertex the nearest facing quads, of different bubbles, and enter it in their lists."""
+    i = wp.tid()
+    p = x[i]
+    n = normal[i]
+    mine = vertex_balloon[i]
+    apart = touch.apart * balloon_radius[mine]
+    depth = DEPTH_LIMIT * ring_radius[vertex_ring[i]]
+    reach = REACH * wp.sqrt(area[i]) + touch.offset + touch.margin
+    best = wp.vec2(reach, reach)
+    found = wp.vec2i(-1, -1)
+    query = wp.hash_grid_query(grid, p, reach, balloon_world[mine])
+    q = int(0)
+    while wp.hash_grid_query_next(query, q):
+        if quad_balloon[q] != mine or wp.abs(quad_along[q] - vertex_along[i]) > apart:
+            a = quad_area[q]
+            size = wp.length(a)
+            face = a / wp.max(size, 1.0e-12)
+            height = wp.dot(p - quad_middle[q], face)
+            limit = wp.min(depth, DEPTH_LIMIT * ring_radius[quad_ring[q]])
+            if wp.dot(face, n) < FACING and height > -limit and height < touch.offset + touch.margin:
+                beside = wp.length(p - quad_middle[q] - height * face)
+                if beside < reach:
+                    c = quads[q]
+                    s = patch_shares(nearest_on_patch(x[c[0]], x[c[1]], x[c[2]], x[c[3]], p))
+                    gap = p - (s[0] * x[c[0]] + s[1] * x[c[1]] + s[2] * x[c[2]] + s[3] * x[c[3]])
+                    up = wp.dot(gap, face)
+                    across = wp.length(gap - up * face)
+                    if across < SIDE_SLIP * wp.sqrt(size):
+                        distance = wp.length(gap)
+                        if distance < best[0]:
+                            if found[0] >= 0 and quad_segment[found[0]] != quad_segment[q]:
+                                best = wp.vec2(distance, best[0])
+                                found = wp.vec2i(q, found[0])
+                            else:
+                                best = wp.vec2(distance, best[1])
+                                found = wp.vec2i(q, found[1])
+                        elif distance < best[1] and quad_segment[found[0]] != quad_segment[q]:
+                            best = wp.vec2(best[0], distance)
+                            found = wp.vec2i(found[0], q)
+    before0 = target[i, 0]
+    before1 = target[i, 1]
+    slip0 = slip[i, 0]
+    slip1 = slip[i, 1]
+    for k in range(2):
+        kept = wp.vec3(0.0)
+        if found[k] >= 0:
+            if before0 >= 0 and quad_segment[before0] == quad_segment[found[k]]:
+                kept = slip0
+            elif before1 >= 0 and quad_segment[before1] == quad_segment[found[k]]:
+                kept = slip1
+            place = wp.atomic_add(hit_count, found[k], 1)
+            if place < 24:
+                hits[found[k], place] = 2 * i + k
+        target[i, k] = found[k]
+        slip[i, k] = kept
+
+
+@wp.kernel
+def order_hits(hit_count: wp.array[int], most_hits: wp.array[int], hits: wp.array2d[int]):
+    """Sort every quad's list, so that sums do not depend on which thread came first; remember the longest list."""
+    q = wp.tid()
+    count = hit_count[q]
+    if count > 0:
+        wp.atomic_max(most_hits, 0, count)
+        count = wp.min(count, 24)
+        hit_count[q] = count
+        for k in range(1, count):
+            here = hits[q, k]
+            j = int(k)
+            while j > 0 and hits[q, wp.max(j - 1, 0)] > here:
+                hits[q, j] = hits[q, j - 1]
+                j -= 1
+            hits[q, j] = here
+
+
+@wp.kernel
+def press_walls(
+    quads: wp.array[wp.vec4i],
+    mass: wp.array[float],
+    touch: Touch,
+    friction: wp.array[float],
+    vertex_balloon: wp.array[int],
+    dt: float,
+    area: wp.array[float],
+    quad_area: wp.array[wp.vec3],
+    target: wp.array2d[int],
+    x: wp.array[wp.vec3],
+    v: wp.array[wp.vec3],
+    slip: wp.array2d[wp.vec3],
+    force: wp.array2d[wp.vec3],
+    share: wp.array2d[wp.vec4],
+):
+    """Write the contact force (N) on every touching vertex and how the quad that it touches shares it."""
+    i = wp.tid()
+    for k in range(2):
+        q = target[i, k]
+        if q >= 0:
+            c = quads[q]
+            p = x[i]
+            s = patch_shares(nearest_on_patch(x[c[0]], x[c[1]], x[c[2]], x[c[3]], p))
+            gap = p - (s[0] * x[c[0]] + s[1] * x[c[1]] + s[2] * x[c[2]] + s[3] * x[c[3]])
+            face = wp.normalize(wp.cross(x[c[2]] - x[c[0]], x[c[3]] - x[c[1]]))
+            height = wp.dot(gap, face)
+            overlap = touch.offset - height
+            f = wp.vec3(0.0)
+            moved = wp.vec3(0.0)
+            if overlap > 0.0 and wp.length(gap - height * face) < 2.0 * SIDE_SLIP * wp.sqrt(
+                wp.length(quad_area[q])
+            ):
+                stiffness = wp.min(touch.pressure * area[i] / touch.offset, STABLE * mass[i] / (dt * dt))
+                going = v[i] - (s[0] * v[c[0]] + s[1] * v[c[1]] + s[2] * v[c[2]] + s[3] * v[c[3]])
+                approach = wp.dot(going, face)
+                push = wp.max(
+                    stiffness * overlap
+                    - NORMAL_DAMPING
+                    * mass[i]
+                    / dt
+                    * wp.min(approach, 0.0)
+                    * wp.min(overlap / touch.offset, 1.0),
+                    0.0,
+                )
+                along = going - approach * face
+                moved = slip[i, k] + along * dt
+                moved = moved - wp.dot(moved, face) * face
+                grip = STICK * stiffness
+                hold = friction[vertex_balloon[i]] * push / grip
+                far = wp.length(moved)
+                if far > hold:
+                    moved = moved * (hold / far)
+                f = push * face - grip * moved
+            slip[i, k] = moved
+            force[i, k] = f
+            share[i, k] = s

@@ -1,0 +1,229 @@
+"""Joints: rings closed by a twist, the hands on them, welds between them and the friction that keeps a weld's pose."""
+
+import warp as wp
+
+GRIP_MODE = 1
+LEAD_MODE = 2
+CLASP_MODE = 3
+GRIP = wp.constant(GRIP_MODE)
+"""Hand mode: the ring's middle follows the hand exactly."""
+LEAD = wp.constant(LEAD_MODE)
+"""Hand mode: the hand draws the ring's middle with limited force."""
+CLASP = wp.constant(CLASP_MODE)
+"""Hand mode: as a grip, and the closed ring does not turn."""
+
+
+@wp.func
+def held(mode: int):
+    """Return 1 where a hand holds a ring exactly."""
+    if mode == GRIP or mode == CLASP:
+        return 1
+    return 0
+
+
+Axes = wp.types.matrix(shape=(3, 2), dtype=float)
+"""The two in-plane unit axes of a ring, as columns."""
+
+
+@wp.func
+def regular_ring(x: wp.array[wp.vec3], first: int, around: int, c: wp.vec3):
+    """Return the two in-plane axes of the regular polygon nearest to a ring, as columns (polar decomposition)."""
+    a = wp.vec3(0.0)
+    b = wp.vec3(0.0)
+    step = 2.0 * wp.pi / float(around)
+    for k in range(around):
+        d = x[first + k] - c
+        a += d * wp.cos(step * float(k))
+        b += d * wp.sin(step * float(k))
+    a = wp.normalize(a)
+    b = wp.normalize(b)
+    s = wp.normalize(a + b)
+    t = wp.normalize(a - b)
+    return wp.matrix_from_cols((s + t) * wp.sqrt(0.5), (s - t) * wp.sqrt(0.5))
+
+
+@wp.kernel
+def move_joints(
+    joint_first: wp.array[int],
+    joint_around: wp.array[int],
+    joint_struts: wp.array2d[int],
+    joint_mass: wp.array[float],
+    dt: float,
+    frame: float,
+    fraction: float,
+    hand: wp.array[int],
+    hand_from: wp.array[wp.vec3],
+    hand_to: wp.array[wp.vec3],
+    hand_force: wp.array[float],
+    hand_stiffness: wp.array[float],
+    radius_from: wp.array[float],
+    radius_to: wp.array[float],
+    strut_force: wp.array[wp.vec3],
+    x: wp.array[wp.vec3],
+    v: wp.array[wp.vec3],
+    middle: wp.array[wp.vec3],
+    area: wp.array[wp.vec3],
+    clasp: wp.array[Axes],
+    speed: wp.array[wp.vec3],
+    hand_load: wp.array[wp.vec3],
+):
+    """Hold, lead and close the ring of every joint; write its middle (m), vector area (m2), axes, speed (m/s) and the hand's force (N)."""
+    j = wp.tid()
+    first = joint_first[j]
+    n = joint_around[j]
+    c = wp.vec3(0.0)
+    w = wp.vec3(0.0)
+    for k in range(n):
+        c += x[first + k]
+        w += v[first + k]
+    c = c / float(n)
+    w = w / float(n)
+    force = wp.vec3(0.0)
+    for k in range(joint_struts.shape[1]):
+        s = joint_struts[j, k]
+        if s > 0:
+            force += strut_force[s - 1]
+        elif s < 0:
+            force -= strut_force[-s - 1]
+    goal = hand_from[j] + fraction * (hand_to[j] - hand_from[j])
+    load = wp.vec3(0.0)
+    if hand[j] == LEAD:
+        load = hand_stiffness[j] * (goal - c) - wp.sqrt(hand_stiffness[j] * joint_mass[j]) * (
+            w - (hand_to[j] - hand_from[j]) / frame
+        )
+        size = wp.length(load)
+        if size > hand_force[j]:
+            load = load * (hand_force[j] / size)
+        force += load
+    kick = force * (dt / joint_mass[j])
+    shift = kick * dt
+    if hand[j] == GRIP or hand[j] == CLASP:
+        wanted = (hand_to[j] - hand_from[j]) / frame
+        load = (wanted - w) * (joint_mass[j] / dt)
+        kick = wanted - w
+        shift = goal - c
+    radius = radius_from[j] + fraction * (radius_to[j] - radius_from[j])
+    for k in range(n):
+        x[first + k] = x[first + k] + shift
+        v[first + k] = v[first + k] + kick
+    c += shift
+    if hand[j] != CLASP:
+        clasp[j] = regular_ring(x, first, n, c)
+    if radius_to[j] > 0.0:
+        axes = clasp[j]
+        step = 2.0 * wp.pi / float(n)
+        for k in range(n):
+            angle = step * float(k)
+            at = c + axes * wp.vec2(radius * wp.cos(angle), radius * wp.sin(angle))
+            v[first + k] = v[first + k] + (at - x[first + k]) / dt
+            x[first + k] = at
+    a = wp.vec3(0.0)
+    last = x[first + n - 1] - c
+    for k in range(n):
+        here = x[first + k] - c
+        a += wp.cross(last, here)
+        last = here
+    middle[j] = c
+    area[j] = 0.5 * a
+    speed[j] = w + kick
+    hand_load[j] = load
+
+
+@wp.kernel
+def hold_welds(
+    weld_joint: wp.array2d[int],
+    weld_size: wp.array[int],
+    weld_spread: wp.array[float],
+    weld_gap: wp.array[float],
+    joint_first: wp.array[int],
+    joint_around: wp.array[int],
+    hand: wp.array[int],
+    dt: float,
+    x: wp.array[wp.vec3],
+    v: wp.array[wp.vec3],
+    middle: wp.array[wp.vec3],
+):
+    """Keep the necks of every weld side by side: within its spread (m) of their mean, at least its gap (m) apart."""
+    g = wp.tid()
+    size = weld_size[g]
+    if size > 1:
+        mean = wp.vec3(0.0)
+        free = float(0.0)
+        for k in range(size):
+            mean += middle[weld_joint[g, k]]
+            if held(hand[weld_joint[g, k]]) == 0:
+                free += 1.0
+        mean = mean / float(size)
+        for k in range(size):
+            j = weld_joint[g, k]
+            out = middle[j] - mean
+            far = wp.length(out)
+            shift = wp.vec3(0.0)
+            if far > weld_spread[g]:
+                shift = out * (weld_spread[g] / far - 1.0)
+            for m in range(size):
+                if m != k:
+                    d = middle[j] - middle[weld_joint[g, m]]
+                    near = wp.length(d)
+                    if near < weld_gap[g] and near > 1.0e-6:
+                        shift += d * (0.5 * (weld_gap[g] / near - 1.0))
+            weld_shift(g, k, shift, hand, weld_joint, joint_first, joint_around, dt, x, v)
+        for k in range(size):
+            j = weld_joint[g, k]
+            c = wp.vec3(0.0)
+            for m in range(joint_around[j]):
+                c += x[joint_first[j] + m]
+            middle[j] = c / float(joint_around[j])
+
+
+@wp.func
+def weld_shift(
+    g: int,
+    k: int,
+    shift: wp.vec3,
+    hand: wp.array[int],
+    weld_joint: wp.array2d[int],
+    joint_first: wp.array[int],
+    joint_around: wp.array[int],
+    dt: float,
+    x: wp.array[wp.vec3],
+    v: wp.array[wp.vec3],
+):
+    """Move one ring of a weld, unless a hand holds it."""
+    j = weld_joint[g, k]
+    if held(hand[j]) == 0:
+        first = joint_first[j]
+        for m in range(joint_around[j]):
+            x[first + m] = x[first + m] + shift
+            v[first + m] = v[first + m] + shift / dt
+
+
+@wp.kernel
+def load_struts(
+    strut_joint: wp.array[wp.vec2i],
+    strut_stiffness: wp.array[float],
+    strut_damping: wp.array[float],
+    strut_yield: wp.array[float],
+    middle: wp.array[wp.vec3],
+    speed: wp.array[wp.vec3],
+    length: wp.array[float],
+    force: wp.array[wp.vec3],
+):
+    """Write the force (N) on the first end of every strut; beyond its yield force the strut gives way for good."""
+    s = wp.tid()
+    ends = strut_joint[s]
+    pull = wp.vec3(0.0)
+    if ends[0] >= 0:
+        d = middle[ends[1]] - middle[ends[0]]
+        now = wp.length(d)
+        along = d / wp.max(now, 1.0e-6)
+        tension = strut_stiffness[s] * (now - length[s])
+        if tension > strut_yield[s]:
+            length[s] = now - strut_yield[s] / strut_stiffness[s]
+            tension = strut_yield[s]
+        elif tension < -strut_yield[s]:
+            length[s] = now + strut_yield[s] / strut_stiffness[s]
+            tension = -strut_yield[s]
+        tension += strut_damping[s] * wp.dot(speed[ends[1]] - speed[ends[0]], along)
+        pull = tension * along
+    force[s] = pull

@@ -1,0 +1,159 @@
+"""Forces of the rubber wall and of the gas on it, one quad at a time."""
+
+import warp as wp
+
+from balloon_usd.solver.kernels.rubber import Law, ogden_membrane, softening_factor
+
+MIN_STRETCH = wp.constant(0.05)
+"""Smallest stretch that enters a rubber law (1): a collapsed quad must not divide by zero."""
+SLACK = wp.constant(1.0e-4)
+"""Difference of squared stretches below which they count as equal (1)."""
+
+
+@wp.kernel
+def quad_forces(
+    quads: wp.array[wp.vec4i],
+    quad_segment: wp.array[int],
+    segment_origin: wp.array[int],
+    quad_law: wp.array[int],
+    to_rest: wp.array[wp.mat22],
+    hourglass: wp.array[wp.vec4],
+    rubber_volume: wp.array[float],
+    laws: wp.array[Law],
+    hit_count: wp.array[int],
+    hits: wp.array2d[int],
+    contact_force: wp.array2d[wp.vec3],
+    contact_share: wp.array2d[wp.vec4],
+    pressure: wp.array[float],
+    x: wp.array[wp.vec3],
+    v: wp.array[wp.vec3],
+    peak_energy: wp.array[float],
+    corner_force: wp.array2d[wp.vec3],
+):
+    """Write the force (N) of wall, gas and touching vertices on the four corners of every quad."""
+    q = wp.tid()
+    c = quads[q]
+    law = laws[quad_law[q]]
+    x0 = x[c[0]]
+    x1 = x[c[1]]
+    x2 = x[c[2]]
+    x3 = x[c[3]]
+    hoop = 0.5 * (x1 - x0 + x2 - x3)
+    axial = 0.5 * (x3 - x0 + x2 - x1)
+    b = to_rest[q]
+    f1 = hoop * b[0, 0] + axial * b[1, 0]
+    f2 = hoop * b[0, 1] + axial * b[1, 1]
+    c11 = wp.dot(f1, f1)
+    c22 = wp.dot(f2, f2)
+    c12 = wp.dot(f1, f2)
+
+    # Principal stretches of the mean deformation; the smaller one may not shrink below what uniaxial
+    # tension gives: there the wall wrinkles instead of pushing (tension field).
+    mean = 0.5 * (c11 + c22)
+    radius = wp.sqrt(wp.max(0.25 * (c11 - c22) * (c11 - c22) + c12 * c12, 0.0))
+    large2 = wp.max(mean + radius, MIN_STRETCH * MIN_STRETCH)
+    small2 = wp.max(mean - radius, MIN_STRETCH * MIN_STRETCH)
+    stress_large = float(0.0)
+    stress_small = float(0.0)
+    if large2 > 1.0:
+        large = wp.sqrt(large2)
+        small = wp.max(wp.sqrt(small2), 1.0 / wp.sqrt(large))
+        t = ogden_membrane(law, large, small)
+        peak = wp.max(peak_energy[q], t[2])
+        peak_energy[q] = peak
+        soft = softening_factor(law, t[2], peak)
+        stress_large = soft * t[0] / large2
+        stress_small = soft * t[1] / small2
+    isotropic = stress_large
+    linear = float(0.0)
+    if large2 - small2 > SLACK:
+        linear = (stress_large - stress_small) / (large2 - small2)
+        isotropic = stress_large - linear * large2
+    s11 = isotropic + linear * c11
+    s22 = isotropic + linear * c22
+    s12 = linear * c12
+
+    v0 = v[c[0]]
+    v1 = v[c[1]]
+    v2 = v[c[2]]
+    v3 = v[c[3]]
+    hoop_rate = 0.5 * (v1 - v0 + v2 - v3)
+    axial_rate = 0.5 * (v3 - v0 + v2 - v1)
+    g1 = hoop_rate * b[0, 0] + axial_rate * b[1, 0]
+    g2 = hoop_rate * b[0, 1] + axial_rate * b[1, 1]
+    viscous = law.viscosity / wp.max(mean, 0.25)
+    s11 += viscous * wp.dot(f1, g1)
+    s22 += viscous * wp.dot(f2, g2)
+    s12 += viscous * 0.5 * (wp.dot(f1, g2) + wp.dot(f2, g1))
+
+    w = rubber_volume[q]
+    p1 = w * (f1 * s11 + f2 * s12)
+    p2 = w * (f1 * s12 + f2 * s22)
+    pull_hoop = 0.5 * (p1 * b[0, 0] + p2 * b[0, 1])
+    pull_axial = 0.5 * (p1 * b[1, 0] + p2 * b[1, 1])
+
+    # Hourglass: the one deformation that the mean gradient does not see.
+    h = hourglass[q]
+    bow = h[0] * x0 + h[1] * x1 + h[2] * x2 + h[3] * x3
+    bow_rate = h[0] * v0 + h[1] * v1 + h[2] * v2 + h[3] * v3
+    resist = -(bow + law.hourglass_damping * bow_rate)
+
+    # Gas: the exact gradient of the volume under the bilinear patch.
+    p = pressure[quad_segment[q]]
+    o = x[segment_origin[quad_segment[q]]]
+    middle = 0.25 * (x0 + x1 + x2 + x3) - o
+    d1 = x2 - x0
+    d2 = x3 - x1
+    even = (p / 24.0) * wp.cross(d1, d2)
+    push1 = (p / 6.0) * wp.cross(d2, middle)
+    push2 = (p / 6.0) * wp.cross(middle, d1)
+
+    f0 = pull_hoop + pull_axial + h[0] * resist + even - push1
+    fa = -pull_hoop + pull_axial + h[1] * resist + even - push2
+    fb = -pull_hoop - pull_axial + h[2] * resist + even + push1
+    fc = pull_hoop - pull_axial + h[3] * resist + even + push2
+
+    for k in range(hit_count[q]):
+        hit = hits[q, k]
+        f = contact_force[hit // 2, hit % 2]
+        share = contact_share[hit // 2, hit % 2]
+        f0 -= share[0] * f
+        fa -= share[1] * f
+        fb -= share[2] * f
+        fc -= share[3] * f
+    corner_force[q, 0] = f0
+    corner_force[q, 1] = fa
+    corner_force[q, 2] = fb
+    corner_force[q, 3] = fc
+
+
+@wp.kernel
+def vertex_stretch(
+    corners: wp.array[wp.vec4i],
+    quads: wp.array[wp.vec4i],
+    to_rest: wp.array[wp.mat22],
+    x: wp.array[wp.vec3],
+    stretch: wp.array[float],
+):
+    """Write the largest principal stretch of the wall at every vertex, the mean over its quads."""
+    i = wp.tid()
+    total = float(0.0)
+    count = float(0.0)
+    slots = corners[i]
+    for k in range(4):
+        slot = slots[k]
+        if slot >= 0:
+            q = slot // 4
+            c = quads[q]
+            b = to_rest[q]
+            hoop = 0.5 * (x[c[1]] - x[c[0]] + x[c[2]] - x[c[3]])
+            axial = 0.5 * (x[c[3]] - x[c[0]] + x[c[2]] - x[c[1]])
+            f1 = hoop * b[0, 0] + axial * b[1, 0]
+            f2 = hoop * b[0, 1] + axial * b[1, 1]
+            c11 = wp.dot(f1, f1)
+            c22 = wp.dot(f2, f2)
+            c12 = wp.dot(f1, f2)
+            radius = wp.sqrt(wp.max(0.25 * (c11 - c22) * (c11 - c22) + c12 * c12, 0.0))
+            total += wp.sqrt(0.5 * (c11 + c22) + radius)
+            count += 1.0
+    stretch[i] = total / wp.max(count, 1.0)

@@ -1,0 +1,159 @@
+"""Simulations: plans in, frames out, many sculptures in one flat state."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+import warp as wp
+
+from balloon_usd.balloon.detail import Detail, detail_named
+from balloon_usd.balloon.tube_theory import maxwell_state
+from balloon_usd.plan.choreography import Bring, Gather
+from balloon_usd.plan.meshing import joint_places, mesh_of
+from balloon_usd.solver.body import Body, tube_body
+from balloon_usd.solver.frame import Frame
+from balloon_usd.solver.hands import Hands, StrutLaw, Struts
+from balloon_usd.solver.maker import Maker
+from balloon_usd.solver.scene import SceneSettings, build_scene
+from balloon_usd.solver.stepper import Stepper
+
+if TYPE_CHECKING:
+    from balloon_usd.balloon.tube_mesh import BalloonMesh
+    from balloon_usd.plan import Plan, Strip
+
+NOMINAL_RATE = 24.0
+"""Frame rate for which the levels of detail give their substeps, 1/s."""
+SPREAD = 0.14
+"""Distance between two balloons of one sculpture before they are joined, m."""
+SEALED_KNOT = 0.7
+"""Pressure in the knot bead, in Maxwell pressures of its balloon."""
+STRUTS_PER_JOINT = 12
+"""Room for struts, per joint of the scene."""
+
+
+class Simulation:
+    """Plans performed together, one frame at a time."""
+
+    def __init__(self, plans: Sequence[Plan], detail: Detail, device: str) -> None:
+        self.plans = tuple(plans)
+        self.detail = detail
+        self.device = device
+        self.fps = _one_rate(self.plans)
+        self.substeps = _substeps(self.plans, detail, self.fps)
+        self.meshes: list[tuple[BalloonMesh, ...]] = []
+        bodies: list[Body] = []
+        worlds: list[int] = []
+        for world, plan in enumerate(self.plans):
+            meshes = tuple(mesh_of(strip, detail) for strip in plan.strips.values())
+            self.meshes.append(meshes)
+            for k, (strip, mesh) in enumerate(zip(plan.strips.values(), meshes, strict=True)):
+                bodies.append(_body(plan, strip, mesh, k - 0.5 * (len(meshes) - 1)))
+                worlds.append(world)
+        physics = self.plans[0].recipe.physics
+        settings = SceneSettings(
+            dt=1.0 / (self.fps * self.substeps),
+            gravity=physics.gravity,
+            friction=physics.friction,
+            scale_mass=physics.mass_scaling == "selective",
+        )
+        rings = sum(len(b.rings) for b in bodies)
+        self.scene = build_scene(bodies, worlds, settings, device, rings, STRUTS_PER_JOINT * rings)
+        self.stepper = Stepper(self.scene, self.substeps, _reach(bodies, settings))
+        self.hands = Hands(self.scene)
+        self.struts = Struts(self.scene, StrutLaw())
+        first = np.concatenate([[0], np.cumsum([len(m) for m in self.meshes])])
+        self.makers = [
+            Maker(plan, self.scene, self.hands, self.struts, int(first[w])) for w, plan in enumerate(self.plans)
+        ]
+        self._first_body = first
+
+    @property
+    def frame_counts(self) -> tuple[int, ...]:
+        """Number of frames of every plan; the first shows the flat balloons."""
+        return tuple(1 + math.ceil(plan.choreography.seconds * self.fps - 1e-6) for plan in self.plans)
+
+    def frames(self) -> Iterator[list[Frame | None]]:
+        """Yield the next frame of every plan, None for a plan that is finished, until all are."""
+        counts = self.frame_counts
+        for index in range(max(counts)):
+            if index:
+                self._advance(index)
+            yield self._read(index, counts)
+
+    def _advance(self, index: int) -> None:
+        middle = self.scene.ring_middle.numpy()
+        begin, end = (index - 1) / self.fps, index / self.fps
+        for maker in self.makers:
+            maker.act(begin, end, middle)
+        self.hands.upload()
+        self.stepper.advance(contact=self._touching(begin))
+        self.hands.arrived()
+
+    def _touching(self, now: float) -> bool:
+        """Whether any balloon can touch a wall: from the first time that a chain is folded."""
+        return any(
+            isinstance(move, Gather | Bring) and move.start <= now
+            for plan in self.plans
+            for move in plan.choreography.moves
+        )
+
+    def _read(self, index: int, counts: tuple[int, ...]) -> list[Frame | None]:
+        s = self.scene
+        self.stepper.stretch()
+        x, stretch = s.x.numpy(), s.stretch.numpy()
+        pressure, volume = s.pressure.numpy(), s.volume.numpy()
+        out: list[Frame | None] = []
+        for world, maker in enumerate(self.makers):
+            if index >= counts[world]:
+                out.append(None)
+                continue
+            bodies = range(self._first_body[world], self._first_body[world + 1])
+            spans = [slice(s.vertex_start[b], s.vertex_start[b + 1]) for b in bodies]
+            # The lip and the knot bead come before the bubbles of every balloon.
+            bubbles = np.concatenate([np.arange(s.segment_start[b] + 2, s.segment_start[b + 1]) for b in bodies])
+            out.append(
+                Frame(
+                    index + 1,
+                    tuple(x[span].copy() for span in spans),
+                    tuple(stretch[span].copy() for span in spans),
+                    pressure[bubbles],
+                    volume[bubbles],
+                    maker.doing,
+                )
+            )
+        return out
+
+
+def _one_rate(plans: Sequence[Plan]) -> float:
+    rates = {plan.recipe.fps for plan in plans}
+    if len(rates) != 1:
+        raise ValueError(f"sculptures that advance together need one frame rate, got {sorted(rates)}")
+    return float(rates.pop())
+
+
+def _substeps(plans: Sequence[Plan], detail: Detail, fps: float) -> int:
+    wanted = [plan.recipe.physics.substeps or math.ceil(detail.substeps * NOMINAL_RATE / fps) for plan in plans]
+    return max(wanted) + max(wanted) % 2
+
+
+def _body(plan: Plan, strip: Strip, mesh: BalloonMesh, place: float) -> Body:
+    pressure = SEALED_KNOT * maxwell_state(strip.rubber).p_star * strip.size.thickness / strip.size.radius
+    guides = tuple(r.along for r in plan.table.rings if r.balloon == strip.balloon and not r.joint)
+    body = tube_body(mesh, strip.rubber, strip.size.radius, strip.size.thickness, joint_places(strip), guides, pressure)
+    body.points[:, 1] += np.float32(place * SPREAD)
+    return body
+
+
+def _reach(bodies: Sequence[Body], settings: SceneSettings) -> float:
+    """Cell size of the contact search, m: the bulged size of a quad and the contact offset."""
+    widest = max(2.0 * math.pi * b.radius / b.rings[0].around for b in bodies)
+    return 5.0 * widest + 2.0 * settings.contact_offset
+
+
+def simulate_many(plans: Sequence[Plan], detail: str = "draft", device: str = "cpu") -> Simulation:
+    """Return a simulation of several plans that advance together."""
+    wp.init()
+    return Simulation(plans, detail_named(detail), device)

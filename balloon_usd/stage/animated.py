@@ -1,0 +1,63 @@
+"""The attributes that move, one table for their time samples and their resting values."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
+
+import numpy as np
+from pxr import Sdf, Vt
+
+from balloon_usd.stage.provenance import KEY
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from balloon_usd.stage.pose import MeshPose, Pose
+
+STEP = f"{KEY}:step"
+"""String on the root prim: what the hands do, sampled where a step of the recipe begins."""
+
+
+P = TypeVar("P")
+
+
+@dataclass(frozen=True)
+class Animated(Generic[P]):
+    """An attribute, its value type and how its value is read from a pose."""
+
+    name: str
+    type_name: Any
+    read: Callable[[P], Any]
+    documentation: str = ""
+
+
+def _vectors(values: Any) -> Any:
+    return Vt.Vec3fArray.FromNumpy(np.ascontiguousarray(values))
+
+
+def _floats(values: Any) -> Any:
+    return Vt.FloatArray.FromNumpy(np.ascontiguousarray(values))
+
+
+ON_MESH: tuple[Animated[MeshPose], ...] = (
+    Animated("points", Sdf.ValueTypeNames.Point3fArray, lambda pose: _vectors(pose.points)),
+    Animated("extent", Sdf.ValueTypeNames.Float3Array, lambda pose: _vectors(pose.extent)),
+    Animated("primvars:stretch", Sdf.ValueTypeNames.FloatArray, lambda pose: _floats(pose.stretch)),
+    Animated("primvars:pressure", Sdf.ValueTypeNames.FloatArray, lambda pose: _floats(pose.pressure)),
+)
+
+ON_ROOT: tuple[Animated[Pose], ...] = (
+    Animated(
+        f"{KEY}:pressure",
+        Sdf.ValueTypeNames.FloatArray,
+        lambda pose: _floats(pose.pressure),
+        f"Gauge pressure of each bubble, Pa, in the order of {KEY}:bubbles.",
+    ),
+    Animated(
+        f"{KEY}:volume",
+        Sdf.ValueTypeNames.FloatArray,
+        lambda pose: _floats(pose.volume),
+        f"Gas volume of each bubble, m3, in the order of {KEY}:bubbles.",
+    ),
+)

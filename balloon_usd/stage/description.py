@@ -1,0 +1,155 @@
+"""What a stage shows: meshes with fixed topology, and the frames that move them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Protocol
+
+import numpy as np
+from pxr import Sdf
+
+from balloon_usd.stage.error import StageError
+from balloon_usd.stage.provenance import GIVEN, problems
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from numpy.typing import NDArray
+
+
+class StageFrame(Protocol):
+    """One moment of the animation. Arrays may be reused by the sender after the next frame is asked for."""
+
+    @property
+    def time_code(self) -> int:
+        """Whole time code, 1 or later, one more than that of the frame before."""
+
+    @property
+    def points(self) -> tuple[NDArray[np.float32], ...]:
+        """Positions [m], one (V, 3) float32 array a mesh."""
+
+    @property
+    def stretch(self) -> tuple[NDArray[np.float32], ...]:
+        """Largest principal stretch [1], one (V,) float32 array a mesh."""
+
+    @property
+    def pressure(self) -> NDArray[np.float32]:
+        """Gauge pressure [Pa], (bubbles,) float32 in the order of `StageDescription.bubble_names`."""
+
+    @property
+    def volume(self) -> NDArray[np.float32]:
+        """Gas volume [m3], (bubbles,) float32 in the order of `StageDescription.bubble_names`."""
+
+
+@dataclass(frozen=True)
+class MeshDescription:
+    """One balloon: a closed quad cage whose topology never changes.
+
+    Raises:
+        StageError: Arrays do not fit each other, or a name is no USD identifier.
+    """
+
+    name: str
+    """Prim name."""
+    quads: NDArray[np.int32]
+    """Vertex numbers (Q, 4) int32, counter-clockwise seen from outside."""
+    st: NDArray[np.float32]
+    """Texture coordinates (Q, 4, 2) float32 of the quads' corners."""
+    quad_bubble: NDArray[np.int32]
+    """Bubble of each quad (Q,) int32, an index into this mesh's `bubble_names`."""
+    bubble_names: tuple[str, ...]
+    """Names that `quad_bubble` counts in: this mesh's own or those of the whole sculpture."""
+    color: tuple[float, float, float]
+    """Colour of the latex, linear RGB in 0..1."""
+    material: str
+    """Prim name of the material; meshes of one colour share the first one's."""
+
+    def __post_init__(self) -> None:
+        for name in (self.name, self.material, *self.bubble_names):
+            require_identifier(name)
+        count = len(self.quads)
+        _require(count > 0, f'mesh "{self.name}" has no quads')
+        _require(self.quads.shape == (count, 4), f'mesh "{self.name}": quads have shape {self.quads.shape}')
+        _require(self.quads.min() >= 0, f'mesh "{self.name}": negative vertex number')
+        _require(self.st.shape == (count, 4, 2), f'mesh "{self.name}": st has shape {self.st.shape}')
+        _require(
+            self.quad_bubble.shape == (count,),
+            f'mesh "{self.name}": quad_bubble has shape {self.quad_bubble.shape}',
+        )
+        _require(
+            self.quad_bubble.min() >= 0 and self.quad_bubble.max() < len(self.bubble_names),
+            f'mesh "{self.name}": quad_bubble points outside its {len(self.bubble_names)} bubble names',
+        )
+        _require(
+            all(0.0 <= channel <= 1.0 for channel in self.color),
+            f'mesh "{self.name}": colour {self.color} is not in 0..1',
+        )
+
+    @cached_property
+    def vertex_count(self) -> int:
+        """Number of vertices V."""
+        return int(self.quads.max()) + 1
+
+    @cached_property
+    def quads_at_vertex(self) -> NDArray[np.int64]:
+        """Number of quads around each vertex (V,)."""
+        return np.bincount(self.quads.ravel(), minlength=self.vertex_count)
+
+
+@dataclass(frozen=True)
+class StageDescription:
+    """One sculpture: its balloons and everything that does not move.
+
+    Raises:
+        StageError: A name is no USD identifier or is used twice, or the provenance is not complete.
+    """
+
+    name: str
+    """Name of the root prim, the folder and the file."""
+    title: str
+    """One line for people, stored as the layer's documentation."""
+    fps: float
+    """Frames and time codes per second."""
+    meshes: tuple[MeshDescription, ...]
+    bubble_names: tuple[str, ...]
+    """Bubbles of the whole sculpture, in the order of `StageFrame.pressure`."""
+    provenance: Mapping[str, str | int | float]
+    """At least "recipe", "recipe_sha256" and "solver"; no dates, hosts or durations."""
+    twists: tuple[tuple[int, str], ...] = ()
+    """When each step of the recipe begins: (time code, what is done)."""
+
+    def __post_init__(self) -> None:
+        require_identifier(self.name)
+        _require(len(self.meshes) > 0, f'"{self.name}" has no meshes')
+        _require(0.0 < self.fps < float("inf"), f'"{self.name}": fps is {self.fps}')
+        for names in ([mesh.name for mesh in self.meshes], self.bubble_names):
+            twice = {name for name in names if list(names).count(name) > 1}
+            _require(not twice, f'"{self.name}": name used twice: {", ".join(sorted(twice))}')
+        for mesh in self.meshes:
+            used = {mesh.bubble_names[index] for index in np.unique(mesh.quad_bubble)}
+            unknown = ", ".join(sorted(used - {*self.bubble_names}))
+            _require(not unknown, f'mesh "{mesh.name}": not among the sculpture\'s bubbles: {unknown}')
+        for problem in problems(self.provenance, GIVEN):
+            raise StageError(f'"{self.name}": {problem}')
+
+    def bubbles_of(self, mesh: MeshDescription) -> NDArray[np.int32]:
+        """Bubble of each quad of a mesh (Q,) int32, as an index into the sculpture's `bubble_names`."""
+        number = {name: index for index, name in enumerate(self.bubble_names)}
+        lookup = np.array([number.get(name, -1) for name in mesh.bubble_names], dtype=np.int32)
+        return lookup[mesh.quad_bubble]
+
+
+def require_identifier(name: str) -> None:
+    """Refuse what cannot name a prim and a file.
+
+    Raises:
+        StageError: The name has other characters than letters, digits and underscores.
+    """
+    if not (name.isascii() and Sdf.Path.IsValidIdentifier(name)):
+        raise StageError(f'"{name}" cannot name a prim: use letters, digits and underscores')
+
+
+def _require(condition: bool, otherwise: str) -> None:
+    if not condition:
+        raise StageError(otherwise)

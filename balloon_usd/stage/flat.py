@@ -1,0 +1,49 @@
+"""One single-layer file, for readers that do not compose: web viewers, mail."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from pxr import Sdf, Usd
+
+from balloon_usd.stage.built import Built
+from balloon_usd.stage.error import writing
+from balloon_usd.stage.geometry import author_geometry
+from balloon_usd.stage.interface import author_root, set_asset_info, set_extents_hint
+from balloon_usd.stage.materials import author_materials
+from balloon_usd.stage.prim_paths import root_path
+from balloon_usd.stage.provenance import provenance_of
+
+if TYPE_CHECKING:
+    from balloon_usd.stage.description import StageDescription
+    from balloon_usd.stage.samples import Take
+    from balloon_usd.stage.workspace import Workspace
+
+
+def begin_flat(description: StageDescription, detail: str, work: Workspace) -> Any:
+    """Make the one layer, with its root prim.
+
+    Raises:
+        StageError: The folder cannot be written.
+    """
+    with writing(work.final):
+        layer = Sdf.Layer.CreateNew(str(work.built))
+    root = author_root(layer, description, provenance_of(description, detail))
+    set_asset_info(root, work.final.name)
+    return layer
+
+
+def complete_flat(layer: Any, take: Take, description: StageDescription, _: str, work: Workspace) -> Built:
+    """Author what does not move beside the samples, and save.
+
+    Raises:
+        StageError: The file cannot be written.
+    """
+    set_extents_hint(layer.GetPrimAtPath(root_path(description.name)), take.extent)
+    stage = Usd.Stage.Open(layer)
+    author_geometry(stage, description, take.final)
+    author_materials(stage, description)
+    with writing(work.final):
+        layer.Save()
+    return Built((Path(),))

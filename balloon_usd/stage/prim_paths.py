@@ -1,0 +1,32 @@
+"""Where the prims of a sculpture stand."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pxr import Sdf
+
+
+def root_path(name: str) -> Any:
+    """Path of the sculpture's root prim."""
+    return Sdf.Path.absoluteRootPath.AppendChild(name)
+
+
+def class_path(name: str) -> Any:
+    """Path of the class that the root inherits, so that a shot can change every copy at once."""
+    return Sdf.Path(f"/__class__/{name}")
+
+
+def meshes_path(name: str) -> Any:
+    """Path of the scope that holds the meshes."""
+    return Sdf.Path(f"/{name}/geo/render")
+
+
+def mesh_path(name: str, mesh: str) -> Any:
+    """Path of one balloon's mesh."""
+    return meshes_path(name).AppendChild(mesh)
+
+
+def materials_path(name: str) -> Any:
+    """Path of the scope that holds the materials."""
+    return Sdf.Path(f"/{name}/mtl")

@@ -1,0 +1,51 @@
+"""Where a stage came from: facts that name the recipe and the solver, and nothing of the run."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from balloon_usd import __version__
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from balloon_usd.stage.description import StageDescription
+
+SCHEMA = 1
+"""Version of the layout of prims, attributes and files."""
+
+KEY = "balloon_usd"
+"""Key in customLayerData, and namespace of the package's own attributes."""
+
+GIVEN = ("recipe", "recipe_sha256", "solver")
+"""Facts that a description must bring."""
+
+COMPLETE = (*GIVEN, "detail", "fps", "schema", "version")
+"""Facts that every written layer carries."""
+
+# Facts of the run would make two files of one recipe differ.
+RUN_DEPENDENT = frozenset(
+    {"created", "cwd", "date", "duration", "elapsed", "folder", "host", "hostname", "machine", "modified"}
+    | {"pid", "timestamp", "user"}
+)
+
+ABSOLUTE = re.compile(r"[/\\]|[A-Za-z]:[/\\]|[a-z]+://")
+
+
+def provenance_of(description: StageDescription, detail: str) -> dict[str, str | int | float]:
+    """Provenance for the layers of one detail: the description's facts and the writer's own."""
+    own: dict[str, str | int | float] = {"detail": detail, "fps": float(description.fps), "schema": SCHEMA}
+    return {"version": __version__, **description.provenance, **own}
+
+
+def problems(facts: Mapping[str, object], required: tuple[str, ...]) -> Iterator[str]:
+    """What is missing from the facts, or must not be among them, one sentence each."""
+    for key in required:
+        if key not in facts:
+            yield f'provenance has no "{key}"'
+    for key, value in facts.items():
+        if RUN_DEPENDENT & set(key.lower().split("_")):
+            yield f'provenance "{key}" depends on the run'
+        if isinstance(value, str) and ABSOLUTE.match(value):
+            yield f'provenance "{key}" holds an absolute path: {value}'

@@ -1,0 +1,45 @@
+"""Balloon sizes."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from balloon_usd.balloon.rubber import rubber_named
+from balloon_usd.balloon.sizes import SIZES, size_named
+from balloon_usd.balloon.tube_theory import maxwell_state
+
+INCH = 0.0254
+
+
+@pytest.mark.parametrize("size", SIZES, ids=lambda size: size.name)
+def test_every_size_inflates_to_the_inches_of_its_name(size):
+    bulged = maxwell_state(rubber_named("ogden")).bulged
+    assert 2.0 * bulged.a * size.radius / INCH == pytest.approx(int(size.name[0]), rel=0.01)
+    assert bulged.b * size.length / INCH == pytest.approx(int(size.name[1:]), rel=0.01)
+
+
+def test_a_260_weighs_about_two_grams():
+    rubber = rubber_named("ogden")
+    assert size_named("260").rubber_volume * rubber.density == pytest.approx(1.74e-3, rel=0.01)
+
+
+def test_a_260_lies_14_millimetres_wide_when_flat():
+    assert size_named("260").flat_width == pytest.approx(14.1e-3, rel=0.01)
+
+
+def test_an_unknown_size_is_refused_with_the_choices():
+    with pytest.raises(ValueError, match=r"'270'.*260"):
+        size_named("270")
+
+
+def test_overrides_replace_only_what_is_given():
+    size = size_named("260").with_overrides(length=0.282)
+    assert (size.name, size.radius, size.length, size.thickness) == ("260", 4.5e-3, 0.282, 0.18e-3)
+
+
+@pytest.mark.parametrize("wrong", [0.0, -1.0, math.inf, math.nan])
+def test_an_impossible_dimension_is_refused(wrong):
+    with pytest.raises(ValueError, match="thickness must be positive"):
+        size_named("260").with_overrides(thickness=wrong)

@@ -1,0 +1,105 @@
+from __future__ import annotations
+
+import json
+
+import pytest
+
+COMMANDS = ["run", "plan", "schema", "preview", "bench"]
+
+
+@pytest.mark.parametrize("command", [[], *([command] for command in COMMANDS)])
+def test_every_help_page_documents_the_exit_codes(cli, command):
+    result = cli(*command, "--help")
+    assert result.exit_code == 0
+    for code in ("0    done", "1    a result", "2    bad input", "3    the simulation", "130  interrupted"):
+        assert code in result.stdout
+
+
+def test_an_unknown_option_is_bad_input(cli):
+    result = cli("run", "x.yaml", "--detial", "full")
+    assert result.exit_code == 2
+    assert "--detail" in result.stderr
+
+
+def test_plan_shows_lengths_and_tail(cli, write_recipe):
+    result = cli("plan", write_recipe())
+    assert result.exit_code == 0
+    assert "nose" in result.stdout
+    assert "of flat tail" in result.stdout
+
+
+def test_plan_prints_one_json_object_a_recipe(cli, write_recipe):
+    result = cli("plan", write_recipe("one"), write_recipe("two"), "--json")
+    assert [json.loads(line)["name"] for line in result.stdout.splitlines()] == ["one", "two"]
+
+
+def test_plan_draws_an_svg(cli, write_recipe, tmp_path):
+    assert cli("plan", write_recipe(), "--svg", "snake.svg").exit_code == 0
+    assert "<svg" in (tmp_path / "snake.svg").read_text(encoding="utf-8")
+
+
+def test_plan_draws_only_one_recipe(cli, write_recipe):
+    result = cli("plan", write_recipe("one"), write_recipe("two"), "--svg", "both.svg")
+    assert result.exit_code == 2
+    assert "one recipe, not 2" in result.stderr
+
+
+def test_a_drawing_that_cannot_be_written_has_its_own_exit_code(cli, write_recipe):
+    result = cli("plan", write_recipe(), "--svg", "missing/snake.svg")
+    assert result.exit_code == 1
+    assert "cannot be written" in result.stderr
+
+
+def test_plan_refuses_what_no_balloon_can_give(cli, write_recipe):
+    text = (
+        "format: 1\nname: long\nunits: cm\nballoons: {main: {size: 260, tail: 10}}\n"
+        "steps:\n  - bubbles: {a: 100, b: 100}\n"
+    )
+    result = cli("plan", write_recipe("long", text=text))
+    assert result.exit_code == 2
+    assert "long.yaml:" in result.stderr
+
+
+def test_schema_prints_a_json_schema_of_recipes(cli):
+    schema = json.loads(cli("schema").stdout)
+    assert schema["$schema"].startswith("https://json-schema.org/")
+    assert "steps" in schema["properties"]
+
+
+def test_preview_draws_a_stage_and_puts_the_sheet_beside_it(cli, solver, write_recipe, left):
+    cli("run", write_recipe(), "-o", "out", "--no-preview")
+    result = cli("preview", "out/snake", "--size", 48, 32, "--columns", 2)
+    assert result.exit_code == 0, result.output
+    assert "snake.png" in left()
+
+
+def test_preview_draws_the_frames_that_are_asked_for(cli, solver, write_recipe, left):
+    cli("run", write_recipe(), "-o", "out", "--flat", "--no-preview")
+    for frames in ("1,3,6", "2:4"):
+        result = cli("preview", "out/snake.usdc", "-o", "out/a.png", "--frames", frames, "--size", 48, 32)
+        assert result.exit_code == 0, result.output
+    assert left() == ["a.png", "snake.usdc"]
+
+
+@pytest.mark.parametrize("frames", ["1,99", "50:60", "one", "5:2"])
+def test_preview_refuses_frames_that_are_not_there(cli, solver, write_recipe, frames):
+    cli("run", write_recipe(), "-o", "out", "--flat", "--no-preview")
+    result = cli("preview", "out/snake.usdc", "--frames", frames)
+    assert result.exit_code == 2
+    assert result.stderr
+
+
+@pytest.mark.parametrize("frames", [[], ["--frames", "1:2"]])
+def test_preview_refuses_what_is_no_stage(cli, write_recipe, frames):
+    result = cli("preview", write_recipe(), *frames)
+    assert result.exit_code == 2
+    assert "is not a USD file" in result.stderr
+
+
+def test_bench_measures_several_batches(cli, solver):
+    result = cli("bench", "--copies", 1, "--copies", 3, "--frames", 4, "--device", "cpu")
+    assert result.exit_code == 0, result.output
+    rows = [line.split() for line in result.stdout.splitlines()[2:]]
+    assert [row[0] for row in rows] == ["1", "3"]
+    assert [row[3] for row in rows] == ["3", "3"]
+    assert int(rows[1][1]) == 3 * int(rows[0][1])

@@ -1,0 +1,73 @@
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import balloon_usd
+
+ROOT = Path(balloon_usd.__file__).parents[1]
+
+
+def start(*words, **options):
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(ROOT), str(Path(__file__).parent)])}
+    return subprocess.Popen(
+        [sys.executable, *map(str, words)],
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        **options,
+    )
+
+
+def test_the_module_is_the_command():
+    process = start("-m", "balloon_usd", "--version")
+    out, _ = process.communicate(timeout=30)
+    assert process.returncode == 0
+    assert out.strip() == f"balloon-usd, version {balloon_usd.__version__}"
+
+
+def test_help_loads_nothing_heavy():
+    heavy = "warp pxr numpy networkx PIL pydantic rich yaml"
+    code = f"import sys, balloon_usd.cli; print([name for name in '{heavy}'.split() if name in sys.modules])"
+    out, _ = start("-c", code).communicate(timeout=30)
+    assert out.strip() == "[]"
+
+
+def test_a_wrong_recipe_ends_without_a_traceback(tmp_path):
+    (tmp_path / "bad.yaml").write_text("format: 1\nname: bad\nsteps: []\n")
+    process = start("-m", "balloon_usd", "run", "bad.yaml", cwd=tmp_path)
+    out, err = process.communicate(timeout=60)
+    assert process.returncode == 2
+    assert out == ""
+    assert err.startswith("bad.yaml:")
+    assert "Traceback" not in err
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["bad.yaml"]
+
+
+def test_a_missing_device_is_told_in_one_line(write_recipe, tmp_path):
+    process = start("-m", "balloon_usd", "run", write_recipe(), "--device", "cuda:99", cwd=tmp_path)
+    out, err = process.communicate(timeout=60)
+    assert process.returncode == 2
+    assert out == ""
+    assert len(err.splitlines()) == 1
+    assert 'no device "cuda:99", only cpu' in err
+
+
+def test_ctrl_c_ends_with_130_and_leaves_nothing(write_recipe, tmp_path):
+    code = (
+        "import balloon_usd.cli.perform as perform; from fake_solver import FakeSolver;"
+        "perform.simulate_many = FakeSolver({'snake': 'sleep'});"
+        "from balloon_usd.cli import main; main()"
+    )
+    process = start("-c", code, "run", write_recipe(), "-o", "out", cwd=tmp_path)
+    assert process.stdout.readline().strip() == "asleep"
+    process.send_signal(signal.SIGINT)
+    _, err = process.communicate(timeout=30)
+    assert process.returncode == 130
+    assert "Traceback" not in err
+    assert "interrupted" in err
+    assert list((tmp_path / "out").iterdir()) == []

@@ -1,0 +1,226 @@
+from __future__ import annotations
+
+import pytest
+from PIL import Image
+from pxr import Usd, UsdGeom
+
+from balloon_usd.solver.errors import SimulationFailed
+from balloon_usd.stage import StageError
+
+ASSET = [
+    "snake/payload/draft.usda",
+    "snake/payload/draft_geo.usdc",
+    "snake/payload/draft_sim.usdc",
+    "snake/payload/materials.usda",
+    "snake/snake.usda",
+]
+BURST = SimulationFailed("pinch: nose", 1.25, "the wall is not finite")
+
+
+def test_a_recipe_becomes_a_stage_and_a_contact_sheet(cli, solver, write_recipe, left):
+    result = cli("run", write_recipe(), "-o", "out", "--device", "cpu")
+    assert result.exit_code == 0, result.output
+    assert left() == ["snake.png", *ASSET]
+    with Image.open("out/snake.png") as sheet:
+        assert sheet.width > 1000
+    assert "snake" in result.stdout
+    assert "6 frames in" in result.stdout
+
+
+def test_the_stage_says_what_it_shows(cli, solver, write_recipe):
+    cli("run", write_recipe(), "-o", "out", "--no-preview")
+    stage = Usd.Stage.Open("out/snake/snake.usda")
+    assert (stage.GetStartTimeCode(), stage.GetEndTimeCode()) == (1, 6)
+    root = stage.GetDefaultPrim()
+    assert list(root.GetAttribute("balloon_usd:bubbles").Get()) == ["nose", "middle", "tail"]
+    (mesh,) = [prim for prim in stage.Traverse() if prim.IsA(UsdGeom.Mesh)]
+    assert mesh.GetName() == "main"
+    facts = stage.GetRootLayer().customLayerData["balloon_usd"]
+    assert facts["recipe"] == "snake.yaml"
+    assert root.GetAttribute("balloon_usd:step").Get(1) == "inflate: main"
+
+
+def test_no_preview_draws_none(cli, solver, write_recipe, left):
+    assert cli("run", write_recipe(), "-o", "out", "--no-preview").exit_code == 0
+    assert left() == ASSET
+
+
+def test_flat_writes_one_file(cli, solver, write_recipe, left):
+    assert cli("run", write_recipe(), "-o", "out", "--flat").exit_code == 0
+    assert left() == ["snake.png", "snake.usdc"]
+
+
+def test_without_an_output_folder_files_go_here(cli, solver, write_recipe, tmp_path):
+    assert cli("run", write_recipe(), "--no-preview").exit_code == 0
+    assert (tmp_path / "snake" / "snake.usda").is_file()
+
+
+def test_many_recipes_and_folders_advance_together(cli, solver, write_recipe, left):
+    one = write_recipe("one")
+    write_recipe("two", "more/two.yaml")
+    write_recipe("three", "more/three.yml")
+    result = cli("run", one, "more", "-o", "out", "--no-preview")
+    assert result.exit_code == 0, result.output
+    assert [[plan.recipe.name for plan in call.plans] for call in solver.calls] == [["one", "three", "two"]]
+    assert [file for file in left() if file.count("/") == 1] == [
+        "one/one.usda",
+        "three/three.usda",
+        "two/two.usda",
+    ]
+    assert "18 frames in" in result.stdout
+
+
+def test_recipes_of_another_frame_rate_advance_on_their_own(cli, solver, write_recipe):
+    result = cli("run", write_recipe("one"), write_recipe("two", fps=30), "-o", "out", "--no-preview")
+    assert result.exit_code == 0, result.output
+    assert [len(call.plans) for call in solver.calls] == [1, 1]
+
+
+def test_a_file_named_twice_is_made_once(cli, solver, write_recipe, tmp_path):
+    write_recipe()
+    assert cli("run", "snake.yaml", tmp_path / "snake.yaml", ".", "-o", "out", "--no-preview").exit_code == 0
+    assert len(solver.calls[0].plans) == 1
+
+
+def test_one_broken_recipe_stops_all_and_all_problems_are_listed(cli, solver, write_recipe, tmp_path):
+    write_recipe("good")
+    broken = write_recipe("broken", text="format: 1\nname: broken\nballoons: {}\nstops: []\n")
+    result = cli("run", "good.yaml", broken, "missing.yaml", "-o", "out")
+    assert result.exit_code == 2
+    lines = result.stderr.splitlines()
+    assert sum(line.startswith(f"{broken}:") for line in lines) >= 2
+    assert any(line.startswith("missing.yaml:") for line in lines)
+    assert not any("good.yaml" in line for line in lines)
+    assert not (tmp_path / "out").exists()
+    assert solver.calls == []
+
+
+def test_two_recipes_of_one_name_are_refused(cli, solver, write_recipe):
+    result = cli("run", write_recipe("snake"), write_recipe("Snake", "other.yaml"), "-o", "out")
+    assert result.exit_code == 2
+    assert '"Snake" is taken by' in result.stderr
+
+
+def test_a_folder_without_recipes_is_refused(cli, solver, tmp_path):
+    (tmp_path / "empty").mkdir()
+    result = cli("run", "empty")
+    assert result.exit_code == 2
+    assert "empty: no recipes" in result.stderr
+
+
+def test_an_output_folder_that_cannot_be_written_is_refused_before_the_simulation(cli, solver, write_recipe):
+    recipe = write_recipe()
+    result = cli("run", recipe, "-o", recipe / "below")
+    assert result.exit_code == 2
+    assert "cannot write here" in result.stderr
+    assert solver.calls == []
+
+
+@pytest.mark.parametrize("flat", [True, False])
+def test_what_is_in_the_way_is_named_before_the_simulation(cli, solver, write_recipe, tmp_path, flat):
+    if flat:
+        (tmp_path / "out" / "snake.usdc").mkdir(parents=True)
+    else:
+        (tmp_path / "out").mkdir()
+        (tmp_path / "out" / "snake").write_text("mine")
+    result = cli("run", write_recipe(), "-o", "out", *(["--flat"] if flat else []))
+    assert result.exit_code == 2
+    assert "is in the way" in result.stderr
+    assert solver.calls == []
+
+
+def test_a_range_of_frames_is_written_and_nothing_is_simulated_beyond_it(cli, solver, write_recipe):
+    assert cli("run", write_recipe(), "-o", "out", "--frames", "2:4", "--no-preview").exit_code == 0
+    stage = Usd.Stage.Open("out/snake/snake.usda")
+    assert (stage.GetStartTimeCode(), stage.GetEndTimeCode()) == (2, 4)
+    (mesh,) = [prim for prim in stage.Traverse() if prim.IsA(UsdGeom.Mesh)]
+    assert UsdGeom.Mesh(mesh).GetPointsAttr().GetTimeSamples() == [2, 3, 4]
+    assert solver.calls[0].given == 4
+
+
+@pytest.mark.parametrize(
+    ("frames", "words"),
+    [
+        ("7:9", "the animation has frames 1 to 6"),
+        ("4:2", "begins after its end"),
+        ("0:2", "is no range of frames"),
+        (":", "is no range of frames"),
+        ("x", "is no range of frames"),
+    ],
+)
+def test_a_range_that_makes_no_sense_is_refused(cli, solver, write_recipe, left, frames, words):
+    result = cli("run", write_recipe(), "-o", "out", "--frames", frames)
+    assert result.exit_code == 2
+    assert words in result.stderr
+    assert left() == []
+
+
+def test_a_failed_simulation_says_when_and_why_and_leaves_nothing(cli, solver, write_recipe, left):
+    solver.trouble = {"snake": BURST}
+    result = cli("run", write_recipe(), "-o", "out")
+    assert result.exit_code == 3
+    assert "simulation failed at 1.25 s, pinch: nose: the wall is not finite" in result.stderr
+    assert left() == []
+
+
+def test_one_failed_sculpture_does_not_take_the_others_along(cli, solver, write_recipe, left):
+    solver.trouble = {"bad": BURST}
+    result = cli("run", write_recipe("bad"), write_recipe("snake"), "-o", "out", "--no-preview")
+    assert result.exit_code == 3
+    assert left() == ASSET
+    assert "bad.yaml: simulation failed" in result.stderr
+    assert "failed" in result.stdout
+
+
+def test_an_interrupted_run_leaves_nothing(cli, solver, write_recipe, left):
+    solver.trouble = {"snake": KeyboardInterrupt()}
+    result = cli("run", write_recipe(), write_recipe("two"), "-o", "out")
+    assert result.exit_code == 130
+    assert result.stderr.splitlines()[-1] == "interrupted, nothing half-written is left"
+    assert left() == []
+
+
+def test_an_unforeseen_error_leaves_nothing_either(cli, solver, write_recipe, left):
+    solver.trouble = {"snake": ZeroDivisionError()}
+    result = cli("run", write_recipe(), "-o", "out")
+    assert isinstance(result.exception, ZeroDivisionError)
+    assert left() == []
+
+
+def test_a_stage_that_cannot_be_written_ends_the_run(cli, solver, write_recipe, monkeypatch):
+    def full(description, frames, folder, **options):
+        next(iter(frames))
+        raise StageError("no space left on device")
+
+    monkeypatch.setattr("balloon_usd.cli.stage_writer.write_stage", full)
+    result = cli("run", write_recipe(), "-o", "out")
+    assert result.exit_code == 1
+    assert "snake.yaml: no space left on device" in result.stderr
+
+
+def test_a_device_that_is_not_there_is_refused_with_those_that_are(cli, solver, write_recipe):
+    result = cli("run", write_recipe(), "-o", "out", "--device", "cuda:99")
+    assert result.exit_code == 2
+    assert 'there is no device "cuda:99", only cpu' in result.stderr
+    assert solver.calls == []
+
+
+def test_a_word_that_is_no_device_is_refused(cli, solver, write_recipe):
+    result = cli("run", write_recipe(), "--device", "gpu")
+    assert result.exit_code == 2
+    assert "expected auto, cpu, cuda or cuda:N" in result.stderr
+
+
+def test_cautions_are_told_and_do_not_stop_the_run(cli, solver, write_recipe):
+    text = """\
+format: 1
+name: snake
+units: cm
+balloons: {main: {size: 260, tail: 2}}
+steps:
+  - bubbles: {a: 8, b: 8, c: 8, d: 8, e: 8}
+  - rest: tail
+"""
+    result = cli("run", write_recipe(text=text), "-o", "out", "--no-preview")
+    assert result.exit_code == 0, result.output
+    assert "snake.yaml: caution: " in result.stderr

@@ -1,0 +1,108 @@
+"""Cautions: each is given where it is due, and not otherwise."""
+
+from __future__ import annotations
+
+import pytest
+
+
+def whats(figure) -> list[str]:
+    return [caution.what for caution in figure.cautions]
+
+
+def test_the_thesis_dog_is_above_reproach(dog):
+    assert dog.cautions == ()
+
+
+def test_a_twist_that_nothing_holds_is_named(planned):
+    figure = planned("balloons: {a: {size: 260, tail: 10}}\nsteps: [{bubbles: {b: 8, c: 8}}, {ear: {d: 4}}]")
+    assert whats(figure) == ["the twist between b and c will unwind"]
+    assert figure.cautions[0].step == 0
+    assert "free to spin" in figure.cautions[0].why
+
+
+@pytest.mark.parametrize(
+    ("turns", "said"),
+    [
+        (1, ["a twist of 1 turn may unwind"]),
+        (2, []),
+        (3, []),
+        (5, []),
+        (8, ["a twist of 8 turns strains its neck"]),
+    ],
+)
+def test_too_few_and_too_many_turns_are_named(planned, turns, said):
+    figure = planned(
+        f"balloons: {{a: {{size: 260, tail: 10}}}}\nsteps: [{{loop: {{b: 20}}, turns: {turns}}}]"
+    )
+    assert whats(figure) == said
+
+
+@pytest.mark.parametrize(("second", "count"), [(10, 0), (10.9, 0), (11.5, 1)])
+def test_an_unequal_pair_is_named(planned, second, count):
+    figure = planned(f"""
+        balloons: {{a: {{size: 260, tail: 10}}}}
+        steps: [{{bubbles: {{b: 10, c: {second}}}}}, {{lock: [b, c]}}]
+        """)
+    assert len(figure.cautions) == count
+    assert all("unequal pair" in what for what in whats(figure))
+
+
+def test_three_unequal_bubbles_in_a_lock_are_a_design(planned):
+    figure = planned("""
+        balloons: {a: {size: 260, tail: 10}}
+        steps: [{bubbles: {b: 10, c: 5, d: 10}}, {lock: [b, c, d]}]
+        """)
+    assert figure.cautions == ()
+
+
+def test_running_out_of_tail_is_named_at_its_step(planned):
+    figure = planned("""
+        balloons: {a: {size: 260, tail: 1.5}}
+        steps: [{loop: {b: 20}}, {loop: {c: 20}}]
+        """)
+    (caution,) = figure.cautions
+    assert caution.what == "a runs out of tail at the twist that ends c"
+    assert caution.step == 1
+    assert caution.remedy == "leave a tail of at least 1.9 cm"
+
+
+def test_a_remaining_stub_blown_too_hard_may_burst(planned):
+    loops = ", ".join(f"l{at}: 6" for at in range(21))
+    figure = planned(f"balloons: {{a: {{size: 260, tail: 0}}}}\nsteps: [{{loop: {{{loops}}}}}]")
+    assert any("may burst" in what for what in whats(figure))
+    assert figure.budgets["a"].twists[-1].hoop_stretch > 7.0
+
+
+def test_bubbles_too_short_to_be_soft_are_named(planned):
+    figure = planned("balloons: {a: {size: 260, tail: 10}}\nsteps: [{ear: {b: 2}}, {ear: {c: 3}}]")
+    assert whats(figure) == ["b (2 cm) will be a hard little ball"]
+
+
+def test_rubber_that_does_not_soften_is_named(planned):
+    figure = planned("""
+        balloons: {a: {size: 260, tail: 10}}
+        steps: [{loop: {b: 20}}]
+        physics: {softening: false}
+        """)
+    assert whats(figure) == ["bubbles will bleed into their necks"]
+    assert figure.cautions[0].step is None
+
+
+def test_pieces_that_are_not_joined_are_named(planned):
+    figure = planned("""
+        balloons: {a: {size: 260, tail: 10}, b: {size: 260, tail: 10}}
+        steps: [{loop: {c: 20}, balloon: a}, {loop: {d: 20}, balloon: b}]
+        """)
+    assert whats(figure) == ["a, b are not all joined: the sculpture has 2 pieces"]
+    assert figure.cautions[0].remedy == "lock: {joints: [c.start, d.start]}"
+
+
+def test_cautions_come_in_the_order_of_the_steps(planned):
+    figure = planned("""
+        balloons: {a: {size: 260, tail: 1.5}}
+        steps: [{bubbles: {b: 8, c: 8}}, {bubbles: {d: 8, e: 1}, turns: 1}]
+        physics: {softening: false}
+        """)
+    steps = [caution.step for caution in figure.cautions]
+    assert steps[-1] is None
+    assert steps[:-1] == sorted(steps[:-1])

@@ -1,0 +1,77 @@
+"""The open tube: how twists use up the tail, and what they do when it is gone."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from balloon_usd.balloon.rubber import rubber_named
+from balloon_usd.balloon.sizes import size_named
+from balloon_usd.balloon.tube_theory import gauge_pressure
+from balloon_usd.plan.open_tube import inflated_tube, tail_range
+
+SIZE, LATEX = size_named("260"), rubber_named("ogden")
+
+
+def test_an_untwisted_balloon_has_the_tail_it_was_left():
+    tube = inflated_tube(SIZE, LATEX, 0.1)
+    assert tube.tail == pytest.approx(0.1)
+    assert tube.state.p_star == pytest.approx(178.363e3, rel=1e-5)
+
+
+def test_a_balloon_without_tail_hardens_as_tabulated():
+    full = inflated_tube(SIZE, LATEX, 0.0)
+    after = [replace(full, volume=full.volume + twists * 77.2e-6) for twists in (0, 5, 10, 15)]
+    pressures = [gauge_pressure(SIZE, tube.state.p_star) / 1e3 for tube in after]
+    assert pressures == pytest.approx([7.13, 7.34, 7.55, 7.77], abs=0.015)
+    assert [tube.state.a for tube in after] == pytest.approx([5.66, 5.87, 6.06, 6.24], abs=0.015)
+
+
+def test_twisting_neither_makes_nor_loses_rubber_or_gas():
+    tube = inflated_tube(SIZE, LATEX, 0.0)
+    for length in (0.03, 0.1, 0.25):
+        shape, left = tube.pinched(length)
+        assert left.rest_length + shape.rest_length == pytest.approx(tube.rest_length)
+        assert left.volume + shape.volume == pytest.approx(tube.volume)
+        tube = left
+
+
+def test_a_hard_tube_gives_less_rubber_and_more_gas_for_the_same_length():
+    soft = inflated_tube(SIZE, LATEX, 0.1)
+    hard = replace(soft, volume=1.4 * inflated_tube(SIZE, LATEX, 0.0).volume)
+    (shape, _), (harder, _) = soft.pinched(0.1), hard.pinched(0.1)
+    assert harder.length == pytest.approx(shape.length)
+    assert harder.rest_length < shape.rest_length
+    assert harder.volume > shape.volume
+
+
+def test_the_tail_range_bounds_what_can_be_made():
+    lengths = [0.1] * 6
+    room = tail_range(SIZE, LATEX, lengths)
+    assert room.least == pytest.approx(6 * 9.21e-3, abs=1e-4)
+    for tail, left in ((room.least, 0.0), (room.most, None)):
+        tube = inflated_tube(SIZE, LATEX, tail)
+        for length in lengths:
+            _, tube = tube.pinched(length)
+        if left is None:
+            assert tube.inflated_rest_length == pytest.approx(4.6e-3, abs=0.1e-3)
+            assert tube.inflated_length == pytest.approx(9.3e-3, abs=0.2e-3)
+        else:
+            assert tube.tail == pytest.approx(left, abs=1e-9)
+
+
+@settings(max_examples=30, deadline=None)
+@given(tail=st.floats(0.0, 0.3), lengths=st.lists(st.floats(0.005, 0.4), max_size=12))
+def test_whatever_is_twisted_tail_and_pressure_stay_sound(tail, lengths):
+    tube = inflated_tube(SIZE, LATEX, tail)
+    for length in lengths:
+        before = tube
+        _, tube = tube.pinched(length)
+        if not tube.blown_up:
+            break
+        assert 0.0 <= tube.tail <= before.tail
+        assert tube.state.a >= before.state.a
+        assert 0.0 < tube.inflated_rest_length < tube.rest_length + 1e-12

@@ -1,0 +1,93 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from balloon_usd.preview import PreviewError, Raycaster, quad_surface, render_mesh, render_meshes
+
+RED = (0.60, 0.012, 0.018)
+BLUE = (0.02, 0.10, 0.55)
+SMALL = (180, 120)
+
+
+@pytest.fixture(scope="module")
+def picture(dog):
+    return render_mesh(dog[0], dog[1], RED, "side", SMALL, device="cpu").astype(int)
+
+
+def is_red(picture):
+    return picture[..., 0] > picture[..., 1] + 60
+
+
+def test_a_picture_has_the_asked_size_and_pale_corners(picture):
+    assert picture.shape == (120, 180, 3)
+    assert picture[0, 0].min() > 190
+    assert picture[0, -1].min() > 190
+
+
+def test_the_sculpture_is_drawn_in_its_colour_and_fills_the_frame(picture):
+    red = is_red(picture)
+    assert 0.12 < red.mean() < 0.5
+    rows, columns = np.nonzero(red)
+    assert max(np.ptp(rows) / 120, np.ptp(columns) / 180) > 0.8
+
+
+def test_latex_shines(picture):
+    rows, columns = np.nonzero(is_red(picture))
+    inside = picture[rows.min() : rows.max(), columns.min() : columns.max()]
+    between = (inside[..., 1] > 120) & (inside[..., 0] > inside[..., 1] + 25)
+    assert between.sum() > 20
+
+
+def test_the_floor_below_is_darker_than_the_paper_above(picture):
+    assert picture[-8, 40:140].mean() < picture[4, 40:140].mean() - 3
+
+
+def test_the_same_sculpture_gives_the_same_bits(dog, picture):
+    again = render_mesh(dog[0], dog[1], RED, "side", SMALL, device="cpu")
+    assert np.array_equal(again, picture)
+
+
+def test_a_caster_used_before_draws_as_a_fresh_one(dog, picture):
+    caster = Raycaster([quad_surface(dog[1])], [RED], device="cpu")
+    caster.shoot([dog[0] * 2.0], "top", SMALL)
+    assert np.array_equal(caster.shoot([dog[0]], "side", SMALL).picture, picture)
+
+
+def test_each_quad_may_have_its_own_colour(chain):
+    points, quads, bubble = chain
+    colors = np.where((bubble == 0)[:, None], RED, BLUE)
+    picture = render_mesh(points, quads, colors, "side", SMALL, device="cpu").astype(int)
+    left, right = picture[:, :40], picture[:, 60:]
+    assert (left[..., 0] > left[..., 2] + 60).any()
+    assert not (right[..., 0] > right[..., 2] + 60).any()
+
+
+def test_several_meshes_share_one_picture(chain):
+    points, quads, _ = chain
+    behind = points + np.array([0, 0.1, 0.1], dtype=np.float32)
+    picture = render_meshes([(points, quads, RED), (behind, quads, BLUE)], "side", SMALL, device="cpu")
+    shown = picture.astype(int)
+    assert is_red(shown).any()
+    assert (shown[..., 2] > shown[..., 0] + 60).any()
+
+
+def test_a_crease_between_two_bubbles_is_darker_than_their_bellies(chain):
+    points, quads, _ = chain
+    picture = render_mesh(points, quads, RED, "side", (360, 240), device="cpu").astype(int)
+    columns = np.nonzero(is_red(picture).any(axis=0))[0]
+    row = int(np.nonzero(is_red(picture).any(axis=1))[0].mean())
+    along = picture[row, columns.min() : columns.min() + 130, 0]
+    assert along.min() < 0.75 * np.median(along)
+
+
+def test_the_scale_of_a_picture_measures_the_sculpture(chain):
+    points, quads, _ = chain
+    shot = Raycaster([quad_surface(quads)], [RED], device="cpu").shoot([points], "side", (360, 240))
+    columns = np.nonzero(is_red(shot.picture.astype(int)).any(axis=0))[0]
+    assert np.ptp(columns) * shot.metres_per_pixel == pytest.approx(np.ptp(points[:, 0]), rel=0.03)
+
+
+def test_a_device_that_is_not_there_is_refused_with_those_that_are(dog):
+    with pytest.raises(PreviewError, match=r'no device "cuda:99", only .*cpu'):
+        render_mesh(dog[0], dog[1], RED, device="cuda:99")

@@ -1,0 +1,145 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade, Vt
+
+from balloon_usd.preview import PreviewError, read_stage
+
+CUBE = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=np.float32)
+QUADS = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
+
+
+def new_stage(up: str = "Z", metres: float = 1.0):
+    stage = Usd.Stage.CreateInMemory()
+    UsdGeom.SetStageUpAxis(stage, up)
+    UsdGeom.SetStageMetersPerUnit(stage, metres)
+    stage.SetDefaultPrim(UsdGeom.Xform.Define(stage, "/toy").GetPrim())
+    return stage
+
+
+def add_cube(stage, path="/toy/cube", points=CUBE):
+    mesh = UsdGeom.Mesh.Define(stage, path)
+    mesh.CreateFaceVertexCountsAttr([4] * 6)
+    mesh.CreateFaceVertexIndicesAttr(Vt.IntArray.FromNumpy(QUADS.astype(np.int32).ravel()))
+    mesh.CreatePointsAttr(Vt.Vec3fArray.FromNumpy(np.ascontiguousarray(points, dtype=np.float32)))
+    return mesh
+
+
+def paint(stage, prim, name, color):
+    material = UsdShade.Material.Define(stage, f"/toy/{name}")
+    shader = UsdShade.Shader.Define(stage, f"/toy/{name}/preview")
+    shader.CreateIdAttr("UsdPreviewSurface")
+    shader.CreateInput("diffuseColor", Sdf.ValueTypeNames.Color3f).Set(Gf.Vec3f(*color))
+    material.CreateSurfaceOutput().ConnectToSource(shader.CreateOutput("surface", Sdf.ValueTypeNames.Token))
+    UsdShade.MaterialBindingAPI.Apply(prim).Bind(material)
+
+
+@pytest.fixture
+def save(tmp_path):
+    def write(stage):
+        path = tmp_path / "toy.usda"
+        stage.GetRootLayer().Export(str(path))
+        return path
+
+    return write
+
+
+def test_points_are_read_in_metres_with_z_up(save):
+    stage = new_stage("Y", 0.01)
+    add_cube(stage, points=CUBE * [100, 200, 300])
+    (points,) = read_stage(save(stage)).points(1)
+    # y points up, so the 200 units of y become 2 m of height, and z comes towards the viewer: -y.
+    assert np.allclose(np.abs(points).max(axis=0), [1, 3, 2])
+    assert np.allclose(points[1], [-1, -3, -2])
+
+
+def test_moving_parents_move_the_points(save):
+    stage = new_stage()
+    add_cube(stage)
+    move = UsdGeom.Xformable(stage.GetPrimAtPath("/toy")).AddTranslateOp()
+    move.Set(Gf.Vec3d(0, 0, 0), 1)
+    move.Set(Gf.Vec3d(0, 0, 9), 10)
+    scene = read_stage(save(stage))
+    assert np.allclose(scene.points(10)[0] - scene.points(1)[0], [0, 0, 9])
+
+
+def test_points_follow_their_time_samples(save):
+    stage = new_stage()
+    mesh = add_cube(stage)
+    for time in (1, 2):
+        mesh.GetPointsAttr().Set(Vt.Vec3fArray.FromNumpy(CUBE * np.float32(time)), time)
+    assert np.allclose(read_stage(save(stage)).points(2)[0], 2 * CUBE)
+
+
+def test_guides_proxies_and_hidden_meshes_are_not_drawn(save):
+    stage = new_stage()
+    add_cube(stage)
+    for name, purpose in (("guide", "guide"), ("proxy", "proxy")):
+        add_cube(stage, f"/toy/{name}").CreatePurposeAttr(purpose)
+    add_cube(stage, "/toy/hidden").MakeInvisible()
+    assert [mesh.path for mesh in read_stage(save(stage)).meshes] == ["/toy/cube"]
+
+
+def test_a_left_handed_mesh_is_turned_outside_out(save):
+    stage = new_stage()
+    add_cube(stage).CreateOrientationAttr("leftHanded")
+    (mesh,) = read_stage(save(stage)).meshes
+    assert mesh.corners.reshape(-1, 4).tolist() == QUADS[:, ::-1].tolist()
+
+
+@pytest.mark.parametrize(
+    ("interpolation", "count"), [("constant", 1), ("uniform", 6), ("vertex", 8), ("faceVarying", 24)]
+)
+def test_display_colors_of_every_interpolation_reach_the_faces(save, interpolation, count):
+    stage = new_stage()
+    primvar = add_cube(stage).CreateDisplayColorPrimvar(interpolation)
+    primvar.Set([Gf.Vec3f(0.25, 0.5, 0.75)] * count)
+    (mesh,) = read_stage(save(stage)).meshes
+    assert np.allclose(mesh.colors, np.tile([0.25, 0.5, 0.75], (6, 1)))
+
+
+def test_a_bound_material_is_stronger_than_the_display_color_and_a_subset_stronger_still(save):
+    stage = new_stage()
+    cube = add_cube(stage)
+    cube.CreateDisplayColorAttr([Gf.Vec3f(1, 1, 1)])
+    paint(stage, cube.GetPrim(), "red", (1, 0, 0))
+    subset = UsdShade.MaterialBindingAPI(cube).CreateMaterialBindSubset("lid", Vt.IntArray([2, 5]))
+    paint(stage, subset.GetPrim(), "green", (0, 1, 0))
+    (mesh,) = read_stage(save(stage)).meshes
+    assert mesh.colors[[0, 2, 5]].tolist() == [[1, 0, 0], [0, 1, 0], [0, 1, 0]]
+
+
+def test_a_mesh_without_a_colour_gets_one(save):
+    stage = new_stage()
+    add_cube(stage)
+    assert read_stage(save(stage)).meshes[0].colors.shape == (6, 3)
+
+
+def test_the_title_is_the_documentation_or_else_the_root(save):
+    stage = new_stage()
+    add_cube(stage)
+    assert read_stage(save(stage)).title == "toy"
+    stage.GetRootLayer().documentation = "Toy cube\nmore"
+    assert read_stage(save(stage)).title == "Toy cube"
+
+
+def test_what_is_no_stage_is_refused_in_one_line(tmp_path, save):
+    text = tmp_path / "text.usda"
+    text.write_text("hello")
+    for path, words in (
+        (tmp_path / "none.usd", "is not a file"),
+        (tmp_path, "is not a file"),
+        (text, "is not a USD file"),
+        (save(new_stage()), "shows no mesh"),
+    ):
+        with pytest.raises(PreviewError, match=words) as caught:
+            read_stage(path)
+        assert "\n" not in str(caught.value)
+
+
+def test_faces_that_name_missing_points_are_refused(save):
+    stage = new_stage()
+    add_cube(stage, points=CUBE[:7])
+    with pytest.raises(PreviewError, match="/toy/cube has too few points"):
+        read_stage(save(stage)).points(1)

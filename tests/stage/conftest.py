@@ -1,0 +1,58 @@
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+from pxr import Usd
+
+from balloon_usd.stage import write_stage
+from tests.stage.tubes import frames, sculpture
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture(scope="session")
+def written(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with the layered dog in two details, and the flat one. Only to be read."""
+    folder = tmp_path_factory.mktemp("written")
+    write_stage(sculpture(rings=9), frames(12, rings=9), folder, detail="full")
+    write_stage(sculpture(), frames(12), folder)
+    write_stage(sculpture(), frames(12), folder, flat=True)
+    return folder
+
+
+@pytest.fixture
+def dog(written: Path) -> Usd.Stage:
+    """The layered dog, open; edits go to the session layer and are lost."""
+    stage = Usd.Stage.Open(str(written / "dog" / "dog.usda"))
+    stage.GetSessionLayer().Clear()
+    stage.SetEditTarget(stage.GetSessionLayer())
+    return stage
+
+
+@pytest.fixture
+def child() -> Callable[..., subprocess.Popen[str]]:
+    """Start a Python process that runs some code with the test tubes at hand."""
+
+    def start(code: str, **environment: str) -> subprocess.Popen[str]:
+        prelude = (
+            "import os, resource, signal, sys, time\nfrom pathlib import Path\nimport numpy as np\n"
+            "from balloon_usd.stage import *\nfrom tests.stage.tubes import *\n"
+        )
+        return subprocess.Popen(
+            [sys.executable, "-c", prelude + code],
+            cwd=ROOT,
+            env={**os.environ, **environment},
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+
+    return start
