@@ -5,8 +5,9 @@ from __future__ import annotations
 from balloon_usd.preview.camera import VIEWS, View
 from balloon_usd.preview.contact_sheet import draw_contact_sheet, spread_moments
 from balloon_usd.preview.error import PreviewError
-from balloon_usd.preview.raycast import Raycaster, Shot, quad_surface, render_mesh, render_meshes
+from balloon_usd.preview.raycast import Raycaster, Shot
 from balloon_usd.preview.read_stage import StageScene, read_stage
+from balloon_usd.preview.render import quad_surface, render_mesh, render_meshes
 
 __all__ = [
     "VIEWS",

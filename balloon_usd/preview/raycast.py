@@ -9,21 +9,19 @@ import numpy as np
 import warp as wp
 
 from balloon_usd.preview.camera import Axes, frame_points
+from balloon_usd.preview.device import drawing_device, vectors
 from balloon_usd.preview.error import PreviewError
+from balloon_usd.preview.floor import bake_floor
 from balloon_usd.preview.kernels.raycast import (
     Camera,
-    Floor,
     Scene,
     draw,
-    light_floor,
     light_vertices,
     measure_studio,
     smooth_edges,
-    soften_floor,
 )
 from balloon_usd.preview.kernels.studio import Studio
 from balloon_usd.preview.lighting import SOFTBOXES, level, softbox_axes, sphere_directions
-from balloon_usd.preview.surface import SmoothSurface
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -32,6 +30,7 @@ if TYPE_CHECKING:
 
     from balloon_usd.preview.camera import Framing, View
     from balloon_usd.preview.subdivide import Points
+    from balloon_usd.preview.surface import SmoothSurface
 
     Picture = npt.NDArray[np.uint8]
 
@@ -39,10 +38,6 @@ DIRECTIONS = 96
 """Rays that gather light over the whole sphere."""
 SAMPLES = 3
 """Rays along each side of a pixel with an edge."""
-FLOOR_CELLS = 96
-"""Cells along the longer side of the baked shadow."""
-FLOOR_SPREAD = 0.45
-"""Border of the baked shadow round the sculpture, as a share of its longer side."""
 CLEARANCE = 1.0e-4
 """Gap between the lowest point and the floor (m)."""
 
@@ -82,8 +77,8 @@ class Raycaster:
         faces = [_face_colors(c, s) for c, s in zip(colors, surfaces, strict=True)]
         with wp.ScopedDevice(self._device):
             self._triangles: Any = wp.array(triangles, dtype=wp.int32)
-            self._colors = _vectors(np.repeat(np.concatenate(faces), 2, axis=0))
-            self._directions = _vectors(sphere_directions(DIRECTIONS))
+            self._colors = vectors(np.repeat(np.concatenate(faces), 2, axis=0))
+            self._directions = vectors(sphere_directions(DIRECTIONS))
 
     def shoot(
         self, points: Sequence[Points], view: View = "three-quarter", size: tuple[int, int] = (480, 320)
@@ -94,18 +89,23 @@ class Raycaster:
             points: cage points (V, 3) of each mesh (m, z up).
             view: side, three-quarter, top or front.
             size: width and height (pixels).
+
+        Raises:
+            PreviewError: a point is not finite.
         """
         refined = [s.refine(p) for s, p in zip(self._surfaces, points, strict=True)]
         everything = np.concatenate(refined)
+        if not np.isfinite(everything).all():
+            raise PreviewError("there are points that are not finite")
         axes = Axes.of(view)
         framing = frame_points(everything, axes, size[0] / size[1])
         with wp.ScopedDevice(self._device):
             # The mesh must outlive every launch that knows its id.
-            mesh = wp.Mesh(_vectors(everything), self._triangles.flatten())
+            mesh = wp.Mesh(vectors(everything), self._triangles.flatten())
             studio = _studio(axes, float(everything[:, 2].min()) - CLEARANCE)
             camera = _camera(framing, axes)
             scene = self._scene(mesh, studio, camera, refined)
-            seen = [scene, studio, camera, _floor(everything, scene, studio.floor)]
+            seen = [scene, studio, camera, bake_floor(everything, scene, studio.floor)]
             picture = _develop(seen, size)
         return Shot(picture, 2.0 * framing.half_height * framing.distance / size[1])
 
@@ -115,7 +115,7 @@ class Raycaster:
         scene = Scene()
         scene.mesh = mesh.id
         scene.triangles = self._triangles
-        scene.normals = _vectors(np.concatenate(normals))
+        scene.normals = vectors(np.concatenate(normals))
         scene.colors = self._colors
         scene.directions = self._directions
         scene.radiances = wp.empty(len(self._directions), dtype=wp.float32)
@@ -126,74 +126,14 @@ class Raycaster:
     def _light(
         self, scene: Scene, camera: Camera, refined: Sequence[Points], normals: Sequence[Points]
     ) -> Any:
-        """Bake the light at the vertices of the coarser level and spread it to the finest."""
-        counts = [s.lit_count for s in self._surfaces]
-        places = _vectors(np.concatenate([p[:n] for p, n in zip(refined, counts, strict=True)]))
-        facing = _vectors(np.concatenate([p[:n] for p, n in zip(normals, counts, strict=True)]))
+        """Bake the light at the vertices of the cages, where it is cheap, and spread it to all others."""
+        counts = [s.cage_count for s in self._surfaces]
+        places = vectors(np.concatenate([p[:n] for p, n in zip(refined, counts, strict=True)]))
+        facing = vectors(np.concatenate([p[:n] for p, n in zip(normals, counts, strict=True)]))
         gathered: Any = wp.empty_like(places)
         wp.launch(light_vertices, dim=len(places), inputs=[scene, camera.eye, places, facing, gathered])
         shares = np.split(gathered.numpy(), np.cumsum(counts)[:-1])
-        return _vectors(np.concatenate([s.spread(g) for s, g in zip(self._surfaces, shares, strict=True)]))
-
-
-def render_mesh(
-    points: npt.ArrayLike,
-    quads: npt.ArrayLike,
-    colors: npt.ArrayLike,
-    view: View = "three-quarter",
-    size: tuple[int, int] = (480, 320),
-    *,
-    device: str = "auto",
-) -> Picture:
-    """Draw one mesh and return its picture (height, width, 3).
-
-    Args:
-        points: (V, 3) m, z up.
-        quads: (Q, 4) vertex numbers, counter-clockwise seen from outside.
-        colors: linear rgb, (3,) or (Q, 3).
-        view: side, three-quarter, top or front.
-        size: width and height (pixels).
-        device: cpu, cuda:N, or auto for the first CUDA device and else the CPU.
-    """
-    return render_meshes([(points, quads, colors)], view, size, device=device)
-
-
-def render_meshes(
-    meshes: Sequence[tuple[npt.ArrayLike, npt.ArrayLike, npt.ArrayLike]],
-    view: View = "three-quarter",
-    size: tuple[int, int] = (480, 320),
-    *,
-    device: str = "auto",
-) -> Picture:
-    """Draw several meshes in one picture: (points, quads, colors) each, as in `render_mesh`."""
-    surfaces = [quad_surface(quads) for _, quads, _ in meshes]
-    caster = Raycaster(surfaces, [colors for _, _, colors in meshes], device=device)
-    cages = [np.asarray(points, dtype=np.float32) for points, _, _ in meshes]
-    return caster.shoot(cages, view, size).picture
-
-
-def quad_surface(quads: npt.ArrayLike) -> SmoothSurface:
-    """Prepare a cage of quads (Q, 4)."""
-    corners = np.asarray(quads, dtype=np.int64)
-    return SmoothSurface(np.full(len(corners), 4), corners.ravel())
-
-
-def drawing_device(name: str) -> Any:
-    """Return the Warp device of a name.
-
-    Raises:
-        PreviewError: there is no such device; the message lists those that there are.
-    """
-    try:
-        return wp.get_device(None if name == "auto" else name)
-    except ValueError as error:
-        there = ", ".join(device.alias for device in wp.get_devices())
-        raise PreviewError(f'there is no device "{name}", only {there}') from error
-
-
-def _vectors(rows: npt.ArrayLike) -> Any:
-    """Copy rows (N, 3) to the current device."""
-    return wp.array(np.ascontiguousarray(rows, dtype=np.float32), dtype=wp.vec3)
+        return vectors(np.concatenate([s.spread(g) for s, g in zip(self._surfaces, shares, strict=True)]))
 
 
 def _face_colors(colors: npt.ArrayLike, surface: SmoothSurface) -> npt.NDArray[np.float32]:
@@ -235,21 +175,3 @@ def _develop(seen: list[object], size: tuple[int, int]) -> Picture:
     wp.launch(draw, dim=picture.shape, inputs=[*seen, picture])
     wp.launch(smooth_edges, dim=picture.shape, inputs=[*seen, SAMPLES, picture, smoothed])
     return np.asarray(np.rint(smoothed.numpy() * 255.0), dtype=np.uint8)
-
-
-def _floor(points: Points, scene: Scene, height: float) -> Floor:
-    """Bake the shadow of points (V, 3) on a floor at a height (m)."""
-    low, high = points[:, :2].min(axis=0), points[:, :2].max(axis=0)
-    border = FLOOR_SPREAD * float(max(high - low))
-    extent = high - low + 2.0 * border
-    cell = float(max(extent)) / FLOOR_CELLS
-    columns, rows = (int(n) + 1 for n in extent / cell)
-    floor = Floor()
-    floor.corner = wp.vec3(float(low[0]) - border, float(low[1]) - border, height)
-    floor.cell = cell
-    shade: Any = wp.empty((rows, columns), dtype=wp.vec3)
-    floor.shade = shade
-    sharp = wp.empty_like(floor.shade)
-    wp.launch(light_floor, dim=sharp.shape, inputs=[scene, floor, sharp])
-    wp.launch(soften_floor, dim=sharp.shape, inputs=[sharp, floor.shade])
-    return floor

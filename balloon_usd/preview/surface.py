@@ -47,20 +47,19 @@ class SmoothSurface:
         self._vertex_quads = CornerSum.gather(corner, np.repeat(np.arange(len(self.quads)), 4), count)
 
     @property
-    def lit_count(self) -> int:
-        """Vertices of the level before the last: the first so many of the refined ones."""
-        return len(self._steps[-1].vertex_edges.starts)
+    def cage_count(self) -> int:
+        """Vertices of the cage; they are the first so many of the refined ones."""
+        return len(self._used)
 
     def refine(self, points: Points) -> Points:
         """Return the refined points (vertex_count, 3) of cage points (V, 3)."""
-        refined = np.asarray(points, dtype=np.float32)[self._used]
-        for step in self._steps:
-            refined = step.refine(refined)
-        return refined
+        return self.spread(np.asarray(points, dtype=np.float32)[self._used])
 
     def spread(self, values: Points) -> Points:
-        """Carry values (lit_count, 3) of the level before the last to all refined vertices."""
-        return self._steps[-1].refine(values)
+        """Carry values (cage_count, 3) of the cage smoothly to all refined vertices (vertex_count, 3)."""
+        for step in self._steps:
+            values = step.refine(values)
+        return values
 
     def normals(self, refined: Points) -> Points:
         """Return unit vertex normals (vertex_count, 3), area weighted."""

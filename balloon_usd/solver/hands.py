@@ -161,16 +161,16 @@ class Hands:
             raise ValueError(f"{len(self.welds)} welds but room for {rows}")
         joint = np.zeros((rows, WELD_SLOTS), dtype=np.int32)
         size = np.zeros(rows, dtype=np.int32)
-        spread, gap = np.zeros(rows, dtype=np.float32), np.zeros(rows, dtype=np.float32)
+        reach, gap = np.zeros(rows, dtype=np.float32), np.zeros(rows, dtype=np.float32)
         for k, group in enumerate(self.welds):
             joint[k, : len(group)] = group
             size[k] = len(group)
             neck = float(self.neck[list(group)].mean())
-            gap[k], spread[k] = 2.0 * neck, neck / np.sin(np.pi / max(len(group), 2))
+            gap[k], reach[k] = 2.0 * neck, 2.0 * neck / np.sin(np.pi / max(len(group), 2))
         for name, values in (
             ("weld_joint", joint),
             ("weld_size", size),
-            ("weld_spread", spread),
+            ("weld_reach", reach),
             ("weld_gap", gap),
         ):
             s.arrays[name].assign(values)

@@ -284,7 +284,7 @@ def _state_arrays(scene: Scene, weld_count: int, strut_count: int) -> None:
     zeros("pump_goal", balloons, wp.float64)
     zeros("weld_joint", (max(1, weld_count), WELD_SLOTS), int)
     zeros("weld_size", max(1, weld_count), int)
-    zeros("weld_spread", max(1, weld_count), float)
+    zeros("weld_reach", max(1, weld_count), float)
     zeros("weld_gap", max(1, weld_count), float)
     a["strut_joint"] = wp.full(max(1, strut_count), wp.vec2i(-1, -1), dtype=wp.vec2i, device=device)
     for name in ("strut_stiffness", "strut_damping", "strut_yield", "strut_length"):

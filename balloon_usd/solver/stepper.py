@@ -13,7 +13,7 @@ from balloon_usd.solver.kernels.contact import (
     vertex_surface,
 )
 from balloon_usd.solver.kernels.gas import balloon_gas, segment_volumes
-from balloon_usd.solver.kernels.joints import hold_welds, load_struts, move_joints
+from balloon_usd.solver.kernels.joints import hold_welds, load_struts, move_joints, weld_middles
 from balloon_usd.solver.kernels.membrane import quad_forces, vertex_stretch
 from balloon_usd.solver.kernels.motion import move_vertices
 from balloon_usd.solver.scene import Scene
@@ -70,7 +70,7 @@ class Stepper:
         s = self.scene
         self._launch(vertex_stretch, len(s.x), [s.corners, s.quads, s.to_rest, s.x], [s.stretch])
 
-    def _launch(self, kernel: wp.Kernel, dim: int, inputs: list[object], outputs: list[object]) -> None:
+    def _launch(self, kernel: wp.Kernel, dim: int | tuple[int, ...], inputs: list[object], outputs: list[object]) -> None:
         wp.launch(kernel, dim=dim, inputs=inputs, outputs=outputs, device=self.scene.device)
 
     def _frame(self, contact: bool) -> None:
@@ -116,6 +116,7 @@ class Stepper:
                     s.area,
                     s.quad_area,
                     s.target,
+                    s.hit_count,
                     x,
                     s.v,
                 ],
@@ -163,8 +164,15 @@ class Stepper:
         self._launch(
             hold_welds,
             len(s.weld_size),
-            [s.weld_joint, s.weld_size, s.weld_spread, s.weld_gap, s.joint_first, s.joint_around, s.hand, dt],
-            [x_next, s.v, s.ring_middle],
+            [s.weld_joint, s.weld_size, s.weld_reach, s.weld_gap, s.joint_first, s.joint_around, s.joint_mass]
+            + [s.hand, dt, s.ring_middle],
+            [x_next, s.v],
+        )
+        self._launch(
+            weld_middles,
+            s.weld_joint.shape,
+            [s.weld_joint, s.weld_size, s.joint_first, s.joint_around, x_next],
+            [s.ring_middle],
         )
 
     def _joints(self, x: wp.array, fraction: float) -> None:

@@ -91,3 +91,10 @@ def test_the_scale_of_a_picture_measures_the_sculpture(chain):
 def test_a_device_that_is_not_there_is_refused_with_those_that_are(dog):
     with pytest.raises(PreviewError, match=r'no device "cuda:99", only .*cpu'):
         render_mesh(dog[0], dog[1], RED, device="cuda:99")
+
+
+def test_points_that_are_not_finite_are_refused(dog):
+    points = dog[0].copy()
+    points[7, 1] = np.nan
+    with pytest.raises(PreviewError, match="not finite"):
+        render_mesh(points, dog[1], RED, device="cpu")

@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from balloon_usd.preview.raycast import quad_surface
+from balloon_usd.preview.render import quad_surface
 from balloon_usd.preview.subdivide import subdivision_step
 from balloon_usd.preview.surface import SmoothSurface
 
@@ -81,7 +81,7 @@ def test_points_without_a_face_are_left_out():
 def test_vertex_values_spread_as_points_do(chain):
     _, quads, _ = chain
     surface = quad_surface(quads)
-    constant = np.full((surface.lit_count, 3), 0.25, dtype=np.float32)
+    constant = np.full((surface.cage_count, 3), 0.25, dtype=np.float32)
     assert surface.spread(constant).shape == (surface.vertex_count, 3)
     assert np.allclose(surface.spread(constant), 0.25, atol=1e-6)
 

@@ -18,8 +18,10 @@ SIDE_SLIP = wp.constant(0.25)
 STICK = wp.constant(0.5)
 """Tangential stiffness of a contact, in normal stiffnesses."""
 STABLE = wp.constant(0.25)
-"""Largest contact stiffness, in vertex masses per squared time step."""
-NORMAL_DAMPING = wp.constant(0.2)
+"""Largest contact stiffness, in the lightest of the vertex masses per squared time step."""
+CROWD = wp.constant(0.5)
+"""How much each further vertex on the same quad lowers that limit."""
+NORMAL_DAMPING = wp.constant(0.3)
 """Damping of the approach, as a share of what would stop the vertex in one substep."""
 
 
@@ -235,6 +237,7 @@ def press_walls(
     area: wp.array[float],
     quad_area: wp.array[wp.vec3],
     target: wp.array2d[int],
+    hit_count: wp.array[int],
     x: wp.array[wp.vec3],
     v: wp.array[wp.vec3],
     slip: wp.array2d[wp.vec3],
@@ -258,18 +261,14 @@ def press_walls(
             if overlap > 0.0 and wp.length(gap - height * face) < 2.0 * SIDE_SLIP * wp.sqrt(
                 wp.length(quad_area[q])
             ):
-                stiffness = wp.min(touch.pressure * area[i] / touch.offset, STABLE * mass[i] / (dt * dt))
+                lightest = wp.min(mass[i], wp.min(wp.min(mass[c[0]], mass[c[1]]), wp.min(mass[c[2]], mass[c[3]])))
+                crowd = wp.max(CROWD * float(hit_count[q]), 1.0)
+                stiffness = wp.min(touch.pressure * area[i] / touch.offset, STABLE * lightest / (dt * dt * crowd))
                 going = v[i] - (s[0] * v[c[0]] + s[1] * v[c[1]] + s[2] * v[c[2]] + s[3] * v[c[3]])
                 approach = wp.dot(going, face)
-                push = wp.max(
-                    stiffness * overlap
-                    - NORMAL_DAMPING
-                    * mass[i]
-                    / dt
-                    * wp.min(approach, 0.0)
-                    * wp.min(overlap / touch.offset, 1.0),
-                    0.0,
-                )
+                near = wp.min(overlap / touch.offset, 1.0)
+                damping = NORMAL_DAMPING * lightest / (dt * crowd)
+                push = wp.max(stiffness * overlap - damping * near * approach, 0.0)
                 along = going - approach * face
                 moved = slip[i, k] + along * dt
                 moved = moved - wp.dot(moved, face) * face

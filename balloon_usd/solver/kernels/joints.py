@@ -129,73 +129,67 @@ def move_joints(
     hand_load[j] = load
 
 
+@wp.func
+def pair_shift(here: wp.vec3, there: wp.vec3, share: float, gap: float, reach: float):
+    """Return how one of two necks moves, given its share of the move, so that they lie between gap and reach (m)."""
+    d = here - there
+    far = wp.max(wp.length(d), 1.0e-9)
+    return d * (share * (wp.clamp(far, gap, reach) / far - 1.0))
+
+
 @wp.kernel
 def hold_welds(
     weld_joint: wp.array2d[int],
     weld_size: wp.array[int],
-    weld_spread: wp.array[float],
+    weld_reach: wp.array[float],
     weld_gap: wp.array[float],
     joint_first: wp.array[int],
     joint_around: wp.array[int],
+    joint_mass: wp.array[float],
     hand: wp.array[int],
     dt: float,
+    middle: wp.array[wp.vec3],
     x: wp.array[wp.vec3],
     v: wp.array[wp.vec3],
-    middle: wp.array[wp.vec3],
 ):
-    """Keep the necks of every weld side by side: within its spread (m) of their mean, at least its gap (m) apart."""
+    """Keep the necks of every weld side by side: each pair at least its gap (m) and at most its reach (m) apart."""
     g = wp.tid()
     size = weld_size[g]
-    if size > 1:
-        mean = wp.vec3(0.0)
-        free = float(0.0)
-        for k in range(size):
-            mean += middle[weld_joint[g, k]]
-            if held(hand[weld_joint[g, k]]) == 0:
-                free += 1.0
-        mean = mean / float(size)
-        for k in range(size):
-            j = weld_joint[g, k]
-            out = middle[j] - mean
-            far = wp.length(out)
+    for k in range(size):
+        j = weld_joint[g, k]
+        if held(hand[j]) == 0:
             shift = wp.vec3(0.0)
-            if far > weld_spread[g]:
-                shift = out * (weld_spread[g] / far - 1.0)
             for m in range(size):
                 if m != k:
-                    d = middle[j] - middle[weld_joint[g, m]]
-                    near = wp.length(d)
-                    if near < weld_gap[g] and near > 1.0e-6:
-                        shift += d * (0.5 * (weld_gap[g] / near - 1.0))
-            weld_shift(g, k, shift, hand, weld_joint, joint_first, joint_around, dt, x, v)
-        for k in range(size):
-            j = weld_joint[g, k]
-            c = wp.vec3(0.0)
+                    other = weld_joint[g, m]
+                    share = float(1.0)
+                    if held(hand[other]) == 0:
+                        share = joint_mass[other] / (joint_mass[j] + joint_mass[other])
+                    shift += pair_shift(middle[j], middle[other], share, weld_gap[g], weld_reach[g])
+            shift = shift / wp.max(float(size - 1), 1.0)
             for m in range(joint_around[j]):
-                c += x[joint_first[j] + m]
-            middle[j] = c / float(joint_around[j])
+                i = joint_first[j] + m
+                x[i] = x[i] + shift
+                v[i] = v[i] + shift / dt
 
 
-@wp.func
-def weld_shift(
-    g: int,
-    k: int,
-    shift: wp.vec3,
-    hand: wp.array[int],
+@wp.kernel
+def weld_middles(
     weld_joint: wp.array2d[int],
+    weld_size: wp.array[int],
     joint_first: wp.array[int],
     joint_around: wp.array[int],
-    dt: float,
     x: wp.array[wp.vec3],
-    v: wp.array[wp.vec3],
+    middle: wp.array[wp.vec3],
 ):
-    """Move one ring of a weld, unless a hand holds it."""
-    j = weld_joint[g, k]
-    if held(hand[j]) == 0:
-        first = joint_first[j]
+    """Write the middles (m) of welded rings again, after they were moved."""
+    g, k = wp.tid()
+    if k < weld_size[g]:
+        j = weld_joint[g, k]
+        c = wp.vec3(0.0)
         for m in range(joint_around[j]):
-            x[first + m] = x[first + m] + shift
-            v[first + m] = v[first + m] + shift / dt
+            c += x[joint_first[j] + m]
+        middle[j] = c / float(joint_around[j])
 
 
 @wp.kernel

@@ -10,6 +10,18 @@ SLACK = wp.constant(1.0e-4)
 """Difference of squared stretches below which they count as equal (1)."""
 
 
+@wp.func
+def balancing_turn(r0: wp.vec3, r1: wp.vec3, r2: wp.vec3, r3: wp.vec3, gap: wp.vec3, f: wp.vec3):
+    """Return the vector whose cross products with a quad's corners balance the torque of a contact across a gap.
+
+    The vertex feels f at one end of the gap, the quad -f at the other: a couple, unless the quad takes it up.
+    """
+    square = wp.dot(r0, r0) + wp.dot(r1, r1) + wp.dot(r2, r2) + wp.dot(r3, r3)
+    spread = wp.outer(r0, r0) + wp.outer(r1, r1) + wp.outer(r2, r2) + wp.outer(r3, r3)
+    inertia = square * wp.identity(n=3, dtype=float) - spread
+    return wp.inverse(inertia) * wp.cross(gap, f)
+
+
 @wp.kernel
 def quad_forces(
     quads: wp.array[wp.vec4i],
@@ -117,10 +129,12 @@ def quad_forces(
         hit = hits[q, k]
         f = contact_force[hit // 2, hit % 2]
         share = contact_share[hit // 2, hit % 2]
-        f0 -= share[0] * f
-        fa -= share[1] * f
-        fb -= share[2] * f
-        fc -= share[3] * f
+        touched = share[0] * x0 + share[1] * x1 + share[2] * x2 + share[3] * x3
+        turn = balancing_turn(x0 - middle - o, x1 - middle - o, x2 - middle - o, x3 - middle - o, x[hit // 2] - touched, f)
+        f0 -= share[0] * f + wp.cross(turn, x0 - middle - o)
+        fa -= share[1] * f + wp.cross(turn, x1 - middle - o)
+        fb -= share[2] * f + wp.cross(turn, x2 - middle - o)
+        fc -= share[3] * f + wp.cross(turn, x3 - middle - o)
     corner_force[q, 0] = f0
     corner_force[q, 1] = fa
     corner_force[q, 2] = fb
