@@ -67,6 +67,8 @@ NECK_RADIUS = 0.55
 """Radius of a twisted neck, in R0: about 2.5 mm on a 260. The bunched rubber itself is half as thick."""
 LIP_THICKNESS = 5.0
 """Wall of the rolled lip, in wall thicknesses."""
+LIP_PRESSURE = 0.7
+"""Pressure that stands for the stiffness of the rolled lip, in pressures of the knot: it keeps the lip's shape."""
 SEED_THINNING = 0.12
 """Wall is thinner by this share behind the knot, where artists stretch it: the bulge starts there."""
 SEED_LENGTH = 5.0
@@ -105,7 +107,7 @@ def tube_body(
     borders = [m + r * n for r, parts, _ in marks if parts]
     ends = np.array([*borders, len(mesh.quads)], dtype=np.int32)
     gauge = np.zeros(len(ends))
-    gauge[0], gauge[1] = 0.15 * knot_pressure, knot_pressure
+    gauge[0], gauge[1] = LIP_PRESSURE * knot_pressure, knot_pressure
     middle = mesh.along[mesh.quads].mean(axis=1)
     wall = thickness * (1.0 - SEED_THINNING * np.exp(-np.clip(middle, 0.0, None) / (SEED_LENGTH * radius)))
     wall *= 1.0 + TIP_THICKENING * np.exp((middle - mesh.along.max()) / (TIP_LENGTH * radius))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -46,6 +47,8 @@ class Hands:
         self.pump_limit = np.ones(len(scene.bodies), dtype=np.float32)
         self.pump_goal = np.zeros(len(scene.bodies))
         self.spins = [Spin() for _ in scene.bodies]
+        self.touching = np.zeros(len(scene.bodies), dtype=np.int32)
+        """Balloons whose walls may touch something: those that have been folded."""
         self.welds: list[tuple[int, ...]] = []
         self.upload()
 
@@ -76,6 +79,18 @@ class Hands:
         drag = self.scene.drag.numpy()
         drag[balloon] = rate
         self.scene.drag.assign(drag)
+
+    def touch(self, balloons: Iterable[int]) -> None:
+        """Let the walls of these balloons touch from now on."""
+        fresh = [b for b in balloons if not self.touching[b]]
+        if fresh:
+            self.touching[fresh] = 1
+            self.scene.touching.assign(self.touching)
+
+    def give_up(self, balloons: Iterable[int]) -> None:
+        """Leave balloons alone whose run has failed."""
+        self.touching[list(balloons)] = 0
+        self.scene.touching.assign(self.touching)
 
     def let_go(self, joints: NDArray[np.int64]) -> None:
         """Take the hands from these rings."""

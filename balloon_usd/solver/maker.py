@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from balloon_usd.balloon.tube_theory import maxwell_state, pressure_maximum
 from balloon_usd.plan.choreography import Bend, Bring, Gather, Inflate, LetGo, Move, Pinch, Spin, Weld
 from balloon_usd.plan.closing import closing_pose, smooth
-from balloon_usd.recipe.steps import Joint
 
 if TYPE_CHECKING:
     from balloon_usd.plan import Plan
@@ -48,7 +47,10 @@ class Maker:
         """What a move found when it began, by index of the move."""
         self._done = 0
         """Moves that are finished."""
+        self._frame = 0
         self.doing = ""
+        self.inflated = -1
+        """Frame at whose end the last balloon has its gas."""
 
     def _global_rings(self) -> list[int]:
         """Joint of the scene of every planned ring: a body's rings are its plan's, after the lip."""
@@ -62,6 +64,7 @@ class Maker:
     def act(self, begin: float, end: float, middle: Floats) -> None:
         """Set the hands' goals for the frame from `begin` to `end` (s), given where all rings are (J, 3), m."""
         moves = self.plan.choreography.moves
+        self._frame = round(end * self.plan.recipe.fps)
         for body in self.body.values():
             self.hands.stop_turning(body)
         for k in range(self._done, len(moves)):
@@ -115,6 +118,7 @@ class Maker:
         self.hands.pump_flow[b] = flow * max(gentle, 0.0)
         if share >= 1.0:
             self.hands.set_drag(b, self.scene.settings.drag)
+            self.inflated = self._frame
 
     def _pinch(self, k: int, move: Pinch, share: float, fresh: bool, middle: Floats) -> None:
         joint = self._ring[move.ring]
@@ -152,6 +156,7 @@ class Maker:
         self.hands.turn(self.body[ring.balloon], self._ring[move.ring], ring.along + SPIN_CLEAR, rate)
 
     def _gather(self, k: int, move: Gather, share: float, fresh: bool, middle: Floats) -> None:
+        self.hands.touch(self.body.values())
         corners = [self._ring[r] for r in move.corners]
         cheeks = [(self._ring[r], side) for r, side in move.cheeks]
         held, moving = corners[-1], corners[0]
@@ -194,16 +199,21 @@ class Maker:
         return [self._ring[k] for k in range(ring) if rings[k].joint and rings[k].balloon == rings[ring].balloon]
 
     def _open(self, ring: int) -> list[int]:
-        """Rings on the tip's side of a ring, where the tube is still whole."""
+        """Rings on the tip's side of a ring, where the tube is still whole: its joints to be, and one in the rest."""
         rings = self.plan.table.rings
-        found = range(ring + 1, len(rings))
-        return [self._ring[k] for k in found if rings[k].joint and rings[k].balloon == rings[ring].balloon]
+        rest = self.plan.strips[rings[ring].balloon].bubbles[-1].name
+        return [
+            self._ring[k]
+            for k in range(ring + 1, len(rings))
+            if rings[k].balloon == rings[ring].balloon and (rings[k].joint or rings[k].bubble == rest)
+        ]
 
     def _bulged_radius(self, ring: int) -> float:
         strip = self.plan.strips[self.plan.table.rings[ring].balloon]
         return strip.size.radius * maxwell_state(strip.rubber).bulged.a
 
     def _bring(self, k: int, move: Bring, share: float, fresh: bool, middle: Floats) -> None:
+        self.hands.touch(self.body.values())
         joint, held = self._ring[move.ring], self._ring[move.to]
         if fresh:
             self.hands.grip(joint, middle)
@@ -233,35 +243,42 @@ class Maker:
         self.hands.goal[rings] = began.mean(axis=0) + path - path.mean(axis=0)
 
     def _friction_pairs(self) -> set[tuple[int, int]]:
-        """Pairs of joints whose distance the friction of a weld keeps."""
-        around = {k: self._neighbours(set(group)) for k, group in enumerate(self.hands.welds)}
+        """Pairs of rings whose distance the friction of a weld keeps."""
+        welds = [set(group) for group in self.hands.welds]
+        ends = [self._neighbours(weld) for weld in welds]
         pairs = set()
-        for k, near in around.items():
-            pairs |= set(combinations(sorted(near), 2))
-            for other, far in around.items():
-                if other > k and near & set(self.hands.welds[other]):
-                    pairs |= {
-                        (min(a, b), max(a, b))
-                        for a in near - set(self.hands.welds[other])
-                        for b in far - set(self.hands.welds[k])
-                        if a != b
-                    }
+        for weld, near in zip(welds, ends, strict=True):
+            pairs |= set(combinations(sorted(near | self._cheeks(weld, near)), 2))
+        for (weld, near), (other, far) in combinations(zip(welds, ends, strict=True), 2):
+            if near & other:
+                pairs |= {(min(a, b), max(a, b)) for a in near - other for b in far - weld if a != b}
         return pairs
 
     def _neighbours(self, weld: set[int]) -> set[int]:
-        """Joints at the far ends of the bubbles that meet in a weld; of a loop, its middle."""
+        """Joints at the far ends of the bubbles that meet in a weld; of a loop or an open end, a ring inside."""
         found: set[int] = set()
-        table = self.plan.table
-        for strip in self.plan.strips.values():
-            for bubble in strip.bubbles:
-                start = table.joint(Joint(bubble.name, "start"))
-                end = table.joint(Joint(bubble.name, "end"))
-                ends = [self._ring[r] for r in (start, end) if r is not None]
-                inside = [j for j in ends if j in weld]
-                outside = [j for j in ends if j not in weld and self.hands.radius_goal[j] > 0.0]
-                guides = [self._ring[g] for g in table.guides(bubble.name)]
-                if inside and outside:
-                    found.add(outside[0])
-                elif inside and guides and (end is None or len(inside) == 2):
-                    found.add(guides[len(guides) // 2])
+        for bubble, inside, outside in self._meeting(weld):
+            guides = [self._ring[g] for g in self.plan.table.guides(bubble)]
+            if outside is not None and self.hands.radius_goal[outside] > 0.0:
+                found.add(outside)
+            elif guides and (outside is None or inside == 2):
+                found.add(guides[len(guides) // 2])
+        return found
+
+    def _cheeks(self, weld: set[int], near: set[int]) -> set[int]:
+        """Middles of bubbles that lie side by side: two that share both a weld and the joint beyond it."""
+        met = [(bubble, outside) for bubble, _, outside in self._meeting(weld) if outside in near]
+        beyond = [outside for _, outside in met]
+        folded = [bubble for bubble, outside in met if beyond.count(outside) > 1]
+        return {self._ring[self.plan.table.guides(bubble)[0]] for bubble in folded}
+
+    def _meeting(self, weld: set[int]) -> list[tuple[str, int, int | None]]:
+        """Bubbles with an end in a weld: name, number of ends in it, and the ring of the other end if there is one."""
+        found = []
+        for bubble in self.plan.bubbles:
+            start, end = self.plan.table.ends(bubble.name)
+            rings = [self._ring[r] for r in (start, end) if r is not None]
+            inside = [ring for ring in rings if ring in weld]
+            if inside:
+                found.append((bubble.name, len(inside), next((r for r in rings if r not in weld), None)))
         return found

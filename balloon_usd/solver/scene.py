@@ -29,7 +29,7 @@ DISCHARGE = 0.6
 """Discharge coefficient of a sharp orifice."""
 EQUALISE = 0.25
 """Largest share of a pressure difference that may even out in one substep: keeps the flow stable."""
-STRUT_SLOTS = 16
+STRUT_SLOTS = 24
 """Struts that may end at one joint."""
 WELD_SLOTS = 16
 """Joints that one weld may hold together."""
@@ -268,6 +268,7 @@ def _state_arrays(scene: Scene, weld_count: int, strut_count: int) -> None:
     zeros("contact_force", (vertices, TARGETS), wp.vec3)
     zeros("contact_share", (vertices, TARGETS), wp.vec4)
     a["target"] = wp.full((vertices, TARGETS), -1, dtype=int, device=device)
+    zeros("touching", balloons, int)
     zeros("hit_count", quads, int)
     zeros("hits", (quads, HITS), int)
     zeros("most_hits", 1, int)

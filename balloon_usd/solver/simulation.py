@@ -11,14 +11,15 @@ import warp as wp
 
 from balloon_usd.balloon.detail import Detail, detail_named
 from balloon_usd.balloon.tube_theory import maxwell_state
-from balloon_usd.plan.choreography import Bring, Gather
 from balloon_usd.plan.meshing import joint_places, mesh_of
 from balloon_usd.solver.body import Body, tube_body
+from balloon_usd.solver.errors import SimulationFailed
 from balloon_usd.solver.frame import Frame
 from balloon_usd.solver.hands import Hands, StrutLaw, Struts
 from balloon_usd.solver.maker import Maker
 from balloon_usd.solver.scene import SceneSettings, build_scene
 from balloon_usd.solver.stepper import Stepper
+from balloon_usd.solver.watch import SHORT_OF_GAS, Watch
 
 if TYPE_CHECKING:
     from balloon_usd.balloon.tube_mesh import BalloonMesh
@@ -69,19 +70,34 @@ class Simulation:
             Maker(plan, self.scene, self.hands, self.struts, int(first[w])) for w, plan in enumerate(self.plans)
         ]
         self._first_body = first
+        self.watches = [Watch(plan, m, self.fps) for plan, m in zip(self.plans, self.meshes, strict=True)]
 
     @property
     def frame_counts(self) -> tuple[int, ...]:
         """Number of frames of every plan; the first shows the flat balloons."""
         return tuple(1 + math.ceil(plan.choreography.seconds * self.fps - 1e-6) for plan in self.plans)
 
-    def frames(self) -> Iterator[list[Frame | None]]:
-        """Yield the next frame of every plan, None for a plan that is finished, until all are."""
+    def frames(self) -> Iterator[list[Frame | SimulationFailed | None]]:
+        """Yield the next frame of every plan until all are finished.
+
+        A plan that has failed yields its `SimulationFailed` once; a plan that is over yields None.
+        """
         counts = self.frame_counts
+        over = [False] * len(self.plans)
         for index in range(max(counts)):
             if index:
                 self._advance(index)
-            yield self._read(index, counts)
+            frames: list[Frame | SimulationFailed | None] = []
+            state = self._state()
+            for world, count in enumerate(counts):
+                outcome = None if over[world] or index >= count else self._outcome(world, index, state)
+                over[world] = over[world] or not isinstance(outcome, Frame)
+                frames.append(outcome)
+            if all(over):
+                if any(frames):
+                    yield frames
+                return
+            yield frames
 
     def _advance(self, index: int) -> None:
         middle = self.scene.ring_middle.numpy()
@@ -89,42 +105,49 @@ class Simulation:
         for maker in self.makers:
             maker.act(begin, end, middle)
         self.hands.upload()
-        self.stepper.advance(contact=self._touching(begin))
+        self.stepper.advance(contact=bool(self.hands.touching.any()))
         self.hands.arrived()
 
-    def _touching(self, now: float) -> bool:
-        """Whether any balloon can touch a wall: from the first time that a chain is folded."""
-        return any(
-            isinstance(move, Gather | Bring) and move.start <= now
-            for plan in self.plans
-            for move in plan.choreography.moves
-        )
-
-    def _read(self, index: int, counts: tuple[int, ...]) -> list[Frame | None]:
-        s = self.scene
+    def _state(self) -> dict[str, np.ndarray]:
+        """Fetch what frames are made of."""
         self.stepper.stretch()
-        x, stretch = s.x.numpy(), s.stretch.numpy()
-        pressure, volume = s.pressure.numpy(), s.volume.numpy()
-        out: list[Frame | None] = []
-        for world, maker in enumerate(self.makers):
-            if index >= counts[world]:
-                out.append(None)
-                continue
-            bodies = range(self._first_body[world], self._first_body[world + 1])
-            spans = [slice(s.vertex_start[b], s.vertex_start[b + 1]) for b in bodies]
-            # The lip and the knot bead come before the bubbles of every balloon.
-            bubbles = np.concatenate([np.arange(s.segment_start[b] + 2, s.segment_start[b + 1]) for b in bodies])
-            out.append(
-                Frame(
-                    index + 1,
-                    tuple(x[span].copy() for span in spans),
-                    tuple(stretch[span].copy() for span in spans),
-                    pressure[bubbles],
-                    volume[bubbles],
-                    maker.doing,
-                )
-            )
-        return out
+        names = ("x", "stretch", "pressure", "volume", "most_hits", "amount")
+        return {name: self.scene.arrays[name].numpy() for name in names}
+
+    def _outcome(self, world: int, index: int, state: dict[str, np.ndarray]) -> Frame | SimulationFailed:
+        s, maker = self.scene, self.makers[world]
+        bodies = range(self._first_body[world], self._first_body[world + 1])
+        spans = [slice(s.vertex_start[b], s.vertex_start[b + 1]) for b in bodies]
+        # The lip and the knot bead come before the bubbles of every balloon.
+        bubbles = np.concatenate([np.arange(s.segment_start[b] + 2, s.segment_start[b + 1]) for b in bodies])
+        frame = Frame(
+            index + 1,
+            tuple(state["x"][span].copy() for span in spans),
+            tuple(state["stretch"][span].copy() for span in spans),
+            state["pressure"][bubbles],
+            state["volume"][bubbles],
+            maker.doing,
+        )
+        failed = self.watches[world].failure(frame, int(state["most_hits"][0])) or self._short_of_gas(
+            maker, bodies, index, state["amount"]
+        )
+        if failed is not None:
+            self.hands.give_up(bodies)
+        return failed or frame
+
+    def _short_of_gas(
+        self, maker: Maker, bodies: range, index: int, amount: np.ndarray
+    ) -> SimulationFailed | None:
+        """Tell when inflating has ended without the gas that the plan asks for."""
+        s = self.scene
+        for b in bodies:
+            if maker.inflated == index:
+                got = float(amount[s.segment_start[b] + 2 : s.segment_start[b + 1]].sum())
+                if got < SHORT_OF_GAS * self.hands.pump_goal[b]:
+                    share = got / self.hands.pump_goal[b]
+                    cause = f"the pump brought only {share:.0%} of the gas: give it more seconds"
+                    return SimulationFailed(maker.doing, index / self.fps, cause)
+        return None
 
 
 def _one_rate(plans: Sequence[Plan]) -> float:

@@ -139,6 +139,7 @@ def find_walls(
     vertex_balloon: wp.array[int],
     balloon_world: wp.array[int],
     balloon_radius: wp.array[float],
+    touching: wp.array[int],
     touch: Touch,
     x: wp.array[wp.vec3],
     quad_middle: wp.array[wp.vec3],
@@ -161,6 +162,8 @@ def find_walls(
     reach = REACH * wp.sqrt(area[i]) + touch.offset + touch.margin
     best = wp.vec2(reach, reach)
     found = wp.vec2i(-1, -1)
+    if touching[mine] == 0:
+        reach = 0.0
     query = wp.hash_grid_query(grid, p, reach, balloon_world[mine])
     q = int(0)
     while wp.hash_grid_query_next(query, q):

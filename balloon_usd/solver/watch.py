@@ -1,0 +1,72 @@
+"""Watching a run: what must hold in every frame, and what to say when it does not."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from balloon_usd.balloon.rubber import BURST_STRETCH
+from balloon_usd.solver.errors import SimulationFailed
+from balloon_usd.solver.kernels.contact import HITS
+
+if TYPE_CHECKING:
+    from balloon_usd.balloon.tube_mesh import BalloonMesh
+    from balloon_usd.plan import Plan
+    from balloon_usd.solver.frame import Frame
+
+FASTEST = 5.0
+"""Speed that no part of a balloon reaches between two frames unless the run has gone unstable, m/s."""
+SHORT_OF_GAS = 0.98
+"""Share of the wanted gas below which inflating counts as failed."""
+
+
+class Watch:
+    """Checks the frames of one sculpture, one after another."""
+
+    def __init__(self, plan: Plan, meshes: tuple[BalloonMesh, ...], fps: float) -> None:
+        self._plan = plan
+        self._meshes = meshes
+        self._fps = fps
+        self._last: Frame | None = None
+
+    def failure(self, frame: Frame, most_hits: int) -> SimulationFailed | None:
+        """Return what is wrong with a frame, or None.
+
+        `most_hits`: vertices that pressed on one quad at a time, the most so far.
+        """
+        cause = self._not_finite(frame) or self._too_fast(frame) or self._burst(frame)
+        if cause is None and most_hits > HITS:
+            cause = f"{most_hits} vertices press on one face but there is room for {HITS}: use a finer detail"
+        self._last = frame
+        return None if cause is None else SimulationFailed(frame.doing, (frame.time_code - 1) / self._fps, cause)
+
+    def _not_finite(self, frame: Frame) -> str | None:
+        for points, strip in zip(frame.points, self._plan.strips.values(), strict=True):
+            if not np.isfinite(points).all():
+                return f"balloon {strip.balloon} has flown apart; more substeps (physics: substeps) make the run steadier"
+        return None
+
+    def _too_fast(self, frame: Frame) -> str | None:
+        if self._last is None:
+            return None
+        pairs = zip(frame.points, self._last.points, strict=True)
+        fastest = max(float(np.abs(now - then).max()) for now, then in pairs) * self._fps
+        if fastest <= FASTEST:
+            return None
+        return (
+            f"a part moves at {fastest:.1f} m/s, faster than hands can move it; more substeps (physics: substeps) "
+            "or a longer step (seconds) make the run steadier"
+        )
+
+    def _burst(self, frame: Frame) -> str | None:
+        if self._plan.recipe.physics.burst != "stop":
+            return None
+        for stretch, mesh, strip in zip(frame.stretch, self._meshes, self._plan.strips.values(), strict=True):
+            worst = int(np.argmax(stretch))
+            if stretch[worst] > BURST_STRETCH:
+                ends = [bubble.rest_end for bubble in strip.bubbles]
+                place = min(int(np.searchsorted(ends, mesh.along[worst])), len(ends) - 1)
+                bubble = strip.bubbles[place].name
+                return f"{bubble} bursts: stretch {stretch[worst]:.1f}, latex bears {BURST_STRETCH:.1f}"
+        return None
