@@ -24,7 +24,7 @@ class Detail:
 
 
 DETAILS: dict[str, Detail] = {
-    "draft": Detail("draft", around=12, axial=0.66, axial_at_joint=0.34, substeps=120),
+    "draft": Detail("draft", around=12, axial=0.66, axial_at_joint=0.34, substeps=100),
     "preview": Detail("preview", around=20, axial=0.42, axial_at_joint=0.22, substeps=200),
     "full": Detail("full", around=28, axial=0.27, axial_at_joint=0.15, substeps=300),
 }

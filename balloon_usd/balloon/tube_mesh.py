@@ -1,21 +1,24 @@
 """The closed all-quad mesh of a twisting balloon: lip, knot, tube and tip.
 
-The flat tube lies along +x with the knot at x = 0 and the nozzle lip at negative x. Every ring has the same number of
-vertices; the two ends are closed by square grids, so that all faces are quads. The cross-section is the polygon
-circumscribed to the circle of radius R0: hoop and axial equilibrium of a pressurised polygonal tube then are exactly
-those of the round tube, at every level of detail.
+The flat tube lies along +x with the knot at x = 0 and the nozzle lip at negative x. Every ring has the same
+number of vertices; the two ends are closed by square grids, so that all faces are quads. The cross-section is
+the polygon circumscribed to the circle of radius R0: hoop and axial equilibrium of a pressurised polygonal
+tube then are exactly those of the round tube, at every level of detail.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from balloon_usd.balloon.detail import Detail
-from balloon_usd.balloon.sizes import BalloonSize
+if TYPE_CHECKING:
+    from balloon_usd.balloon.detail import Detail
+    from balloon_usd.balloon.sizes import BalloonSize
 
 KNOT_LENGTH = 1.8
 """Rubber taken by the knot bead, in R0 (judged by eye against a tied 260)."""
@@ -57,7 +60,9 @@ class BalloonMesh:
 
 
 def ring_stations(detail: Detail, size: BalloonSize, joints: tuple[float, ...]) -> NDArray[np.float64]:
-    """Return the unstressed positions of the tube's rings, (R,) float64, m: one at every joint, finer beside them.
+    """Return the unstressed positions of the tube's rings, (R,) float64, m.
+
+    There is one at every joint, and they stand closer beside joints.
 
     Raises:
         ValueError: a joint lies outside the tube.
@@ -68,19 +73,20 @@ def ring_stations(detail: Detail, size: BalloonSize, joints: tuple[float, ...]) 
         raise ValueError(f"joints must lie between 0 and {last:.4f} m, got {joints}")
     fine, coarse = detail.axial_at_joint * size.radius, detail.axial * size.radius
     stations = [np.zeros(1)]
-    for low, high in zip(marks[:-1], marks[1:], strict=True):
+    for low, high in pairwise(marks):
         stations.append(_graded(low, high, fine, coarse, tail=high == last))
     return np.concatenate(stations)
 
 
 def _graded(low: float, high: float, fine: float, coarse: float, *, tail: bool) -> NDArray[np.float64]:
-    """Cut (low, high] so that the spacing grows from both joints; towards the tip it only grows from `low`."""
+    """Cut (low, high] so that the spacing grows from both joints; at the tip it only grows from `low`."""
     s = np.linspace(low, high, 512)
     distance = s - low if tail else np.minimum(s - low, high - s)
     spacing = np.minimum(coarse, fine + GRADING * distance)
     cells = np.concatenate([[0.0], np.cumsum(0.5 * (1 / spacing[1:] + 1 / spacing[:-1]) * np.diff(s))])
     count = max(2, round(float(cells[-1])))
-    return np.interp(np.arange(1, count + 1) * cells[-1] / count, cells, s)
+    stations: NDArray[np.float64] = np.interp(np.arange(1, count + 1) * cells[-1] / count, cells, s)
+    return stations
 
 
 def tube_mesh(
@@ -88,8 +94,8 @@ def tube_mesh(
 ) -> BalloonMesh:
     """Return the mesh of a balloon with a ring at every joint (m along the flat tube).
 
-    `bubble_ends`: where each bubble ends, m along the flat tube, ascending; the knot and lip belong to the first bubble
-    and the tip to the last.
+    `bubble_ends`: where each bubble ends, m along the flat tube, ascending; the knot and lip belong to the
+    first bubble and the tip to the last.
 
     Raises:
         ValueError: a joint lies outside the tube.
@@ -123,7 +129,7 @@ def tube_mesh(
 
 
 def _cap_grid(n: int, ring: int, first_inner: int) -> Ints:
-    """Vertex numbers of a cap's square grid, (n/4 + 1, n/4 + 1): the border is the ring, walked once round."""
+    """Vertex numbers of a cap's square grid, (n/4 + 1, n/4 + 1); its border is the ring, walked once."""
     m = n // 4
     grid = np.empty((m + 1, m + 1), dtype=np.int32)
     border = ring + np.arange(n, dtype=np.int32)

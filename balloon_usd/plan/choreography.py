@@ -1,20 +1,20 @@
 """Choreography: the steps of a recipe as a timeline of a few hand moves.
 
-Every operation of the vocabulary is made of these moves, and only these reach the solver. Seen by the maker the
-balloons lie along x with the knot at the far end: forward is -x, up is +z, left is -y.
+Every operation of the vocabulary is made of these moves, and only these reach the solver. Seen by the maker
+the balloons lie along x with the knot at the far end: forward is -x, up is +z, left is -y.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 from typing import TYPE_CHECKING
-
-from balloon_usd.plan.rings import RingTable
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from balloon_usd.plan.rings import RingTable
     from balloon_usd.plan.strip import Strip
     from balloon_usd.recipe import Recipe
     from balloon_usd.recipe.steps import Step
@@ -91,7 +91,7 @@ class Spin(Move):
 
 @dataclass(frozen=True)
 class Gather(Move):
-    """Bring the first ring of a chain to its last, which is held, and lead the chain between them to a side."""
+    """Bring the first ring of a chain to its last, which is held, and lead what is between to a side."""
 
     corners: tuple[int, ...] = ()
     """Rings of the chain from the moving one to the held one."""
@@ -200,7 +200,7 @@ def _lock(score: _Score, step: Step, index: int) -> None:
     rings = [score.table.joint(end) for end in step.joints]
     found = [ring for ring in rings if ring is not None]
     text = f"lock twist: {', '.join(str(end.bubble) for end in step.joints)}"
-    for first, last in zip(found, found[1:], strict=False):
+    for first, last in pairwise(found):
         _together(score, step, index, text, min(first, last), max(first, last))
     _weld(score, index, text, tuple(found))
 

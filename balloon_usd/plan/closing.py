@@ -1,8 +1,9 @@
 """Closing a chain of bubbles: where its joints go while its two ends are brought together.
 
-The joints of a closed chain lie on a circle; on the way every joint has the same share of its final turning angle, so
-that the bubbles keep their lengths. The held end stays at the origin, the other end comes along the balloon, the chain
-rises to the side that it shall point to, and is turned across the balloon at the end, as a maker does.
+The joints of a closed chain lie on a circle; on the way every joint has the same share of its final turning
+angle, so that the bubbles keep their lengths. The held end stays at the origin, the other end comes along the
+balloon, the chain rises to the side that it shall point to, and is turned across the balloon at the end, as a
+maker does.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ def smooth(t: float) -> float:
 
 
 def central_angles(lengths: Floats) -> Floats:
-    """Return the angles (radians) under which a circle through all corners sees the sides of a closed polygon.
+    """Return the angles (radians) under which the circle round a closed polygon sees its sides.
 
     `lengths`: (sides,) m, at least two.
 
@@ -59,9 +60,9 @@ def central_angles(lengths: Floats) -> Floats:
 def closing_pose(lengths: Floats, progress: float, along: Floats, point: Floats, gap: float) -> Floats:
     """Return the joints of a chain that closes, (sides + 1, 3) float64, m, relative to its held last joint.
 
-    `lengths`: of the sides from the first joint to the last, m. `progress`: 0 straight, 1 closed. `along`: unit direction
-    of the balloon beyond the held joint; `point`: unit direction, across `along`, to which the chain rises. `gap`: distance
-    that stays between first and last joint, m.
+    `lengths`: of the sides from the first joint to the last, m. `progress`: 0 straight, 1 closed. `along`:
+    unit direction of the balloon beyond the held joint; `point`: unit direction, across `along`, to which the
+    chain rises. `gap`: distance that stays between first and last joint, m.
     """
     if len(lengths) == 2:
         # Two sides lie on each other when closed: as unequal sides they would tilt.

@@ -68,7 +68,7 @@ class RingTable:
     def ends(self, bubble: str) -> tuple[int, int | None]:
         """Return the rings of a bubble's start and end."""
         start = self.joint(Joint(bubble, "start"))
-        assert start is not None  # noqa: S101 - every bubble starts at a ring
+        assert start is not None, "every bubble starts at a ring"
         return start, self.joint(Joint(bubble, "end"))
 
     def guides(self, bubble: str) -> tuple[int, ...]:

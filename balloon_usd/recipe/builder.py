@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 from .quantities import Units, length_entry
 from .recipe import Recipe
-from .steps import Kind, Point
 from .writer import Entries, recipe_text
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from .steps import Kind, Point
 
 LengthLike = float | str
 """Metres, or a text with its own unit such as "4 in"."""
@@ -186,10 +189,10 @@ class RecipeBuilder:
         """
         return Recipe.parse(self.to_yaml(), file=BUILDER_FILE)
 
-    def _make(self, kind: Kind, lengths: Mapping[str, LengthLike], manner: Entries) -> Self:
+    def _make(self, kind: Kind, lengths: Mapping[str, LengthLike], manner: Mapping[str, object]) -> Self:
         return self._step(kind, {name: self._length(value) for name, value in lengths.items()}, manner)
 
-    def _step(self, kind: Kind, what: object, manner: Entries) -> Self:
+    def _step(self, kind: Kind, what: object, manner: Mapping[str, object]) -> Self:
         self._steps.append({kind: what} | _given(manner))
         return self
 
@@ -197,5 +200,5 @@ class RecipeBuilder:
         return value if isinstance(value, str) else length_entry(float(value), self._units)
 
 
-def _given(entries: Entries) -> Entries:
+def _given(entries: Mapping[str, object]) -> Entries:
     return {key: value for key, value in entries.items() if value is not None}

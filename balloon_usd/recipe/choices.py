@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
 
 from .problem import quoted
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
 
 _WORD_COMPARED = 64
 _CHOICES_COMPARED = 1000

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from .problem import Complaint, Path, Place, Problem, path_text
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
 
 _START = Place(1, 1)
 

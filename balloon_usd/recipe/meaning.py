@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
 
 from .choices import one_of, unknown
 from .names import NAME_LIMIT
 from .outline import StepOutline, balloons_in, outlines_in
 from .problem import PROBLEMS_SHOWN, Complaint, Path, path_text, quoted
 from .steps import KINDS, MAKING, MANNERS, Joint
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
 
 Vertex = tuple[str, int]
 """Joint number (0 = knot) on a balloon."""

@@ -6,9 +6,12 @@ The checks of meaning work on this, so that one slip does not hide all the other
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from .problem import Path
 from .steps import KINDS, MANNERS, MERGING, Joint, Kind, joint
+
+if TYPE_CHECKING:
+    from .problem import Path
 
 
 @dataclass(frozen=True)

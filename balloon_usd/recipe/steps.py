@@ -2,7 +2,7 @@
 
 import re
 from dataclasses import dataclass
-from typing import Annotated, Literal, cast
+from typing import Annotated, Any, Literal, cast
 
 from pydantic import (
     BaseModel,
@@ -14,7 +14,6 @@ from pydantic import (
     Tag,
     WithJsonSchema,
 )
-from pydantic.json_schema import JsonDict
 
 from .names import NAME_PATTERN, Name, Text
 from .problem import quoted
@@ -106,7 +105,7 @@ Seconds = Annotated[float, Between(0.2, 60.0, "s")]
 Lengths = Annotated[dict[Name, Length], Field(min_length=1)]
 
 
-def _exactly_one_operation(schema: JsonDict) -> None:
+def _exactly_one_operation(schema: dict[str, Any]) -> None:
     schema["oneOf"] = [{"required": [kind]} for kind in KINDS]
 
 

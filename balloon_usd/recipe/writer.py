@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
@@ -16,13 +17,16 @@ if TYPE_CHECKING:
 
 Entries = dict[str, object]
 
+HEAD = ("name", "title", "source", "units", "fps")
+"""Keys between the format and the balloons, in this order."""
+
 _PLAIN_WORD = re.compile(r"[A-Za-z_][A-Za-z0-9_.+ -]*", re.ASCII)
 
 
 def recipe_entries(recipe: Recipe) -> Entries:
     """Plain data of a recipe as it stands in a file: lengths in its units, angles in degrees."""
     written = recipe.model_dump(exclude_defaults=True)
-    kept = {key: written[key] for key in ("name", "title", "source", "units", "fps") if key in written}
+    kept: Entries = {key: written[key] for key in HEAD if key in written}
     balloons = {name: _balloon_entries(entry, recipe.units) for name, entry in recipe.balloons.items()}
     steps = [_step_entries(step, recipe.units) for step in recipe.steps]
     entries: Entries = {"format": recipe.format, **kept, "balloons": balloons, "steps": steps}
@@ -87,7 +91,7 @@ def _flow(value: object) -> str:
 
 
 def _number(value: float) -> str:
-    if value != value:
+    if math.isnan(value):
         return ".nan"
     if value in (float("inf"), float("-inf")):
         return ".inf" if value > 0 else "-.inf"

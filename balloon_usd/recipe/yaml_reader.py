@@ -22,7 +22,6 @@ DEPTH_LIMIT = 32
 
 _LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _UNPRINTABLE = re.compile(r"[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
-_NODE_EVENTS = (yaml.ScalarEvent, yaml.SequenceStartEvent, yaml.MappingStartEvent, yaml.AliasEvent)
 _LINE_BREAK = re.compile(r"\r\n|[\n\r\x85\u2028\u2029]")
 
 
@@ -114,7 +113,7 @@ class _Reading:
             self.documents += 1
             if self.documents > 1:
                 self.stop("a second YAML document begins here, expected one recipe in a file", _place(event))
-        elif isinstance(event, _NODE_EVENTS):
+        elif isinstance(event, yaml.NodeEvent):
             self._count(event)
             top = self.stack[-1] if self.stack else None
             if top and isinstance(top.container, dict) and top.key is None:
@@ -151,12 +150,13 @@ class _Reading:
         else:
             self.marks.keys.setdefault(path, _place(event))
 
-    def _take_value(self, event: yaml.Event) -> None:
+    def _take_value(self, event: yaml.NodeEvent) -> None:
         path = self._path()
         if self.stack and isinstance(self.stack[-1].container, list):
             self.marks.keys.setdefault(path, _place(event))
         if isinstance(event, yaml.AliasEvent):
-            what = f"YAML aliases are not allowed, expected the value itself instead of *{shortened(event.anchor)}"
+            alias = f"*{shortened(event.anchor or '')}"
+            what = f"YAML aliases are not allowed, expected the value itself instead of {alias}"
             self.complaints.append(Complaint(path, what, _place(event)))
             self._attach(None)
             self._finish_entry()
@@ -212,4 +212,6 @@ class _Reading:
 
 
 def _place(event: yaml.Event) -> Place:
-    return Place(event.start_mark.line + 1, event.start_mark.column + 1)
+    mark = event.start_mark
+    assert mark is not None, "the parser marks every event"
+    return Place(mark.line + 1, mark.column + 1)

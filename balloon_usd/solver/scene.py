@@ -199,6 +199,7 @@ def _ring_arrays(scene: Scene, data: list[MembraneData], host: dict[str, np.ndar
     # A scene without rings still needs arrays to launch over; an empty ring does nothing.
     host["joint_first"] = np.array(first or [0], dtype=np.int32)
     host["joint_around"] = np.array(around or [1], dtype=np.int32)
+    host["parts"] = np.array([r.parts for b in bodies for r in b.rings] or [False], dtype=np.int32)
     vertex_joint = np.full(v[-1], -1, dtype=np.int32)
     for j, (f, n) in enumerate(zip(first, around, strict=True)):
         vertex_joint[f : f + n] = j
@@ -306,10 +307,11 @@ def device_law(rubber: Rubber, dt: float) -> Law:
     law = Law()
     law.mu = wp.vec3(*rubber.mu, *[0.0] * (3 - len(rubber.mu)))
     law.alpha = wp.vec3(*rubber.alpha, *[1.0] * (3 - len(rubber.mu)))
+    law.mu_per_alpha = wp.vec3(*[m / k for m, k in zip(law.mu, law.alpha, strict=True)])
     law.gent_mu, law.gent_limit = rubber.gent_mu, min(rubber.gent_limit, 1e9)
     if rubber.softening is not None:
         law.soft_depth, law.soft_width = 1.0 / rubber.softening.r, rubber.softening.c
-    law.stretch_limit = STRETCH_LIMIT
+    law.log_limit = float(np.log(STRETCH_LIMIT))
     law.viscosity = step_viscosity(rubber, dt, MEMBRANE_DAMPING)
     law.hourglass_damping = MEMBRANE_DAMPING * dt
     return law

@@ -7,6 +7,7 @@ import warp as wp
 from balloon_usd.solver.kernels.contact import (
     find_walls,
     order_hits,
+    press_back,
     press_walls,
     quad_surface,
     ring_radii,
@@ -135,9 +136,16 @@ class Stepper:
                 s.rubber_volume,
                 s.laws,
             ]
-            + [s.hit_count, s.hits, s.contact_force, s.contact_share, s.pressure, x, s.v, s.peak_energy],
+            + [s.pressure, x, s.v, s.peak_energy],
             [s.corner_force],
         )
+        if contact:
+            self._launch(
+                press_back,
+                len(s.quads),
+                [s.quads, s.hit_count, s.hits, s.contact_force, s.contact_share, x],
+                [s.corner_force],
+            )
         self._launch(
             move_vertices,
             len(s.x),
@@ -183,6 +191,7 @@ class Stepper:
             [
                 s.joint_first,
                 s.joint_around,
+                s.parts,
                 s.joint_struts,
                 s.joint_mass,
                 dt,

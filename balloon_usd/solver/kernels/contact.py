@@ -167,15 +167,16 @@ def find_walls(
     query = wp.hash_grid_query(grid, p, reach, balloon_world[mine])
     q = int(0)
     while wp.hash_grid_query_next(query, q):
-        if quad_balloon[q] != mine or wp.abs(quad_along[q] - vertex_along[i]) > apart:
+        d = p - quad_middle[q]
+        near = wp.dot(d, d) < reach * reach
+        if near and (quad_balloon[q] != mine or wp.abs(quad_along[q] - vertex_along[i]) > apart):
             a = quad_area[q]
-            size = wp.length(a)
-            face = a / wp.max(size, 1.0e-12)
-            height = wp.dot(p - quad_middle[q], face)
-            limit = wp.min(depth, DEPTH_LIMIT * ring_radius[quad_ring[q]])
-            if wp.dot(face, n) < FACING and height > -limit and height < touch.offset + touch.margin:
-                beside = wp.length(p - quad_middle[q] - height * face)
-                if beside < reach:
+            if wp.dot(a, n) < 0.0:
+                size = wp.length(a)
+                face = a / wp.max(size, 1.0e-12)
+                height = wp.dot(d, face)
+                limit = wp.min(depth, DEPTH_LIMIT * ring_radius[quad_ring[q]])
+                if wp.dot(face, n) < FACING and height > -limit and height < touch.offset + touch.margin:
                     c = quads[q]
                     s = patch_shares(nearest_on_patch(x[c[0]], x[c[1]], x[c[2]], x[c[3]], p))
                     gap = p - (s[0] * x[c[0]] + s[1] * x[c[1]] + s[2] * x[c[2]] + s[3] * x[c[3]])
@@ -284,3 +285,56 @@ def press_walls(
             slip[i, k] = moved
             force[i, k] = f
             share[i, k] = s
+
+
+@wp.func
+def balancing_turn(r0: wp.vec3, r1: wp.vec3, r2: wp.vec3, r3: wp.vec3, gap: wp.vec3, f: wp.vec3):
+    """Return the vector whose cross products with a quad's corners balance the torque of a contact across a gap.
+
+    The vertex feels f at one end of the gap, the quad -f at the other: a couple, unless the quad takes it up.
+    """
+    square = wp.dot(r0, r0) + wp.dot(r1, r1) + wp.dot(r2, r2) + wp.dot(r3, r3)
+    spread = wp.outer(r0, r0) + wp.outer(r1, r1) + wp.outer(r2, r2) + wp.outer(r3, r3)
+    inertia = square * wp.identity(n=3, dtype=float) - spread
+    return wp.inverse(inertia) * wp.cross(gap, f)
+
+
+@wp.kernel
+def press_back(
+    quads: wp.array[wp.vec4i],
+    hit_count: wp.array[int],
+    hits: wp.array2d[int],
+    contact_force: wp.array2d[wp.vec3],
+    contact_share: wp.array2d[wp.vec4],
+    x: wp.array[wp.vec3],
+    corner_force: wp.array2d[wp.vec3],
+):
+    """Take from the corners of every quad what the vertices that touch it felt, forces and torques."""
+    q = wp.tid()
+    count = hit_count[q]
+    if count == 0:
+        return
+    c = quads[q]
+    middle = 0.25 * (x[c[0]] + x[c[1]] + x[c[2]] + x[c[3]])
+    r0 = x[c[0]] - middle
+    r1 = x[c[1]] - middle
+    r2 = x[c[2]] - middle
+    r3 = x[c[3]] - middle
+    f0 = corner_force[q, 0]
+    f1 = corner_force[q, 1]
+    f2 = corner_force[q, 2]
+    f3 = corner_force[q, 3]
+    for k in range(count):
+        hit = hits[q, k]
+        f = contact_force[hit // 2, hit % 2]
+        share = contact_share[hit // 2, hit % 2]
+        touched = middle + share[0] * r0 + share[1] * r1 + share[2] * r2 + share[3] * r3
+        turn = balancing_turn(r0, r1, r2, r3, x[hit // 2] - touched, f)
+        f0 -= share[0] * f + wp.cross(turn, r0)
+        f1 -= share[1] * f + wp.cross(turn, r1)
+        f2 -= share[2] * f + wp.cross(turn, r2)
+        f3 -= share[3] * f + wp.cross(turn, r3)
+    corner_force[q, 0] = f0
+    corner_force[q, 1] = f1
+    corner_force[q, 2] = f2
+    corner_force[q, 3] = f3

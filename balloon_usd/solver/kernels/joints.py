@@ -26,15 +26,24 @@ Axes = wp.types.matrix(shape=(3, 2), dtype=float)
 
 
 @wp.func
+def turned(p: wp.vec2, turn: wp.vec2):
+    """Return a plane vector turned by the angle whose cosine and sine are given."""
+    return wp.vec2(p[0] * turn[0] - p[1] * turn[1], p[0] * turn[1] + p[1] * turn[0])
+
+
+@wp.func
 def regular_ring(x: wp.array[wp.vec3], first: int, around: int, c: wp.vec3):
     """Return the two in-plane axes of the regular polygon nearest to a ring, as columns (polar decomposition)."""
     a = wp.vec3(0.0)
     b = wp.vec3(0.0)
     step = 2.0 * wp.pi / float(around)
+    turn = wp.vec2(wp.cos(step), wp.sin(step))
+    at = wp.vec2(1.0, 0.0)
     for k in range(around):
         d = x[first + k] - c
-        a += d * wp.cos(step * float(k))
-        b += d * wp.sin(step * float(k))
+        a += d * at[0]
+        b += d * at[1]
+        at = turned(at, turn)
     a = wp.normalize(a)
     b = wp.normalize(b)
     s = wp.normalize(a + b)
@@ -46,6 +55,7 @@ def regular_ring(x: wp.array[wp.vec3], first: int, around: int, c: wp.vec3):
 def move_joints(
     joint_first: wp.array[int],
     joint_around: wp.array[int],
+    parts: wp.array[int],
     joint_struts: wp.array2d[int],
     joint_mass: wp.array[float],
     dt: float,
@@ -107,14 +117,22 @@ def move_joints(
         x[first + k] = x[first + k] + shift
         v[first + k] = v[first + k] + kick
     c += shift
+    # A ring that nobody holds and that parts nothing only needs its middle.
+    if parts[j] == 0:
+        middle[j] = c
+        speed[j] = w + kick
+        hand_load[j] = load
+        return
     if hand[j] != CLASP:
         clasp[j] = regular_ring(x, first, n, c)
     if radius_to[j] > 0.0:
         axes = clasp[j]
         step = 2.0 * wp.pi / float(n)
+        turn = wp.vec2(wp.cos(step), wp.sin(step))
+        corner = wp.vec2(radius, 0.0)
         for k in range(n):
-            angle = step * float(k)
-            at = c + axes * wp.vec2(radius * wp.cos(angle), radius * wp.sin(angle))
+            at = c + axes * corner
+            corner = turned(corner, turn)
             v[first + k] = v[first + k] + (at - x[first + k]) / dt
             x[first + k] = at
     a = wp.vec3(0.0)

@@ -10,18 +10,6 @@ SLACK = wp.constant(1.0e-4)
 """Difference of squared stretches below which they count as equal (1)."""
 
 
-@wp.func
-def balancing_turn(r0: wp.vec3, r1: wp.vec3, r2: wp.vec3, r3: wp.vec3, gap: wp.vec3, f: wp.vec3):
-    """Return the vector whose cross products with a quad's corners balance the torque of a contact across a gap.
-
-    The vertex feels f at one end of the gap, the quad -f at the other: a couple, unless the quad takes it up.
-    """
-    square = wp.dot(r0, r0) + wp.dot(r1, r1) + wp.dot(r2, r2) + wp.dot(r3, r3)
-    spread = wp.outer(r0, r0) + wp.outer(r1, r1) + wp.outer(r2, r2) + wp.outer(r3, r3)
-    inertia = square * wp.identity(n=3, dtype=float) - spread
-    return wp.inverse(inertia) * wp.cross(gap, f)
-
-
 @wp.kernel
 def quad_forces(
     quads: wp.array[wp.vec4i],
@@ -32,17 +20,13 @@ def quad_forces(
     hourglass: wp.array[wp.vec4],
     rubber_volume: wp.array[float],
     laws: wp.array[Law],
-    hit_count: wp.array[int],
-    hits: wp.array2d[int],
-    contact_force: wp.array2d[wp.vec3],
-    contact_share: wp.array2d[wp.vec4],
     pressure: wp.array[float],
     x: wp.array[wp.vec3],
     v: wp.array[wp.vec3],
     peak_energy: wp.array[float],
     corner_force: wp.array2d[wp.vec3],
 ):
-    """Write the force (N) of wall, gas and touching vertices on the four corners of every quad."""
+    """Write the force (N) of wall and gas on the four corners of every quad."""
     q = wp.tid()
     c = quads[q]
     law = laws[quad_law[q]]
@@ -68,9 +52,9 @@ def quad_forces(
     stress_large = float(0.0)
     stress_small = float(0.0)
     if large2 > 1.0:
-        large = wp.sqrt(large2)
-        small = wp.max(wp.sqrt(small2), 1.0 / wp.sqrt(large))
-        t = ogden_membrane(law, large, small)
+        log_large = 0.5 * wp.log(large2)
+        log_small = wp.max(0.5 * wp.log(small2), -0.5 * log_large)
+        t = ogden_membrane(law, log_large, log_small)
         peak = wp.max(peak_energy[q], t[2])
         peak_energy[q] = peak
         soft = softening_factor(law, t[2], peak)
@@ -125,16 +109,6 @@ def quad_forces(
     fb = -pull_hoop - pull_axial + h[2] * resist + even + push1
     fc = pull_hoop - pull_axial + h[3] * resist + even + push2
 
-    for k in range(hit_count[q]):
-        hit = hits[q, k]
-        f = contact_force[hit // 2, hit % 2]
-        share = contact_share[hit // 2, hit % 2]
-        touched = share[0] * x0 + share[1] * x1 + share[2] * x2 + share[3] * x3
-        turn = balancing_turn(x0 - middle - o, x1 - middle - o, x2 - middle - o, x3 - middle - o, x[hit // 2] - touched, f)
-        f0 -= share[0] * f + wp.cross(turn, x0 - middle - o)
-        fa -= share[1] * f + wp.cross(turn, x1 - middle - o)
-        fb -= share[2] * f + wp.cross(turn, x2 - middle - o)
-        fc -= share[3] * f + wp.cross(turn, x3 - middle - o)
     corner_force[q, 0] = f0
     corner_force[q, 1] = fa
     corner_force[q, 2] = fb

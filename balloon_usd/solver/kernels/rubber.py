@@ -11,6 +11,8 @@ class Law:
     """Ogden moduli, Pa."""
     alpha: wp.vec3
     """Ogden exponents."""
+    mu_per_alpha: wp.vec3
+    """Ogden moduli over exponents, Pa."""
     gent_mu: float
     """Modulus of the Gent term, Pa; 0 leaves it out."""
     gent_limit: float
@@ -19,8 +21,8 @@ class Law:
     """1/r of Ogden & Roxburgh 1999; 0 switches softening off."""
     soft_width: float
     """c of Ogden & Roxburgh 1999."""
-    stretch_limit: float
-    """Stretch at which the law is continued by its value, so that locking stays below a few times the rest stiffness."""
+    log_limit: float
+    """Logarithm of the stretch at which the law is continued by its value, so that locking stays below a few times the rest stiffness."""
     viscosity: float
     """Resistance to the rate of strain, Pa s."""
     hourglass_damping: float
@@ -29,21 +31,20 @@ class Law:
 
 GENT_NEAR_LIMIT = wp.constant(0.9)
 """Share of Jm at which the Gent term is continued by its value: beyond it the law would lock."""
-ERF_P = wp.constant(0.47047)
-ERF_1 = wp.constant(0.3480242)
-ERF_2 = wp.constant(-0.0958798)
-ERF_3 = wp.constant(0.7478556)
-"""Abramowitz & Stegun 7.1.25: erf to 2.5e-5."""
+ERF_1 = wp.constant(0.0705230784)
+ERF_2 = wp.constant(0.0422820123)
+ERF_3 = wp.constant(0.0092705272)
+ERF_4 = wp.constant(0.0001520143)
+ERF_5 = wp.constant(0.0002765672)
+ERF_6 = wp.constant(0.0000430638)
+"""Abramowitz & Stegun 7.1.28: erf to 3e-7, without an exponential."""
 
 
 @wp.func
-def ogden_membrane(law: Law, large: float, small: float):
-    """Return (large dW/dlarge, small dW/dsmall, W) in Pa, Pa, J/m3 (Ogden 1972; Gent 1996)."""
-    a = wp.min(large, law.stretch_limit)
-    b = wp.min(small, law.stretch_limit)
-    log_a = wp.log(a)
-    log_b = wp.log(b)
-    log_c = -(log_a + log_b)
+def ogden_membrane(law: Law, log_large: float, log_small: float):
+    """Return (large dW/dlarge, small dW/dsmall, W) in Pa, Pa, J/m3 from the logarithms of two stretches (Ogden 1972; Gent 1996)."""
+    log_a = wp.min(log_large, law.log_limit)
+    log_b = wp.min(log_small, law.log_limit)
     t1 = float(0.0)
     t2 = float(0.0)
     energy = float(0.0)
@@ -51,13 +52,13 @@ def ogden_membrane(law: Law, large: float, small: float):
         if law.mu[k] != 0.0:
             ea = wp.exp(law.alpha[k] * log_a)
             eb = wp.exp(law.alpha[k] * log_b)
-            ec = wp.exp(law.alpha[k] * log_c)
+            ec = 1.0 / (ea * eb)
             t1 += law.mu[k] * (ea - ec)
             t2 += law.mu[k] * (eb - ec)
-            energy += law.mu[k] / law.alpha[k] * (ea + eb + ec - 3.0)
+            energy += law.mu_per_alpha[k] * (ea + eb + ec - 3.0)
     if law.gent_mu > 0.0:
-        a2 = a * a
-        b2 = b * b
+        a2 = wp.exp(2.0 * log_a)
+        b2 = wp.exp(2.0 * log_b)
         c2 = 1.0 / (a2 * b2)
         used = wp.min((a2 + b2 + c2 - 3.0) / law.gent_limit, GENT_NEAR_LIMIT)
         modulus = law.gent_mu / (1.0 - used)
@@ -72,9 +73,12 @@ def softening_factor(law: Law, energy: float, peak: float):
     """Return Ogden & Roxburgh's factor on the stress after a peak energy (1999, their eq. for eta)."""
     factor = float(1.0)
     if law.soft_depth > 0.0:
-        if peak > 0.0:
+        if peak > energy:
             z = (peak - energy) / (law.soft_width * peak)
-            t = 1.0 / (1.0 + ERF_P * z)
-            erf = 1.0 - t * (ERF_1 + t * (ERF_2 + t * ERF_3)) * wp.exp(-z * z)
-            factor = 1.0 - law.soft_depth * erf
+            z3 = z * z * z
+            t = 1.0 + z * (ERF_1 + z * ERF_2) + z3 * ((ERF_3 + z * ERF_4) + z * z * (ERF_5 + z * ERF_6))
+            t2 = t * t
+            t4 = t2 * t2
+            t8 = t4 * t4
+            factor = 1.0 - law.soft_depth * (1.0 - 1.0 / (t8 * t8))
     return factor

@@ -1,4 +1,4 @@
-"""From a plan and its meshes to what the stage shows."""
+"""From plans to stages: what of a plan its stage shows, and writing one from the frames of its simulation."""
 
 from __future__ import annotations
 
@@ -6,16 +6,47 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from balloon_usd.balloon.detail import detail_named
+from balloon_usd.plan.meshing import mesh_of
 from balloon_usd.stage import MeshDescription, StageDescription
+from balloon_usd.stage import write_stage as write_described_stage
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
+    from os import PathLike
 
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan, Strip
+    from balloon_usd.stage import StageFrame, WrittenStage
 
 SOLVER = "latex 1"
 """Model of the physics and its version: another version may move points."""
+
+
+def write_stage(
+    plan: Plan,
+    frames: Iterable[StageFrame],
+    folder: str | PathLike[str],
+    *,
+    detail: str = "draft",
+    flat: bool = False,
+) -> WrittenStage:
+    """Write the frames of a plan as they come to a USD stage in a folder.
+
+    Args:
+        plan: what the frames show.
+        frames: those of `simulate`, or some that follow each other.
+        folder: gets NAME/NAME.usda and its payload, or NAME.usdc, where NAME is the recipe's name.
+        detail: level of detail of the frames, as given to `simulate`.
+        flat: write the one file NAME.usdc.
+
+    Raises:
+        StageError: the folder cannot be written, the disk is full, or a frame is of another detail or plan.
+        ValueError: there is no such level of detail.
+    """
+    level = detail_named(detail)
+    meshes = [mesh_of(strip, level) for strip in plan.strips.values()]
+    return write_described_stage(describe_stage(plan, meshes), frames, folder, detail=detail, flat=flat)
 
 
 def describe_stage(plan: Plan, meshes: Sequence[BalloonMesh]) -> StageDescription:
