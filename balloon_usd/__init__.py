@@ -1,5 +1,82 @@
-"""Physics-true balloon twisting: a YAML recipe becomes an animated USD stage."""
+"""Physics-true balloon twisting: a YAML recipe becomes an animated USD stage.
+
+    plan = plan_recipe(Recipe.load("recipes/dog.yaml"))
+    written = write_stage(plan, simulate(plan), "out")
+    draw_contact_sheet(written.files[0], "out/dog.png")
+
+Names load what they need when they are first used: `import balloon_usd` alone costs nothing.
+"""
 
 from __future__ import annotations
 
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from balloon_usd.plan import Plan, plan_json, plan_svg, plan_text
+    from balloon_usd.plan import plan as plan_recipe
+    from balloon_usd.preview import PreviewError, draw_contact_sheet
+    from balloon_usd.recipe import Recipe, RecipeBuilder, RecipeError, recipe_schema
+    from balloon_usd.solver.errors import DeviceUnavailable, SimulationFailed
+    from balloon_usd.solver.frame import Frame
+    from balloon_usd.solver.performance import Performance, simulate
+    from balloon_usd.solver.simulation import Simulation, simulate_many
+    from balloon_usd.stage import StageError, WrittenStage
+    from balloon_usd.staging import describe_stage, write_stage
+
 __version__ = "0.1.0"
+
+__all__ = [
+    "DeviceUnavailable",
+    "Frame",
+    "Performance",
+    "Plan",
+    "PreviewError",
+    "Recipe",
+    "RecipeBuilder",
+    "RecipeError",
+    "Simulation",
+    "SimulationFailed",
+    "StageError",
+    "WrittenStage",
+    "__version__",
+    "describe_stage",
+    "draw_contact_sheet",
+    "plan_json",
+    "plan_recipe",
+    "plan_svg",
+    "plan_text",
+    "recipe_schema",
+    "simulate",
+    "simulate_many",
+    "write_stage",
+]
+
+_ROOMS = {
+    "balloon_usd.plan": ("Plan", "plan_json", "plan_svg", "plan_text"),
+    "balloon_usd.preview": ("PreviewError", "draw_contact_sheet"),
+    "balloon_usd.recipe": ("Recipe", "RecipeBuilder", "RecipeError", "recipe_schema"),
+    "balloon_usd.solver.errors": ("DeviceUnavailable", "SimulationFailed"),
+    "balloon_usd.solver.frame": ("Frame",),
+    "balloon_usd.solver.performance": ("Performance", "simulate"),
+    "balloon_usd.solver.simulation": ("Simulation", "simulate_many"),
+    "balloon_usd.stage": ("StageError", "WrittenStage"),
+    "balloon_usd.staging": ("describe_stage", "write_stage"),
+}
+_PLACES = {name: (room, name) for room, names in _ROOMS.items() for name in names}
+# The function `plan` cannot have its own name here: `balloon_usd.plan` is its room.
+_PLACES["plan_recipe"] = ("balloon_usd.plan", "plan")
+
+
+def __getattr__(name: str) -> object:
+    """Load a name of the package on first use."""
+    if name not in _PLACES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    room, there = _PLACES[name]
+    globals()[name] = found = getattr(import_module(room), there)
+    return found
+
+
+def __dir__() -> list[str]:
+    """List the names that are not loaded yet, too."""
+    return sorted({*globals(), *_PLACES})

@@ -28,7 +28,7 @@ def write_stage(
     frames: Iterable[StageFrame],
     folder: str | PathLike[str],
     *,
-    detail: str = "draft",
+    detail: str | None = None,
     flat: bool = False,
 ) -> WrittenStage:
     """Write the frames of a plan as they come to a USD stage in a folder.
@@ -37,16 +37,16 @@ def write_stage(
         plan: what the frames show.
         frames: those of `simulate`, or some that follow each other.
         folder: gets NAME/NAME.usda and its payload, or NAME.usdc, where NAME is the recipe's name.
-        detail: level of detail of the frames, as given to `simulate`.
+        detail: level of detail of the frames; None takes that of the performance that they are, else draft.
         flat: write the one file NAME.usdc.
 
     Raises:
         StageError: the folder cannot be written, the disk is full, or a frame is of another detail or plan.
         ValueError: there is no such level of detail.
     """
-    level = detail_named(detail)
+    level = detail_named(getattr(frames, "detail", "draft") if detail is None else detail)
     meshes = [mesh_of(strip, level) for strip in plan.strips.values()]
-    return write_described_stage(describe_stage(plan, meshes), frames, folder, detail=detail, flat=flat)
+    return write_described_stage(describe_stage(plan, meshes), frames, folder, detail=level.name, flat=flat)
 
 
 def describe_stage(plan: Plan, meshes: Sequence[BalloonMesh]) -> StageDescription:

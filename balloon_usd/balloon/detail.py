@@ -34,6 +34,9 @@ def detail_named(name: str) -> Detail:
     """Return the level of detail with this name.
 
     Raises:
-        KeyError: there is no such level.
+        ValueError: there is no such level.
     """
-    return DETAILS[name]
+    try:
+        return DETAILS[name]
+    except KeyError:
+        raise ValueError(f"unknown detail {name!r}, expected one of {', '.join(DETAILS)}") from None

@@ -50,17 +50,16 @@ def start_device(name: str) -> str:
     """
     import warp as wp  # noqa: PLC0415
 
+    from balloon_usd.solver.device import device_named  # noqa: PLC0415
     from balloon_usd.solver.errors import DeviceUnavailable  # noqa: PLC0415
 
     wp.config.log_level = wp.LOG_WARNING
     with _without_driver_warning():
         wp.get_devices()
-    there: list[str] = [device.alias for device in wp.get_devices()]
-    cuda = [alias for alias in there if alias.startswith("cuda")]
-    wanted = {"auto": (cuda or there)[0], "cuda": (cuda or ["cuda"])[0]}.get(name, name)
-    if wanted not in there:
-        raise Failure(str(DeviceUnavailable(name, there)), ExitCode.BAD_INPUT)
-    return wanted
+    try:
+        return device_named(name)
+    except DeviceUnavailable as error:
+        raise Failure(str(error), ExitCode.BAD_INPUT) from error
 
 
 @contextmanager

@@ -6,7 +6,6 @@ from collections import defaultdict
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from balloon_usd.cli.describe import describe_stage
 from balloon_usd.cli.failure import ExitCode, Failure
 from balloon_usd.cli.progress import progress_bar
 from balloon_usd.cli.stage_writer import stage_writers
@@ -14,6 +13,7 @@ from balloon_usd.solver.errors import SimulationFailed
 from balloon_usd.solver.frame import Frame
 from balloon_usd.solver.simulation import simulate_many
 from balloon_usd.stage import StageError
+from balloon_usd.staging import describe_stage
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence

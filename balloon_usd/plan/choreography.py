@@ -111,7 +111,7 @@ class Bring(Move):
 
 @dataclass(frozen=True)
 class Bend(Move):
-    """Bend a bubble by leading its ends and middle onto an arc."""
+    """Bend a bubble by leading its start and middle onto an arc, its end held."""
 
     rings: tuple[int, ...] = ()
     angle: float = 0.0

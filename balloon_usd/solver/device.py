@@ -8,7 +8,7 @@ from balloon_usd.solver.errors import DeviceUnavailable
 
 
 def device_named(name: str) -> str:
-    """Return the device of a name: auto is the first CUDA device and else the CPU, cuda the first of its kind.
+    """Return the device of a name: auto is the first CUDA device, else the CPU; cuda is the first one.
 
     Raises:
         DeviceUnavailable: there is no such device.

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from balloon_usd.balloon.tube_theory import maxwell_state, pressure_maximum
 from balloon_usd.plan.choreography import Bend, Bring, Gather, Inflate, LetGo, Move, Pinch, Spin, Weld
 from balloon_usd.plan.closing import closing_pose, smooth
+from balloon_usd.solver.memory import set_bend
 
 if TYPE_CHECKING:
     from balloon_usd.plan import Plan
@@ -225,22 +226,39 @@ class Maker:
         self.hands.goal[joint] = here + smooth(share) * (goal - here)
 
     def _bend(self, k: int, move: Bend, share: float, fresh: bool, middle: Floats) -> None:
+        """Bend a bubble towards a side: its end stays, its start goes, and carries what is already made upright."""
         rings = [self._ring[r] for r in move.rings]
+        before, beyond = self._worked(move.rings[0]), self._open(move.rings[-1])
         if fresh:
-            for joint in rings:
+            for joint in [*rings, *before, *beyond]:
                 self.hands.lead(joint, middle)
-            self._began[k] = middle[rings].astype(np.float64)
-        began = self._began[k]
+            self._began[k] = middle[[*rings, *before]].astype(np.float64)
+        began = self._began[k][: len(rings)]
         sides = np.linalg.norm(np.diff(began, axis=0), axis=1)
-        axis = began[-1] - began[0]
+        axis = began[0] - began[-1]
         axis /= max(float(np.linalg.norm(axis)), 1e-9)
         point = np.array(move.point) - axis * float(np.array(move.point) @ axis)
         point /= max(float(np.linalg.norm(point)), 1e-9)
-        # Headings fan out evenly from the first to the last side; the middle stays where it was.
-        turn = smooth(share) * move.angle * (np.arange(len(sides)) / max(len(sides) - 1, 1) - 0.5)
-        steps = sides[:, None] * (np.cos(turn)[:, None] * axis + np.sin(turn)[:, None] * point)
-        path = np.concatenate([np.zeros((1, 3)), np.cumsum(steps, axis=0)])
-        self.hands.goal[rings] = began.mean(axis=0) + path - path.mean(axis=0)
+        along = np.concatenate([[0.0], np.cumsum(sides[::-1])])
+        turn = smooth(share) * move.angle * (along[1:] + along[:-1]) / (2.0 * along[-1])
+        steps = sides[::-1, None] * (np.cos(turn)[:, None] * axis + np.sin(turn)[:, None] * point)
+        goal = (began[-1] + np.concatenate([np.zeros((1, 3)), np.cumsum(steps, axis=0)]))[::-1]
+        self.hands.goal[rings] = goal
+        if before:
+            self.hands.goal[before] = self._began[k][len(rings) :] + (goal[0] - began[0])
+        if share >= 1.0:
+            self._set_bend(self.plan.table.rings[move.rings[1]].bubble)
+
+    def _set_bend(self, bubble: str) -> None:
+        """Let a bubble that was bent keep part of its curve."""
+        for name, strip in self.plan.strips.items():
+            for index, planned in enumerate(strip.bubbles):
+                if planned.name == bubble:
+                    body = self.scene.bodies[self.body[name]]
+                    first, last = body.segment_ends[index + 1], body.segment_ends[index + 2]
+                    if index == len(strip.bubbles) - 1:
+                        last -= (body.rings[0].around // 4) ** 2
+                    set_bend(self.scene, self.body[name], np.arange(first, last))
 
     def _friction_pairs(self) -> set[tuple[int, int]]:
         """Pairs of rings whose distance the friction of a weld keeps."""

@@ -19,17 +19,23 @@ class Performance:
 
     def __init__(self, simulation: Simulation) -> None:
         """Take over a simulation of one plan."""
-        (self.plan,) = simulation.plans
-        (self.meshes,) = simulation.meshes
-        (self.frame_count,) = simulation.frame_counts
-        self.detail: str = simulation.detail.name
+        self._simulation = simulation
         self._frames = simulation.frames()
 
-    plan: Plan
-    meshes: tuple[BalloonMesh, ...]
-    """One a balloon, in the order of `Plan.strips`."""
-    frame_count: int
-    """Number of frames; the first shows the flat balloons."""
+    @property
+    def detail(self) -> str:
+        """Level of detail."""
+        return self._simulation.detail.name
+
+    @property
+    def meshes(self) -> tuple[BalloonMesh, ...]:
+        """One mesh a balloon, in the order of `Plan.strips`."""
+        return self._simulation.meshes[0]
+
+    @property
+    def frame_count(self) -> int:
+        """Number of frames; the first shows the flat balloons."""
+        return self._simulation.frame_counts[0]
 
     def __iter__(self) -> Self:
         """Return the iterator itself: a performance can be watched once."""

@@ -7,12 +7,12 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-import warp as wp
 
 from balloon_usd.balloon.detail import Detail, detail_named
 from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.plan.meshing import joint_places, mesh_of
 from balloon_usd.solver.body import Body, tube_body
+from balloon_usd.solver.device import device_named
 from balloon_usd.solver.errors import SimulationFailed
 from balloon_usd.solver.frame import Frame
 from balloon_usd.solver.hands import Hands, StrutLaw, Struts
@@ -176,7 +176,11 @@ def _reach(bodies: Sequence[Body], settings: SceneSettings) -> float:
     return 5.0 * widest + 2.0 * settings.contact_offset
 
 
-def simulate_many(plans: Sequence[Plan], detail: str = "draft", device: str = "cpu") -> Simulation:
-    """Return a simulation of several plans that advance together."""
-    wp.init()
-    return Simulation(plans, detail_named(detail), device)
+def simulate_many(plans: Sequence[Plan], detail: str = "draft", device: str = "auto") -> Simulation:
+    """Return a simulation of several plans that advance together.
+
+    Raises:
+        DeviceUnavailable: there is no such device.
+        ValueError: the plans have different frame rates, or there is no such level of detail.
+    """
+    return Simulation(plans, detail_named(detail), device_named(device))

@@ -1,0 +1,295 @@
+"""General set-ups for verification: a few meshes, a rig that runs the real stepper on them, and settling.
+
+A new case takes a mesh (`plate`, `cube_sphere`, `tube`), makes it a `Rig`, settles it and measures.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+import warp as wp
+from numpy.typing import NDArray
+
+from balloon_usd.balloon.rubber import Rubber
+from balloon_usd.balloon.tube_theory import TubeState
+from balloon_usd.solver.body import Body, RingSpec
+from balloon_usd.solver.hands import Hands
+from balloon_usd.solver.scene import GAS_CONSTANT, TEMPERATURE, SceneSettings, build_scene
+from balloon_usd.solver.stepper import Stepper
+
+Floats = NDArray[np.float64]
+
+wp.config.quiet = True
+
+STEP = 1.0e-4
+"""Time step of quasi-static cases, s; with scaled masses its size does not matter."""
+SUBSTEPS = 20
+"""Substeps between two looks at the kinetic energy."""
+GOSSAMER = 1.0e-4
+"""Wall thickness of a tube's end caps, in wall thicknesses: they close the mesh and carry nothing."""
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """A mesh of quads with what a `Body` asks for besides."""
+
+    points: Floats
+    """(V, 3), m, unstressed."""
+    quads: NDArray[np.int32]
+    """(Q, 4), counter-clockwise from outside."""
+    radius: float
+    """Scale, m."""
+    rings: tuple[RingSpec, ...] = ()
+    """Rings for hands."""
+    mesh_rings: tuple[tuple[int, int], ...] = ((0, 1),)
+    """All rings as (first vertex, vertices)."""
+    segment_ends: tuple[int, ...] = ()
+    """End of every chamber's run of quads; empty for one chamber."""
+    caps: NDArray[np.bool_] = field(default_factory=lambda: np.zeros(0, dtype=bool))
+    """Quads that only close the mesh, (Q,); empty for none."""
+
+
+class Rig:
+    """A mesh of one rubber in a scene of its own, run by the real stepper."""
+
+    def __init__(
+        self,
+        mesh: Mesh,
+        rubber: Rubber,
+        thickness: float,
+        *,
+        gauge: tuple[float, ...] = (0.0,),
+        vented: tuple[int, ...] = (),
+        neck: float = 0.0,
+        dt: float = STEP,
+        substeps: int = SUBSTEPS,
+        atmosphere: float = 101325.0,
+        drag: float = 0.0,
+        gravity: float = 0.0,
+        scale_mass: bool = True,
+    ) -> None:
+        wp.init()
+        wall = np.full(len(mesh.quads), thickness)
+        wall[np.flatnonzero(mesh.caps)] *= GOSSAMER
+        middles = np.array([mesh.points[f : f + n].mean(axis=0) for f, n in mesh.mesh_rings])
+        nearest = np.linalg.norm(mesh.points[:, None] - middles[None], axis=2).argmin(axis=1)
+        self.mesh = mesh
+        self.body = Body(
+            points=mesh.points.astype(np.float32),
+            rest=mesh.points.astype(np.float64),
+            quads=mesh.quads,
+            thickness=wall,
+            rubber=rubber,
+            radius=mesh.radius,
+            along=mesh.points[:, 0].astype(np.float32),
+            mesh_rings=mesh.mesh_rings,
+            vertex_ring=nearest.astype(np.int32),
+            rings=mesh.rings,
+            segment_ends=np.array(mesh.segment_ends or (len(mesh.quads),), dtype=np.int32),
+            gauge=np.array(gauge, dtype=np.float64),
+            vented=vented,
+            inlet=len(gauge) // 2,
+            neck_radius=neck or mesh.radius,
+        )
+        settings = SceneSettings(
+            dt=dt, atmosphere=atmosphere, drag=drag, gravity=gravity, scale_mass=scale_mass
+        )
+        self.scene = build_scene([self.body], [0], settings, "cpu", 1, 1)
+        self.stepper = Stepper(self.scene, substeps, 10.0 * mesh.radius)
+        self.hands = Hands(self.scene)
+        # Chambers exchange no gas, although their rings are wide open.
+        self.hands.passage[:] = self.hands.passage_goal[:] = 0.0
+
+    def array(self, name: str) -> NDArray[np.generic]:
+        """A copy of one of the scene's arrays, floats as float64."""
+        values = self.scene.arrays[name].numpy()
+        return values.astype(np.float64) if values.dtype.kind == "f" else values.copy()
+
+    @property
+    def points(self) -> Floats:
+        """Where all vertices are, (V, 3), m."""
+        return self.array("x")
+
+    def place(self, points: Floats) -> None:
+        """Put all vertices somewhere, at rest, and give rings their middles."""
+        self.scene.x.assign(points.astype(np.float32))
+        self.scene.v.zero_()
+        self.stepper._joints(self.scene.x, 1.0)
+        self.stepper._volumes(self.scene.x)
+
+    def fill(self, chamber: int, pressure: float) -> None:
+        """Seal the gas into a chamber that has this gauge pressure (Pa) at its present volume."""
+        self.stepper._volumes(self.scene.x)
+        amount, volume = self.array("amount"), self.array("volume")
+        amount[chamber] = (
+            (self.scene.settings.atmosphere + pressure) * volume[chamber] / (GAS_CONSTANT * TEMPERATURE)
+        )
+        self.scene.amount.assign(amount)
+
+    def advance(self) -> None:
+        """Advance by one frame of the rig's substeps."""
+        self.hands.upload()
+        self.stepper.advance(contact=False)
+        self.hands.arrived()
+
+    def forces(self) -> Floats:
+        """Force on every vertex, (V, 3), N: what the next two substeps change of its momentum."""
+        self.scene.v.zero_()
+        self.advance()
+        return self.array("mass")[:, None] * self.array("v") / (self.stepper.substeps * self.scene.settings.dt)
+
+    def kinetic_energy(self) -> float:
+        """J."""
+        return float(0.5 * (self.array("mass") * (self.array("v") ** 2).sum(axis=1)).sum())
+
+    def momentum(self) -> tuple[Floats, Floats]:
+        """Momentum (kg m/s) and angular momentum about the centre of mass (kg m2/s), (3,) each."""
+        mass, x, v = self.array("mass")[:, None], self.points, self.array("v")
+        centre = (mass * x).sum(axis=0) / mass.sum()
+        return (mass * v).sum(axis=0), (mass * np.cross(x - centre, v)).sum(axis=0)
+
+    def settle(self, tolerance: float = 2.0e-5, most: int = 400) -> None:
+        """Bring everything to rest: motion is stopped at every peak of the kinetic energy (Barnes 1999).
+
+        It ends when nothing moved by more than `tolerance` (in radii) between three peaks, one after the other.
+
+        Raises:
+            AssertionError: that did not happen within `most` frames.
+        """
+        before, energy, quiet, moved = self.points, 0.0, 0, math.inf
+        for _ in range(most):
+            self.advance()
+            now = self.kinetic_energy()
+            if now < energy:
+                self.scene.v.zero_()
+                here = self.points
+                moved = np.abs(here - before).max()
+                before, now = here, 0.0
+                quiet = quiet + 1 if moved < tolerance * self.mesh.radius else 0
+                if quiet == 3:
+                    return
+            energy = now
+        raise AssertionError(f"not at rest after {most} frames: still moving {moved / self.mesh.radius:.1e} radii")
+
+
+def plate(columns: int, rows: int, size: float, distortion: float = 0.0) -> Mesh:
+    """A flat square plate of `size` (m); inner vertices are displaced by up to `distortion` cells."""
+    u, v = np.meshgrid(np.arange(columns + 1.0), np.arange(rows + 1.0), indexing="ij")
+    shift = np.random.default_rng(7).uniform(-distortion, distortion, (2, *u.shape))
+    shift[:, [0, -1]] = 0.0
+    shift[:, :, [0, -1]] = 0.0
+    points = np.stack([(u + shift[0]) * size / columns, (v + shift[1]) * size / rows, 0.0 * u], axis=-1)
+    grid = np.arange(u.size, dtype=np.int32).reshape(u.shape)
+    return Mesh(points.reshape(-1, 3), _quads(grid), size)
+
+
+def cube_sphere(radius: float, cells: int) -> Mesh:
+    """A sphere: the six faces of a cube, `cells` by `cells` quads each, at equal angles."""
+    angle = np.tan(np.linspace(-0.25, 0.25, cells + 1) * math.pi)
+    u, v = np.meshgrid(angle, angle, indexing="ij")
+    one = np.ones_like(u)
+    faces = [(one, u, v), (-one, v, u), (v, one, u), (u, -one, v), (u, v, one), (v, u, -one)]
+    every = np.stack([np.stack(f, axis=-1).reshape(-1, 3) for f in faces])
+    every /= np.linalg.norm(every, axis=2, keepdims=True)
+    _, first, inverse = np.unique(np.round(every.reshape(-1, 3), 9), axis=0, return_index=True, return_inverse=True)
+    grid = inverse.reshape(6, cells + 1, cells + 1).astype(np.int32)
+    quads = np.concatenate([_quads(face) for face in grid])
+    return Mesh(radius * every.reshape(-1, 3)[first], quads, radius)
+
+
+def tube(radius: float, around: int, stations: Floats) -> Mesh:
+    """A tube along x with its rings at `stations` (m), between two gossamer caps: three chambers, two held rings.
+
+    The cross-section is circumscribed to the circle, as that of a balloon is.
+    """
+    cells, corner = around // 4, radius / math.cos(math.pi / around)
+    angle = 2.0 * math.pi * np.arange(around) / around
+    circle = corner * np.stack([0.0 * angle, np.cos(angle), np.sin(angle)], axis=1)
+    wall = np.concatenate([circle + [s, 0.0, 0.0] for s in stations])
+    inner = (cells - 1) ** 2
+    flat = _disc(around, circle)
+    points = np.concatenate([wall, flat + [stations[0], 0.0, 0.0], flat + [stations[-1], 0.0, 0.0]])
+    ring = np.arange(len(wall), dtype=np.int32).reshape(-1, around)
+    # Rows of the grid run along the tube, its columns round it.
+    sheet = np.concatenate([ring, ring[:, :1]], axis=1).T
+    first = _cap(ring[0], len(wall))[:, ::-1]
+    last = _cap(ring[-1], len(wall) + inner)
+    quads = np.concatenate([first, _quads(sheet), last]).astype(np.int32)
+    caps = np.ones(len(quads), dtype=bool)
+    caps[len(first) : -len(last)] = False
+    starts = ring[:, 0]
+    return Mesh(
+        points=points,
+        quads=quads,
+        radius=radius,
+        rings=tuple(RingSpec(int(f), around, parts=True) for f in (starts[0], starts[-1])),
+        mesh_rings=tuple((int(f), around) for f in starts),
+        segment_ends=(len(first), len(quads) - len(last), len(quads)),
+        caps=caps,
+    )
+
+
+def stretched(mesh: Mesh, hoop: float, axial: float) -> Floats:
+    """Points of a tube at these stretches, (V, 3), m."""
+    return mesh.points * np.array([axial, hoop, hoop])
+
+
+def ring_stretches(rig: Rig) -> tuple[Floats, Floats]:
+    """Hoop stretch of every ring of a tube, (R,), and axial stretch between rings, (R - 1,)."""
+    x, around = rig.points, rig.mesh.mesh_rings[0][1]
+    rings = np.stack([x[f : f + around] for f, _ in rig.mesh.mesh_rings])
+    rest = np.stack([rig.mesh.points[f : f + around] for f, _ in rig.mesh.mesh_rings])
+    girth = np.linalg.norm(rings - np.roll(rings, 1, axis=1), axis=2).sum(axis=1)
+    rest_girth = np.linalg.norm(rest - np.roll(rest, 1, axis=1), axis=2).sum(axis=1)
+    # Quads stretch along the middles of their hoop edges.
+    middles = 0.5 * (rings + np.roll(rings, 1, axis=1))
+    rest_middles = 0.5 * (rest + np.roll(rest, 1, axis=1))
+    length = np.linalg.norm(np.diff(middles, axis=0), axis=2).mean(axis=1)
+    return girth / rest_girth, length / np.linalg.norm(np.diff(rest_middles, axis=0), axis=2).mean(axis=1)
+
+
+def polygon_factor(around: int) -> float:
+    """Area of the polygon circumscribed to a circle, in areas of the circle."""
+    return around * math.tan(math.pi / around) / math.pi
+
+
+def at_energy_of(rig: Rig, state: TubeState) -> None:
+    """Let all rubber remember this state as its largest stretch so far."""
+    energy = float(rig.body.rubber.energy(state.a, state.b))
+    rig.scene.peak_energy.fill_(energy)
+
+
+def plain(rubber: Rubber) -> Rubber:
+    """The rubber without softening."""
+    return replace(rubber, softening=None)
+
+
+def _quads(grid: NDArray[np.int32]) -> NDArray[np.int32]:
+    return np.stack([grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]], axis=-1).reshape(-1, 4)
+
+
+def _disc(around: int, circle: Floats) -> Floats:
+    """Inner points of a flat cap, row by row."""
+    cells = around // 4
+    border = np.arange(around)
+    grid = np.zeros((cells + 1, cells + 1), dtype=int)
+    grid[:cells, 0], grid[cells, :cells] = border[:cells], border[cells : 2 * cells]
+    grid[cells:0:-1, cells], grid[0, cells:0:-1] = border[2 * cells : 3 * cells], border[3 * cells :]
+    t = np.arange(1, cells)[:, None, None] / cells
+    p = circle[grid]
+    s = t.transpose(1, 0, 2)
+    ruled = (1 - t) * p[:1, 1:-1] + t * p[-1:, 1:-1] + (1 - s) * p[1:-1, :1] + s * p[1:-1, -1:]
+    corners = (1 - t) * (1 - s) * p[0, 0] + t * (1 - s) * p[-1, 0] + t * s * p[-1, -1] + (1 - t) * s * p[0, -1]
+    return (ruled - corners).reshape(-1, 3)
+
+
+def _cap(ring: NDArray[np.int32], inner: int) -> NDArray[np.int32]:
+    """Quads of a cap, counter-clockwise seen from +x when its ring runs so."""
+    cells = len(ring) // 4
+    grid = np.zeros((cells + 1, cells + 1), dtype=np.int32)
+    grid[:cells, 0], grid[cells, :cells] = ring[:cells], ring[cells : 2 * cells]
+    grid[cells:0:-1, cells], grid[0, cells:0:-1] = ring[2 * cells : 3 * cells], ring[3 * cells :]
+    grid[1:cells, 1:cells] = inner + np.arange((cells - 1) ** 2, dtype=np.int32).reshape(cells - 1, cells - 1)
+    return _quads(grid)
