@@ -204,6 +204,10 @@ def _ring_arrays(scene: Scene, data: list[MembraneData], host: dict[str, np.ndar
     for j, (f, n) in enumerate(zip(first, around, strict=True)):
         vertex_joint[f : f + n] = j
     host["vertex_joint"] = vertex_joint
+    home = np.full(v[-1], -1, dtype=np.int32)
+    home[host["quads"].reshape(-1)] = np.repeat(host["quad_segment"], 4)
+    parting = (vertex_joint >= 0) & (host["parts"][vertex_joint] == 1)
+    host["vertex_segment"] = np.where(parting, -1, home).astype(np.int32)
     mass = np.concatenate([d.mass for d in data])
     host["joint_mass"] = np.array(
         [mass[f : f + n].sum() for f, n in zip(first, around, strict=True)] or [1.0], dtype=np.float32

@@ -235,7 +235,7 @@ class Stepper:
             find_walls,
             len(s.x),
             [self._grid.id, s.quads, s.quad_segment, s.quad_ring, s.quad_along, s.quad_balloon, s.vertex_ring]
-            + [s.vertex_along, s.vertex_balloon, s.balloon_world, s.balloon_radius, s.touching, s.touch, x, s.quad_middle]
+            + [s.vertex_along, s.vertex_balloon, s.vertex_segment, s.balloon_world, s.balloon_radius, s.touching, s.touch, x, s.quad_middle]
             + [s.quad_area, s.normal, s.area, s.ring_radius],
             [s.target, s.slip, s.hit_count, s.hits],
         )

@@ -10,7 +10,7 @@ from pxr import Usd
 from balloon_usd.stage.provenance import KEY
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
 HEAD = ("upAxis", "metersPerUnit", "timeCodesPerSecond", "framesPerSecond", "startTimeCode", "endTimeCode")
 """Metadata of the stage that both must have alike."""
@@ -19,11 +19,12 @@ DETAILS = ("typeName", "variability", "custom", "interpolation", "elementSize", 
 """Metadata of a property that both must have alike."""
 
 
-def differences(one: Any, other: Any, *, tolerance: float = 0.0) -> Iterator[str]:
+def differences(one: Any, other: Any, *, tolerance: float | Mapping[str, float] = 0.0) -> Iterator[str]:
     """What differs between two composed stages, a sentence each; variants and arcs do not count.
 
     Floats may differ by `tolerance` times the larger of 1 and their size (in SI units, so 1e-6 is
-    a thousandth of a millimetre in the points). The asset's identifier is its own file and may differ.
+    a thousandth of a millimetre in the points); given by name of attribute, others must be equal.
+    The asset's identifier is its own file and may differ.
     """
     for key in HEAD:
         if one.GetMetadata(key) != other.GetMetadata(key):
@@ -39,7 +40,7 @@ def differences(one: Any, other: Any, *, tolerance: float = 0.0) -> Iterator[str
             yield from _prim_differences(prims[0][path], prims[1][path], tolerance)
 
 
-def _prim_differences(one: Any, other: Any, tolerance: float) -> Iterator[str]:
+def _prim_differences(one: Any, other: Any, tolerance: float | Mapping[str, float]) -> Iterator[str]:
     path = one.GetPath()
     heads = [_head(prim) for prim in (one, other)]
     if heads[0] != heads[1]:
@@ -49,7 +50,8 @@ def _prim_differences(one: Any, other: Any, tolerance: float) -> Iterator[str]:
         yield f"{path}.{name}: only in the {'first' if name in names[0] else 'second'} stage"
     for name in sorted(names[0] & names[1]):
         if one.GetAttribute(name) and other.GetAttribute(name):
-            yield from _attribute_differences(one.GetAttribute(name), other.GetAttribute(name), tolerance)
+            allowed = tolerance if isinstance(tolerance, float) else tolerance.get(name, 0.0)
+            yield from _attribute_differences(one.GetAttribute(name), other.GetAttribute(name), allowed)
         elif _targets(one, name) != _targets(other, name):
             yield f"{path}.{name}: targets differ"
 
@@ -66,7 +68,7 @@ def _attribute_differences(one: Any, other: Any, tolerance: float) -> Iterator[s
         return
     for time in (Usd.TimeCode.Default(), *one.GetTimeSamples()):
         if not _same(one.Get(time), other.Get(time), tolerance):
-            yield f"{path}: values differ at {time}"
+            yield f"{path}: values differ at {time}{_how_far(one.Get(time), other.Get(time))}"
 
 
 def _same(one: Any, other: Any, tolerance: float) -> bool:
@@ -78,6 +80,14 @@ def _same(one: Any, other: Any, tolerance: float) -> bool:
     if first.dtype.kind == "f" and tolerance > 0.0:
         return np.allclose(first, second, rtol=tolerance, atol=tolerance)
     return np.array_equal(first, second)
+
+
+def _how_far(one: Any, other: Any) -> str:
+    """Say by how much two arrays of floats differ at most."""
+    first, second = np.asarray(one), np.asarray(other)
+    if first.shape != second.shape or first.dtype.kind != "f" or second.dtype.kind != "f":
+        return ""
+    return f" by up to {np.abs(first - second).max():.3g}"
 
 
 def _head(prim: Any) -> tuple[Any, ...]:

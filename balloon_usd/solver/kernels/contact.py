@@ -36,7 +36,7 @@ class Touch:
     margin: float
     """Further distance within which walls are watched between two searches, m."""
     apart: float
-    """Unstressed distance along one balloon, in R0, within which its wall never meets itself."""
+    """Unstressed distance along one bubble, in R0, within which its wall never meets itself."""
 
 
 @wp.kernel
@@ -137,6 +137,7 @@ def find_walls(
     vertex_ring: wp.array[int],
     vertex_along: wp.array[float],
     vertex_balloon: wp.array[int],
+    vertex_segment: wp.array[int],
     balloon_world: wp.array[int],
     balloon_radius: wp.array[float],
     touching: wp.array[int],
@@ -157,6 +158,8 @@ def find_walls(
     p = x[i]
     n = normal[i]
     mine = vertex_balloon[i]
+    # The bubble of a vertex; a ring between two bubbles belongs to neither.
+    home = vertex_segment[i]
     apart = touch.apart * balloon_radius[mine]
     depth = DEPTH_LIMIT * ring_radius[vertex_ring[i]]
     reach = REACH * wp.sqrt(area[i]) + touch.offset + touch.margin
@@ -169,7 +172,8 @@ def find_walls(
     while wp.hash_grid_query_next(query, q):
         d = p - quad_middle[q]
         near = wp.dot(d, d) < reach * reach
-        if near and (quad_balloon[q] != mine or wp.abs(quad_along[q] - vertex_along[i]) > apart):
+        elsewhere = quad_balloon[q] != mine or wp.abs(quad_along[q] - vertex_along[i]) > apart
+        if near and (elsewhere or (home >= 0 and quad_segment[q] != home)):
             a = quad_area[q]
             if wp.dot(a, n) < 0.0:
                 size = wp.length(a)
