@@ -47,7 +47,8 @@ def deepest_crossing(meshes: Sequence[tuple[NDArray[np.float32], NDArray[np.int3
     inside = np.flatnonzero(_winding(points + SKIN * normal, corners) > 0.5)
     worst, place = 0.0, points[0]
     for i in inside:
-        facing = (area @ normal[i] < 0.0) & (triangles != i).all(axis=1)
+        # Its own faces count: where a wall is creased, as in a neck, it lies on itself and crosses nothing.
+        facing = area @ normal[i] < 0.0
         depth = _distance(points[i], corners[facing]) if facing.any() else 0.0
         if depth > worst:
             worst, place = depth, points[i]

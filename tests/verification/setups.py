@@ -108,6 +108,11 @@ class Rig:
         return values.astype(np.float64) if values.dtype.kind == "f" else values.copy()
 
     @property
+    def wall(self) -> NDArray[np.intp]:
+        """Vertices of all quads but those that only close the mesh."""
+        return np.unique(self.mesh.quads[~self.mesh.caps] if len(self.mesh.caps) else self.mesh.quads)
+
+    @property
     def points(self) -> Floats:
         """Where all vertices are, (V, 3), m."""
         return self.array("x")
@@ -158,6 +163,7 @@ class Rig:
         Raises:
             AssertionError: that did not happen within `most` frames.
         """
+        wall = self.wall
         before, energy, quiet, moved = self.points, 0.0, 0, math.inf
         for _ in range(most):
             self.advance()
@@ -165,7 +171,7 @@ class Rig:
             if now < energy:
                 self.scene.v.zero_()
                 here = self.points
-                moved = np.abs(here - before).max()
+                moved = np.abs(here - before)[wall].max()
                 before, now = here, 0.0
                 quiet = quiet + 1 if moved < tolerance * self.mesh.radius else 0
                 if quiet == 3:
@@ -199,34 +205,36 @@ def cube_sphere(radius: float, cells: int) -> Mesh:
     return Mesh(radius * every.reshape(-1, 3)[first], quads, radius)
 
 
-def tube(radius: float, around: int, stations: Floats) -> Mesh:
-    """A tube along x with its rings at `stations` (m), between two gossamer caps: three chambers, two held rings.
+def tube(radius: float, around: int, stations: Floats, parts: tuple[int, ...] = (0, -1)) -> Mesh:
+    """A closed tube along x with its rings at `stations` (m); the rings `parts` border chambers and can be held.
 
-    The cross-section is circumscribed to the circle, as that of a balloon is.
+    The cross-section is circumscribed to the circle, as that of a balloon is. An end cap is of gossamer where its ring
+    is a border: the tube then is open, with a chamber of nothing at its end.
     """
-    cells, corner = around // 4, radius / math.cos(math.pi / around)
+    corner = radius / math.cos(math.pi / around)
     angle = 2.0 * math.pi * np.arange(around) / around
     circle = corner * np.stack([0.0 * angle, np.cos(angle), np.sin(angle)], axis=1)
     wall = np.concatenate([circle + [s, 0.0, 0.0] for s in stations])
-    inner = (cells - 1) ** 2
     flat = _disc(around, circle)
     points = np.concatenate([wall, flat + [stations[0], 0.0, 0.0], flat + [stations[-1], 0.0, 0.0]])
     ring = np.arange(len(wall), dtype=np.int32).reshape(-1, around)
-    # Rows of the grid run along the tube, its columns round it.
-    sheet = np.concatenate([ring, ring[:, :1]], axis=1).T
     first = _cap(ring[0], len(wall))[:, ::-1]
-    last = _cap(ring[-1], len(wall) + inner)
-    quads = np.concatenate([first, _quads(sheet), last]).astype(np.int32)
-    caps = np.ones(len(quads), dtype=bool)
-    caps[len(first) : -len(last)] = False
-    starts = ring[:, 0]
+    last = _cap(ring[-1], len(wall) + len(flat))
+    # Rows of a sheet's grid run round the tube; sheets follow each other along it.
+    closed = np.concatenate([ring, ring[:, :1]], axis=1)
+    sheets = [_quads(closed[k : k + 2].T) for k in range(len(ring) - 1)]
+    quads = np.concatenate([first, *sheets, last]).astype(np.int32)
+    borders = sorted(p % len(ring) for p in parts)
+    caps = np.zeros(len(quads), dtype=bool)
+    caps[: len(first)] = borders[0] == 0
+    caps[-len(last) :] = borders[-1] == len(ring) - 1
     return Mesh(
         points=points,
         quads=quads,
         radius=radius,
-        rings=tuple(RingSpec(int(f), around, parts=True) for f in (starts[0], starts[-1])),
-        mesh_rings=tuple((int(f), around) for f in starts),
-        segment_ends=(len(first), len(quads) - len(last), len(quads)),
+        rings=tuple(RingSpec(int(ring[b, 0]), around, parts=True) for b in borders),
+        mesh_rings=tuple((int(f), around) for f in ring[:, 0]),
+        segment_ends=(*(len(first) + around * b for b in borders), len(quads)),
         caps=caps,
     )
 
