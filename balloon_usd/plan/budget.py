@@ -5,19 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from balloon_usd.balloon.air import ATMOSPHERE, GAS_CONSTANT, ROOM_TEMPERATURE
 from balloon_usd.balloon.bubble_shape import twist_cost
 from balloon_usd.balloon.tube_theory import gauge_pressure, maxwell_state
 from balloon_usd.plan.open_tube import inflated_tube, softened, tail_range
 
 if TYPE_CHECKING:
     from balloon_usd.plan.strip import Strip
-
-GAS_CONSTANT = 8.314462618
-"""Molar gas constant, J/(mol K) (CODATA 2018)."""
-ATMOSPHERE = 101325.0
-"""Standard atmosphere, Pa (ISO 2533)."""
-ROOM_TEMPERATURE = 293.15
-"""Temperature of the gas, K."""
 
 
 @dataclass(frozen=True)

@@ -99,4 +99,4 @@ def _to_segment(p: Floats, a: Floats, b: Floats) -> Floats:
     along = b - a
     share = np.einsum("ti,ti->t", p - a, along) / np.maximum(np.einsum("ti,ti->t", along, along), 1e-30)
     foot = a + np.clip(share, 0.0, 1.0)[:, None] * along
-    return np.linalg.norm(p - foot, axis=1)
+    return np.asarray(np.linalg.norm(p - foot, axis=1))

@@ -16,8 +16,9 @@ from balloon_usd.solver.memory import set_bend
 
 if TYPE_CHECKING:
     from balloon_usd.plan import Plan
-    from balloon_usd.solver.hands import Hands, Struts
+    from balloon_usd.solver.hands import Hands
     from balloon_usd.solver.scene import Scene
+    from balloon_usd.solver.struts import Struts
 
 Floats = NDArray[np.float32]
 
@@ -197,7 +198,9 @@ class Maker:
     def _worked(self, ring: int) -> list[int]:
         """Joints on the knot's side of a ring."""
         rings = self.plan.table.rings
-        return [self._ring[k] for k in range(ring) if rings[k].joint and rings[k].balloon == rings[ring].balloon]
+        return [
+            self._ring[k] for k in range(ring) if rings[k].joint and rings[k].balloon == rings[ring].balloon
+        ]
 
     def _open(self, ring: int) -> list[int]:
         """Rings on the tip's side of a ring, where the tube is still whole: its joints to be, and one in the rest."""

@@ -15,10 +15,12 @@ from balloon_usd.solver.body import Body, tube_body
 from balloon_usd.solver.device import device_named
 from balloon_usd.solver.errors import SimulationFailed
 from balloon_usd.solver.frame import Frame
-from balloon_usd.solver.hands import Hands, StrutLaw, Struts
+from balloon_usd.solver.hands import Hands
 from balloon_usd.solver.maker import Maker
-from balloon_usd.solver.scene import SceneSettings, build_scene
+from balloon_usd.solver.scene import build_scene
+from balloon_usd.solver.settings import SceneSettings
 from balloon_usd.solver.stepper import Stepper
+from balloon_usd.solver.struts import StrutLaw, Struts
 from balloon_usd.solver.watch import SHORT_OF_GAS, Watch
 
 if TYPE_CHECKING:
@@ -67,7 +69,8 @@ class Simulation:
         self.struts = Struts(self.scene, StrutLaw())
         first = np.concatenate([[0], np.cumsum([len(m) for m in self.meshes])])
         self.makers = [
-            Maker(plan, self.scene, self.hands, self.struts, int(first[w])) for w, plan in enumerate(self.plans)
+            Maker(plan, self.scene, self.hands, self.struts, int(first[w]))
+            for w, plan in enumerate(self.plans)
         ]
         self._first_body = first
         self.watches = [Watch(plan, m, self.fps) for plan, m in zip(self.plans, self.meshes, strict=True)]
@@ -158,14 +161,18 @@ def _one_rate(plans: Sequence[Plan]) -> float:
 
 
 def _substeps(plans: Sequence[Plan], detail: Detail, fps: float) -> int:
-    wanted = [plan.recipe.physics.substeps or math.ceil(detail.substeps * NOMINAL_RATE / fps) for plan in plans]
+    wanted = [
+        plan.recipe.physics.substeps or math.ceil(detail.substeps * NOMINAL_RATE / fps) for plan in plans
+    ]
     return max(wanted) + max(wanted) % 2
 
 
 def _body(plan: Plan, strip: Strip, mesh: BalloonMesh, place: float) -> Body:
     pressure = SEALED_KNOT * maxwell_state(strip.rubber).p_star * strip.size.thickness / strip.size.radius
     guides = tuple(r.along for r in plan.table.rings if r.balloon == strip.balloon and not r.joint)
-    body = tube_body(mesh, strip.rubber, strip.size.radius, strip.size.thickness, joint_places(strip), guides, pressure)
+    body = tube_body(
+        mesh, strip.rubber, strip.size.radius, strip.size.thickness, joint_places(strip), guides, pressure
+    )
     body.points[:, 1] += np.float32(place * SPREAD)
     return body
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import warp as wp
 
 from balloon_usd.solver.kernels.contact import (
@@ -28,27 +30,46 @@ GRID_CELLS = 64
 
 
 class Stepper:
-    """Advances a scene by whole frames of a fixed number of substeps."""
+    """Advances a scene by whole frames of a fixed number of substeps.
+
+    Kernels are launched by the names of their arguments: each name is an array or a value of the scene, or one that
+    changes from substep to substep.
+    """
 
     def __init__(self, scene: Scene, substeps: int, reach: float) -> None:
+        """Prepare a scene.
+
+        Args:
+            scene: state to advance.
+            substeps: per frame; even, because positions alternate between two arrays.
+            reach: cell size of the contact search (m).
+
+        Raises:
+            ValueError: the number of substeps is odd.
+        """
         if substeps % 2:
             raise ValueError(f"the number of substeps must be even, got {substeps}")
         self.scene = scene
         self.substeps = substeps
         self.reach = reach
-        """Cell size of the contact search, m."""
         self._grid = wp.HashGrid(GRID_CELLS, GRID_CELLS, GRID_CELLS, device=scene.device)
-        self._graphs: dict[bool, wp.Graph] = {}
+        self._graphs: dict[bool, Any] = {}
+        self._values: dict[str, Any] = {
+            "dt": scene.settings.dt,
+            "frame_seconds": scene.settings.dt * substeps,
+            "air": scene.air,
+            "touch": scene.touch,
+            "grid": self._grid.id,
+        }
         self._start()
 
     def _start(self) -> None:
         """Give rings their middles and chambers their gas before the first substep."""
         s = self.scene
-        self._joints(s.x, 1.0)
-        self._volumes(s.x)
+        self._launch(move_joints, len(s.joint_first), fraction=1.0)
+        self._volumes()
         volume = s.volume.numpy().astype(float)
-        pressure = s.start_gauge.numpy() + s.settings.atmosphere
-        amount = pressure * volume / float(s.air.molar_energy)
+        amount = (s.start_gauge.numpy() + s.settings.atmosphere) * volume / float(s.air.molar_energy)
         for k, body in enumerate(s.bodies):
             amount[[s.segment_start[k] + i for i in body.vented]] = 0.0
         s.amount.assign(amount)
@@ -60,7 +81,7 @@ class Stepper:
             device = self.scene.device
             wp.capture_begin(device=device, force_module_load=True)
             try:
-                self._frame(contact)
+                self._frame(contact=contact)
             finally:
                 graph = wp.capture_end(device=device)
             self._graphs[contact] = graph
@@ -68,175 +89,57 @@ class Stepper:
 
     def stretch(self) -> None:
         """Write the largest principal stretch of every vertex."""
-        s = self.scene
-        self._launch(vertex_stretch, len(s.x), [s.corners, s.quads, s.to_rest, s.x], [s.stretch])
+        self._launch(vertex_stretch, len(self.scene.x))
 
-    def _launch(self, kernel: wp.Kernel, dim: int | tuple[int, ...], inputs: list[object], outputs: list[object]) -> None:
-        wp.launch(kernel, dim=dim, inputs=inputs, outputs=outputs, device=self.scene.device)
+    def _launch(self, kernel: Any, dim: int | tuple[int, ...], **changing: Any) -> None:
+        values = self._values | changing
+        arrays = self.scene.arrays
+        inputs = [values[a.label] if a.label in values else arrays[a.label] for a in kernel.adj.args]
+        wp.launch(kernel, dim=dim, inputs=inputs, device=self.scene.device)
 
-    def _frame(self, contact: bool) -> None:
+    def _frame(self, *, contact: bool) -> None:
         s = self.scene
         here, there = s.x, s.x_next
         for k in range(self.substeps):
             if contact and k % SEARCH_EVERY == 0:
                 self._search(here)
-            self._substep(here, there, (k + 1) / self.substeps, contact)
+            self._substep(here, there, (k + 1) / self.substeps, contact=contact)
             here, there = there, here
 
-    def _substep(self, x: wp.array, x_next: wp.array, fraction: float, contact: bool) -> None:
-        s, dt = self.scene, self.scene.settings.dt
-        self._volumes(x)
-        self._launch(
-            balloon_gas,
-            len(s.bodies),
-            [
-                s.balloon_segment,
-                s.balloon_segment_end,
-                s.end_joint,
-                s.inlet,
-                s.air,
-                dt,
-                fraction,
-                s.open_from,
-                s.open_to,
-            ]
-            + [s.pump_flow, s.pump_limit, s.pump_goal, s.volume],
-            [s.amount, s.pressure],
-        )
-        if contact:
-            self._launch(
-                press_walls,
-                len(s.x),
-                [
-                    s.quads,
-                    s.mass,
-                    s.touch,
-                    s.friction,
-                    s.vertex_balloon,
-                    dt,
-                    s.area,
-                    s.quad_area,
-                    s.target,
-                    s.hit_count,
-                    x,
-                    s.v,
-                ],
-                [s.slip, s.contact_force, s.contact_share],
-            )
-        self._launch(
-            quad_forces,
-            len(s.quads),
-            [
-                s.quads,
-                s.quad_segment,
-                s.segment_origin,
-                s.quad_law,
-                s.to_rest,
-                s.hourglass,
-                s.rubber_volume,
-                s.laws,
-            ]
-            + [s.pressure, x, s.v, s.peak_energy],
-            [s.corner_force],
-        )
-        if contact:
-            self._launch(
-                press_back,
-                len(s.quads),
-                [s.quads, s.hit_count, s.hits, s.contact_force, s.contact_share, x],
-                [s.corner_force],
-            )
-        self._launch(
-            move_vertices,
-            len(s.x),
-            [s.corners, s.vertex_joint, s.vertex_balloon, s.joint_first, s.joint_around, s.joint_segment]
-            + [s.segment_origin, s.vertex_along, s.mass, s.weight, s.gravity, s.drag, dt, s.spin, s.target]
-            + [s.contact_force, s.corner_force, s.pressure, s.ring_middle, s.ring_area, x],
-            [x_next, s.v],
-        )
-        self._launch(
-            load_struts,
-            len(s.strut_joint),
-            [
-                s.strut_joint,
-                s.strut_stiffness,
-                s.strut_damping,
-                s.strut_yield,
-                s.ring_middle,
-                s.ring_speed,
-                s.strut_length,
-            ],
-            [s.strut_force],
-        )
-        self._joints(x_next, fraction)
-        self._launch(
-            hold_welds,
-            len(s.weld_size),
-            [s.weld_joint, s.weld_size, s.weld_reach, s.weld_gap, s.joint_first, s.joint_around, s.joint_mass]
-            + [s.hand, dt, s.ring_middle],
-            [x_next, s.v],
-        )
-        self._launch(
-            weld_middles,
-            s.weld_joint.shape,
-            [s.weld_joint, s.weld_size, s.joint_first, s.joint_around, x_next],
-            [s.ring_middle],
-        )
-
-    def _joints(self, x: wp.array, fraction: float) -> None:
-        s, dt = self.scene, self.scene.settings.dt
-        self._launch(
-            move_joints,
-            len(s.joint_first),
-            [
-                s.joint_first,
-                s.joint_around,
-                s.parts,
-                s.joint_struts,
-                s.joint_mass,
-                dt,
-                dt * self.substeps,
-                fraction,
-                s.hand,
-            ]
-            + [
-                s.hand_from,
-                s.hand_to,
-                s.hand_force,
-                s.hand_stiffness,
-                s.radius_from,
-                s.radius_to,
-                s.strut_force,
-            ],
-            [x, s.v, s.ring_middle, s.ring_area, s.ring_axes, s.ring_speed, s.hand_load],
-        )
-
-    def _volumes(self, x: wp.array) -> None:
+    def _substep(self, x: Any, x_next: Any, fraction: float, *, contact: bool) -> None:
         s = self.scene
+        vertices, quads = len(s.x), len(s.quads)
+        self._volumes(x=x)
+        self._launch(balloon_gas, len(s.bodies), fraction=fraction)
+        if contact:
+            self._launch(press_walls, vertices, x=x)
+        self._launch(quad_forces, quads, x=x)
+        if contact:
+            self._launch(press_back, quads, x=x)
+        self._launch(move_vertices, vertices, x=x, x_next=x_next)
+        self._launch(load_struts, len(s.strut_joint))
+        self._launch(move_joints, len(s.joint_first), x=x_next, fraction=fraction)
+        self._launch(hold_welds, len(s.weld_size), x=x_next)
+        self._launch(weld_middles, s.weld_joint.shape, x=x_next)
+
+    def _volumes(self, **changing: Any) -> None:
+        s = self.scene
+        values = s.arrays | changing
         wp.launch_tiled(
             segment_volumes,
             dim=[len(s.segment_quad)],
-            inputs=[s.quads, s.segment_quad, s.segment_quad_end, s.segment_origin, s.start_joint, s.end_joint]
-            + [s.ring_middle, s.ring_area, x],
-            outputs=[s.volume],
+            inputs=[values[a.label] for a in segment_volumes.adj.args],
             block_dim=VOLUME_BLOCK,
             device=s.device,
         )
 
-    def _search(self, x: wp.array) -> None:
+    def _search(self, x: Any) -> None:
         """Find the walls that face each other."""
         s = self.scene
-        self._launch(quad_surface, len(s.quads), [s.quads, x], [s.quad_middle, s.quad_area])
-        self._launch(vertex_surface, len(s.x), [s.corners, s.quad_area], [s.normal, s.area])
-        self._launch(ring_radii, len(s.ring_first), [s.ring_first, s.ring_around, x], [s.ring_radius])
+        self._launch(quad_surface, len(s.quads), x=x)
+        self._launch(vertex_surface, len(s.x))
+        self._launch(ring_radii, len(s.ring_first), x=x)
         self._grid.build(s.quad_middle, self.reach, groups=s.quad_world)
         s.hit_count.zero_()
-        self._launch(
-            find_walls,
-            len(s.x),
-            [self._grid.id, s.quads, s.quad_segment, s.quad_ring, s.quad_along, s.quad_balloon, s.vertex_ring]
-            + [s.vertex_along, s.vertex_balloon, s.vertex_segment, s.balloon_world, s.balloon_radius, s.touching, s.touch, x, s.quad_middle]
-            + [s.quad_area, s.normal, s.area, s.ring_radius],
-            [s.target, s.slip, s.hit_count, s.hits],
-        )
-        self._launch(order_hits, len(s.quads), [s.hit_count], [s.most_hits, s.hits])
+        self._launch(find_walls, len(s.x), x=x)
+        self._launch(order_hits, len(s.quads))

@@ -39,7 +39,9 @@ class Watch:
         if cause is None and most_hits > HITS:
             cause = f"{most_hits} vertices press on one face but there is room for {HITS}: use a finer detail"
         self._last = frame
-        return None if cause is None else SimulationFailed(frame.doing, (frame.time_code - 1) / self._fps, cause)
+        return (
+            None if cause is None else SimulationFailed(frame.doing, (frame.time_code - 1) / self._fps, cause)
+        )
 
     def _not_finite(self, frame: Frame) -> str | None:
         for points, strip in zip(frame.points, self._plan.strips.values(), strict=True):

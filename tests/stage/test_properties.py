@@ -308,7 +308,7 @@ def test_the_flat_stage_equals_the_composed_one(written: Path) -> None:
 def test_a_flat_stage_that_is_not_the_composed_one_is_found_out(stage: Usd.Stage, dog: Usd.Stage) -> None:
     set_at("points", 5, with_row(0, 0.25))(stage)
     (finding,) = flat_equals_composed(stage, dog)
-    assert str(finding) == f"property 31: {MAIN}.points: values differ at 5.0"
+    assert str(finding) == f"property 31: {MAIN}.points: values differ at 5.0 by up to 0.25"
 
 
 def test_a_truncated_file_is_not_whole(written: Path, tmp_path: Path) -> None:

@@ -12,11 +12,13 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
+from balloon_usd.balloon.air import GAS_CONSTANT, ROOM_TEMPERATURE
 from balloon_usd.balloon.rubber import Rubber
 from balloon_usd.balloon.tube_theory import TubeState
 from balloon_usd.solver.body import Body, RingSpec
 from balloon_usd.solver.hands import Hands
-from balloon_usd.solver.scene import GAS_CONSTANT, TEMPERATURE, SceneSettings, build_scene
+from balloon_usd.solver.scene import build_scene
+from balloon_usd.solver.settings import SceneSettings
 from balloon_usd.solver.stepper import Stepper
 
 Floats = NDArray[np.float64]
@@ -129,7 +131,7 @@ class Rig:
         self.stepper._volumes(self.scene.x)
         amount, volume = self.array("amount"), self.array("volume")
         amount[chamber] = (
-            (self.scene.settings.atmosphere + pressure) * volume[chamber] / (GAS_CONSTANT * TEMPERATURE)
+            (self.scene.settings.atmosphere + pressure) * volume[chamber] / (GAS_CONSTANT * ROOM_TEMPERATURE)
         )
         self.scene.amount.assign(amount)
 

@@ -6,6 +6,7 @@ TARGETS = 2
 """Walls that one vertex may touch at a time."""
 HITS = 24
 """Vertices that may press on one quad at a time."""
+MOST_HITS = wp.constant(HITS)
 
 FACING = wp.constant(-0.1)
 """Walls face each other when the dot product of their outward normals is below this."""
@@ -43,14 +44,14 @@ class Touch:
 def quad_surface(
     quads: wp.array[wp.vec4i],
     x: wp.array[wp.vec3],
-    middle: wp.array[wp.vec3],
-    area: wp.array[wp.vec3],
+    quad_middle: wp.array[wp.vec3],
+    quad_area: wp.array[wp.vec3],
 ):
     """Write the middle (m) and the vector area (m2) of every quad."""
     q = wp.tid()
     c = quads[q]
-    middle[q] = 0.25 * (x[c[0]] + x[c[1]] + x[c[2]] + x[c[3]])
-    area[q] = 0.5 * wp.cross(x[c[2]] - x[c[0]], x[c[3]] - x[c[1]])
+    quad_middle[q] = 0.25 * (x[c[0]] + x[c[1]] + x[c[2]] + x[c[3]])
+    quad_area[q] = 0.5 * wp.cross(x[c[2]] - x[c[0]], x[c[3]] - x[c[1]])
 
 
 @wp.kernel
@@ -79,7 +80,7 @@ def ring_radii(
     ring_first: wp.array[int],
     ring_around: wp.array[int],
     x: wp.array[wp.vec3],
-    radius: wp.array[float],
+    ring_radius: wp.array[float],
 ):
     """Write the radius (m) of every ring, its girth over 2 pi."""
     r = wp.tid()
@@ -91,7 +92,7 @@ def ring_radii(
         here = x[first + k]
         girth += wp.length(here - last)
         last = here
-    radius[r] = girth / (2.0 * wp.pi)
+    ring_radius[r] = girth / (2.0 * wp.pi)
 
 
 @wp.func
@@ -210,7 +211,7 @@ def find_walls(
             elif before1 >= 0 and quad_segment[before1] == quad_segment[found[k]]:
                 kept = slip1
             place = wp.atomic_add(hit_count, found[k], 1)
-            if place < 24:
+            if place < MOST_HITS:
                 hits[found[k], place] = 2 * i + k
         target[i, k] = found[k]
         slip[i, k] = kept
@@ -223,7 +224,7 @@ def order_hits(hit_count: wp.array[int], most_hits: wp.array[int], hits: wp.arra
     count = hit_count[q]
     if count > 0:
         wp.atomic_max(most_hits, 0, count)
-        count = wp.min(count, 24)
+        count = wp.min(count, MOST_HITS)
         hit_count[q] = count
         for k in range(1, count):
             here = hits[q, k]
@@ -249,8 +250,8 @@ def press_walls(
     x: wp.array[wp.vec3],
     v: wp.array[wp.vec3],
     slip: wp.array2d[wp.vec3],
-    force: wp.array2d[wp.vec3],
-    share: wp.array2d[wp.vec4],
+    contact_force: wp.array2d[wp.vec3],
+    contact_share: wp.array2d[wp.vec4],
 ):
     """Write the contact force (N) on every touching vertex and how the quad that it touches shares it."""
     i = wp.tid()
@@ -269,9 +270,13 @@ def press_walls(
             if overlap > 0.0 and wp.length(gap - height * face) < 2.0 * SIDE_SLIP * wp.sqrt(
                 wp.length(quad_area[q])
             ):
-                lightest = wp.min(mass[i], wp.min(wp.min(mass[c[0]], mass[c[1]]), wp.min(mass[c[2]], mass[c[3]])))
+                lightest = wp.min(
+                    mass[i], wp.min(wp.min(mass[c[0]], mass[c[1]]), wp.min(mass[c[2]], mass[c[3]]))
+                )
                 crowd = wp.max(CROWD * float(hit_count[q]), 1.0)
-                stiffness = wp.min(touch.pressure * area[i] / touch.offset, STABLE * lightest / (dt * dt * crowd))
+                stiffness = wp.min(
+                    touch.pressure * area[i] / touch.offset, STABLE * lightest / (dt * dt * crowd)
+                )
                 going = v[i] - (s[0] * v[c[0]] + s[1] * v[c[1]] + s[2] * v[c[2]] + s[3] * v[c[3]])
                 approach = wp.dot(going, face)
                 near = wp.min(overlap / touch.offset, 1.0)
@@ -287,8 +292,8 @@ def press_walls(
                     moved = moved * (hold / far)
                 f = push * face - grip * moved
             slip[i, k] = moved
-            force[i, k] = f
-            share[i, k] = s
+            contact_force[i, k] = f
+            contact_share[i, k] = s
 
 
 @wp.func

@@ -55,11 +55,11 @@ def regular_ring(x: wp.array[wp.vec3], first: int, around: int, c: wp.vec3):
 def move_joints(
     joint_first: wp.array[int],
     joint_around: wp.array[int],
-    parts: wp.array[int],
+    joint_parts: wp.array[int],
     joint_struts: wp.array2d[int],
     joint_mass: wp.array[float],
     dt: float,
-    frame: float,
+    frame_seconds: float,
     fraction: float,
     hand: wp.array[int],
     hand_from: wp.array[wp.vec3],
@@ -71,13 +71,16 @@ def move_joints(
     strut_force: wp.array[wp.vec3],
     x: wp.array[wp.vec3],
     v: wp.array[wp.vec3],
-    middle: wp.array[wp.vec3],
-    area: wp.array[wp.vec3],
-    clasp: wp.array[Axes],
-    speed: wp.array[wp.vec3],
+    ring_middle: wp.array[wp.vec3],
+    ring_area: wp.array[wp.vec3],
+    ring_axes: wp.array[Axes],
+    ring_speed: wp.array[wp.vec3],
     hand_load: wp.array[wp.vec3],
 ):
-    """Hold, lead and close the ring of every joint; write its middle (m), vector area (m2), axes, speed (m/s) and the hand's force (N)."""
+    """Hold, lead and close the ring of every joint, and write where it is and what the hand feels.
+
+    Middles in m, vector areas in m2, speeds in m/s, loads in N.
+    """
     j = wp.tid()
     first = joint_first[j]
     n = joint_around[j]
@@ -99,7 +102,7 @@ def move_joints(
     load = wp.vec3(0.0)
     if hand[j] == LEAD:
         load = hand_stiffness[j] * (goal - c) - wp.sqrt(hand_stiffness[j] * joint_mass[j]) * (
-            w - (hand_to[j] - hand_from[j]) / frame
+            w - (hand_to[j] - hand_from[j]) / frame_seconds
         )
         size = wp.length(load)
         if size > hand_force[j]:
@@ -108,7 +111,7 @@ def move_joints(
     kick = force * (dt / joint_mass[j])
     shift = kick * dt
     if hand[j] == GRIP or hand[j] == CLASP:
-        wanted = (hand_to[j] - hand_from[j]) / frame
+        wanted = (hand_to[j] - hand_from[j]) / frame_seconds
         load = (wanted - w) * (joint_mass[j] / dt)
         kick = wanted - w
         shift = goal - c
@@ -117,16 +120,16 @@ def move_joints(
         x[first + k] = x[first + k] + shift
         v[first + k] = v[first + k] + kick
     c += shift
-    # A ring that nobody holds and that parts nothing only needs its middle.
-    if parts[j] == 0:
-        middle[j] = c
-        speed[j] = w + kick
+    # A ring that parts nothing is never closed: hands only need its middle.
+    if joint_parts[j] == 0:
+        ring_middle[j] = c
+        ring_speed[j] = w + kick
         hand_load[j] = load
         return
     if hand[j] != CLASP:
-        clasp[j] = regular_ring(x, first, n, c)
+        ring_axes[j] = regular_ring(x, first, n, c)
     if radius_to[j] > 0.0:
-        axes = clasp[j]
+        axes = ring_axes[j]
         step = 2.0 * wp.pi / float(n)
         turn = wp.vec2(wp.cos(step), wp.sin(step))
         corner = wp.vec2(radius, 0.0)
@@ -141,9 +144,9 @@ def move_joints(
         here = x[first + k] - c
         a += wp.cross(last, here)
         last = here
-    middle[j] = c
-    area[j] = 0.5 * a
-    speed[j] = w + kick
+    ring_middle[j] = c
+    ring_area[j] = 0.5 * a
+    ring_speed[j] = w + kick
     hand_load[j] = load
 
 
@@ -166,7 +169,7 @@ def hold_welds(
     joint_mass: wp.array[float],
     hand: wp.array[int],
     dt: float,
-    middle: wp.array[wp.vec3],
+    ring_middle: wp.array[wp.vec3],
     x: wp.array[wp.vec3],
     v: wp.array[wp.vec3],
 ):
@@ -183,7 +186,7 @@ def hold_welds(
                     share = float(1.0)
                     if held(hand[other]) == 0:
                         share = joint_mass[other] / (joint_mass[j] + joint_mass[other])
-                    shift += pair_shift(middle[j], middle[other], share, weld_gap[g], weld_reach[g])
+                    shift += pair_shift(ring_middle[j], ring_middle[other], share, weld_gap[g], weld_reach[g])
             shift = shift / wp.max(float(size - 1), 1.0)
             for m in range(joint_around[j]):
                 i = joint_first[j] + m
@@ -198,7 +201,7 @@ def weld_middles(
     joint_first: wp.array[int],
     joint_around: wp.array[int],
     x: wp.array[wp.vec3],
-    middle: wp.array[wp.vec3],
+    ring_middle: wp.array[wp.vec3],
 ):
     """Write the middles (m) of welded rings again, after they were moved."""
     g, k = wp.tid()
@@ -207,7 +210,7 @@ def weld_middles(
         c = wp.vec3(0.0)
         for m in range(joint_around[j]):
             c += x[joint_first[j] + m]
-        middle[j] = c / float(joint_around[j])
+        ring_middle[j] = c / float(joint_around[j])
 
 
 @wp.kernel
@@ -216,26 +219,26 @@ def load_struts(
     strut_stiffness: wp.array[float],
     strut_damping: wp.array[float],
     strut_yield: wp.array[float],
-    middle: wp.array[wp.vec3],
-    speed: wp.array[wp.vec3],
-    length: wp.array[float],
-    force: wp.array[wp.vec3],
+    ring_middle: wp.array[wp.vec3],
+    ring_speed: wp.array[wp.vec3],
+    strut_length: wp.array[float],
+    strut_force: wp.array[wp.vec3],
 ):
-    """Write the force (N) on the first end of every strut; beyond its yield force the strut gives way for good."""
+    """Write the force (N) on the first end of every strut; beyond its yield force it gives way for good."""
     s = wp.tid()
     ends = strut_joint[s]
     pull = wp.vec3(0.0)
     if ends[0] >= 0:
-        d = middle[ends[1]] - middle[ends[0]]
+        d = ring_middle[ends[1]] - ring_middle[ends[0]]
         now = wp.length(d)
         along = d / wp.max(now, 1.0e-6)
-        tension = strut_stiffness[s] * (now - length[s])
+        tension = strut_stiffness[s] * (now - strut_length[s])
         if tension > strut_yield[s]:
-            length[s] = now - strut_yield[s] / strut_stiffness[s]
+            strut_length[s] = now - strut_yield[s] / strut_stiffness[s]
             tension = strut_yield[s]
         elif tension < -strut_yield[s]:
-            length[s] = now + strut_yield[s] / strut_stiffness[s]
+            strut_length[s] = now + strut_yield[s] / strut_stiffness[s]
             tension = -strut_yield[s]
-        tension += strut_damping[s] * wp.dot(speed[ends[1]] - speed[ends[0]], along)
+        tension += strut_damping[s] * wp.dot(ring_speed[ends[1]] - ring_speed[ends[0]], along)
         pull = tension * along
-    force[s] = pull
+    strut_force[s] = pull

@@ -1,0 +1,114 @@
+"""Bodies laid end to end: host arrays whose indices are global over all balloons of all sculptures."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from balloon_usd.solver.membrane_data import MembraneData
+    from balloon_usd.solver.scene import Scene
+
+Arrays = dict[str, NDArray[Any]]
+
+
+def mesh_arrays(scene: Scene, data: list[MembraneData], host: Arrays) -> None:
+    """Topology and material of quads and vertices."""
+    bodies = scene.bodies
+    index = np.arange(len(bodies), dtype=np.int32)
+    v, q, s = scene.vertex_start, scene.quad_start, scene.segment_start
+    host["quads"] = np.concatenate([b.quads + v[k] for k, b in enumerate(bodies)]).astype(np.int32)
+    host["corners"] = np.concatenate(
+        [np.where(d.corners >= 0, d.corners + 4 * q[k], -1) for k, d in enumerate(data)]
+    ).astype(np.int32)
+    host["to_rest"] = np.concatenate([d.to_rest for d in data]).astype(np.float32)
+    host["hourglass"] = np.concatenate([d.hourglass for d in data]).astype(np.float32)
+    host["rubber_volume"] = np.concatenate([d.rubber_volume for d in data]).astype(np.float32)
+    host["mass"] = np.concatenate([d.mass for d in data]).astype(np.float32)
+    host["weight"] = np.concatenate([d.true_mass for d in data]).astype(np.float32)
+    segments = [np.searchsorted(b.segment_ends, np.arange(len(b.quads)), side="right") for b in bodies]
+    host["quad_segment"] = np.concatenate([g + s[k] for k, g in enumerate(segments)]).astype(np.int32)
+    host["quad_law"] = np.repeat(index, np.diff(q)).astype(np.int32)
+    host["quad_balloon"], host["vertex_balloon"] = (
+        host["quad_law"],
+        np.repeat(index, np.diff(v)).astype(np.int32),
+    )
+    host["vertex_along"] = np.concatenate([b.along for b in bodies]).astype(np.float32)
+    host["quad_along"] = np.concatenate([b.along[b.quads].mean(axis=1) for b in bodies]).astype(np.float32)
+    host["balloon_world"] = np.asarray(scene.worlds, dtype=np.int32)
+    host["vertex_world"] = host["balloon_world"][host["vertex_balloon"]]
+    host["quad_world"] = host["balloon_world"][host["quad_balloon"]]
+    host["balloon_radius"] = np.array([b.radius for b in bodies], dtype=np.float32)
+    for name, value in (
+        ("gravity", scene.settings.gravity),
+        ("drag", scene.settings.drag),
+        ("friction", scene.settings.friction),
+    ):
+        host[name] = np.full(len(bodies), value, dtype=np.float32)
+
+
+def ring_arrays(scene: Scene, data: list[MembraneData], host: Arrays) -> None:
+    """Rings of the mesh, and the rings that can be held or closed ("joints")."""
+    bodies, v = scene.bodies, scene.vertex_start
+    ring_start = np.concatenate([[0], np.cumsum([len(b.mesh_rings) for b in bodies])])
+    host["ring_first"] = np.array(
+        [f + v[k] for k, b in enumerate(bodies) for f, _ in b.mesh_rings], dtype=np.int32
+    )
+    host["ring_around"] = np.array([n for b in bodies for _, n in b.mesh_rings], dtype=np.int32)
+    host["vertex_ring"] = np.concatenate(
+        [b.vertex_ring + ring_start[k] for k, b in enumerate(bodies)]
+    ).astype(np.int32)
+    host["quad_ring"] = np.concatenate(
+        [b.vertex_ring[b.quads[:, 0]] + ring_start[k] for k, b in enumerate(bodies)]
+    ).astype(np.int32)
+    first = [r.first + v[k] for k, b in enumerate(bodies) for r in b.rings]
+    around = [r.around for b in bodies for r in b.rings]
+    # A scene without rings still needs arrays to launch over; an empty ring does nothing.
+    host["joint_first"] = np.array(first or [0], dtype=np.int32)
+    host["joint_around"] = np.array(around or [1], dtype=np.int32)
+    host["joint_parts"] = np.array([r.parts for b in bodies for r in b.rings] or [False], dtype=np.int32)
+    vertex_joint = np.full(v[-1], -1, dtype=np.int32)
+    for j, (f, n) in enumerate(zip(first, around, strict=True)):
+        vertex_joint[f : f + n] = j
+    host["vertex_joint"] = vertex_joint
+    home = np.full(v[-1], -1, dtype=np.int32)
+    home[host["quads"].reshape(-1)] = np.repeat(host["quad_segment"], 4)
+    parting = (vertex_joint >= 0) & (host["joint_parts"][vertex_joint] == 1)
+    host["vertex_segment"] = np.where(parting, -1, home).astype(np.int32)
+    mass = np.concatenate([d.mass for d in data])
+    host["joint_mass"] = np.array(
+        [mass[f : f + n].sum() for f, n in zip(first, around, strict=True)] or [1.0], dtype=np.float32
+    )
+
+
+def gas_arrays(scene: Scene, host: Arrays) -> None:
+    """Chambers: runs of quads between the rings that part them."""
+    quad, quad_end, origin, start_joint, end_joint, gauge = [], [], [], [], [], []
+    sides = np.full((max(1, int(scene.joint_start[-1])), 2), -1, dtype=np.int32)
+    for k, b in enumerate(scene.bodies):
+        parting = [scene.joint_start[k] + i for i, r in enumerate(b.rings) if r.parts]
+        if len(parting) != len(b.segment_ends) - 1:
+            raise ValueError("every border between two chambers needs its ring")
+        begin = 0
+        for i, end in enumerate(b.segment_ends):
+            quad.append(begin + scene.quad_start[k])
+            quad_end.append(end + scene.quad_start[k])
+            origin.append(b.quads[begin, 0] + scene.vertex_start[k])
+            start_joint.append(parting[i - 1] if i > 0 else -1)
+            end_joint.append(parting[i] if i < len(parting) else -1)
+            gauge.append(b.gauge[i])
+            if i > 0:
+                sides[parting[i - 1], 1] = len(quad) - 1
+            if i < len(parting):
+                sides[parting[i], 0] = len(quad) - 1
+            begin = end
+    host["segment_quad"], host["segment_quad_end"] = np.array(quad, np.int32), np.array(quad_end, np.int32)
+    host["segment_origin"] = np.array(origin, np.int32)
+    host["start_joint"], host["end_joint"] = np.array(start_joint, np.int32), np.array(end_joint, np.int32)
+    host["joint_segment"] = sides
+    host["balloon_segment"] = scene.segment_start[:-1].astype(np.int32)
+    host["balloon_segment_end"] = scene.segment_start[1:].astype(np.int32)
+    host["inlet"] = (scene.segment_start[:-1] + [b.inlet for b in scene.bodies]).astype(np.int32)
+    host["start_gauge"] = np.array(gauge, np.float32)

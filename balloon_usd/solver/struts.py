@@ -1,0 +1,75 @@
+"""Struts: the rotational dry friction that keeps the pose of a weld."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from balloon_usd.solver.hands import STEP_STIFFNESS
+from balloon_usd.solver.scene import Scene
+
+Floats = NDArray[np.float32]
+
+
+@dataclass(frozen=True)
+class StrutLaw:
+    """Rotational dry friction of a weld, as a yielding strut between neighbouring joints."""
+
+    stiffness: float = 300.0
+    """N/m, where the time step allows it."""
+    yielding: float = 1.5
+    """Force at which it gives way, N: friction 0.8 x bubble pressure 7 kPa x a contact patch of 3 cm2."""
+
+
+class Struts:
+    """The pool of struts of a scene."""
+
+    def __init__(self, scene: Scene, law: StrutLaw) -> None:
+        self.scene = scene
+        self.law = law
+        self.pairs: dict[tuple[int, int], int] = {}
+        """Strut of every pair of joints."""
+
+    def hold(self, pairs: set[tuple[int, int]], middle: Floats) -> None:
+        """Put a strut between every new pair of joints, at the distance that they have now.
+
+        Raises:
+            ValueError: there is no room for so many struts, or too many end at one joint.
+        """
+        fresh = sorted(pairs - set(self.pairs))
+        if not fresh:
+            return
+        s = self.scene
+        joint, length = s.strut_joint.numpy(), s.strut_length.numpy()
+        stiffness, damping, yielding = (
+            s.strut_stiffness.numpy(),
+            s.strut_damping.numpy(),
+            s.strut_yield.numpy(),
+        )
+        slots, mass = s.joint_struts.numpy(), s.joint_mass.numpy()
+        if len(self.pairs) + len(fresh) > len(joint):
+            raise ValueError(f"{len(self.pairs) + len(fresh)} struts but room for {len(joint)}")
+        for a, b in fresh:
+            k = self.pairs[a, b] = len(self.pairs)
+            joint[k] = (a, b)
+            length[k] = np.linalg.norm(middle[b] - middle[a])
+            least = float(min(mass[a], mass[b]))
+            stiffness[k] = min(self.law.stiffness, 0.3 * STEP_STIFFNESS * least / s.settings.dt**2)
+            damping[k] = 0.3 * np.sqrt(stiffness[k] * least)
+            yielding[k] = self.law.yielding
+            for end, sign in ((a, 1), (b, -1)):
+                room = np.flatnonzero(slots[end] == 0)
+                if len(room) == 0:
+                    raise ValueError(f"more than {slots.shape[1]} struts at one joint")
+                slots[end, room[0]] = sign * (k + 1)
+        for name, values in (
+            ("strut_joint", joint),
+            ("strut_length", length),
+            ("strut_stiffness", stiffness),
+            ("strut_damping", damping),
+            ("strut_yield", yielding),
+            ("joint_struts", slots),
+        ):
+            s.arrays[name].assign(values)
