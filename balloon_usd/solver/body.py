@@ -1,14 +1,18 @@
-"""What the solver knows of one balloon: mesh, rubber, rings that can be held or closed, and chambers between them."""
+"""What the solver knows of one balloon: mesh, rubber, rings that can be held or closed, and chambers
+between them.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from balloon_usd.balloon.rubber import Rubber
-from balloon_usd.balloon.tube_mesh import BalloonMesh
+if TYPE_CHECKING:
+    from balloon_usd.balloon.rubber import Rubber
+    from balloon_usd.balloon.tube_mesh import BalloonMesh
 
 Ints = NDArray[np.int32]
 
@@ -68,7 +72,9 @@ NECK_RADIUS = 0.55
 LIP_THICKNESS = 5.0
 """Wall of the rolled lip, in wall thicknesses."""
 LIP_PRESSURE = 0.7
-"""Pressure that stands for the stiffness of the rolled lip, in pressures of the knot: it keeps the lip's shape."""
+"""Pressure that stands for the stiffness of the rolled lip, in pressures of the knot: it keeps the lip's
+shape.
+"""
 SEED_THINNING = 0.12
 """Wall is thinner by this share behind the knot, where artists stretch it: the bulge starts there."""
 SEED_LENGTH = 5.0
@@ -92,7 +98,8 @@ def tube_body(
 ) -> Body:
     """Return the body of a twisting balloon: lip, knot bead, and a chamber between every two joints.
 
-    `joints`, `guides`: unstressed distances from the knot, m; guides are rings that hands lead but never close.
+    `joints`, `guides`: unstressed distances from the knot, m; guides are rings that hands lead but never
+    close.
     `knot_pressure`: gauge pressure sealed into the knot bead, Pa.
     """
     n = mesh.around

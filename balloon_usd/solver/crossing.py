@@ -34,8 +34,10 @@ class Crossing:
 def deepest_crossing(meshes: Sequence[tuple[NDArray[np.float32], NDArray[np.int32]]]) -> Crossing:
     """Return how deep any wall of a sculpture lies inside another wall, its own balloon's included.
 
-    `meshes`: (points (V, 3) m, quads (Q, 4)) of every balloon, closed surfaces. A vertex is inside another wall when
-    the point just above it has a winding number of 1 or more; its depth is the distance to the nearest wall that faces it.
+    `meshes`: (points (V, 3) m, quads (Q, 4)) of every balloon, closed surfaces. A vertex is inside another
+    wall when
+    the point just above it has a winding number of 1 or more; its depth is the distance to the nearest wall
+    that faces it.
     """
     points, triangles = _triangles(meshes)
     corners = points[triangles]
@@ -60,8 +62,8 @@ def _triangles(
 ) -> tuple[Floats, NDArray[np.int64]]:
     start, points, triangles = 0, [], []
     for vertices, quads in meshes:
-        for cut in ((0, 1, 2), (0, 2, 3)):
-            triangles.append(quads[:, cut].astype(np.int64) + start)
+        numbers = quads.astype(np.int64) + start
+        triangles.extend((numbers[:, :3], numbers[:, [0, 2, 3]]))
         points.append(vertices.astype(np.float64))
         start += len(vertices)
     return np.concatenate(points), np.concatenate(triangles)

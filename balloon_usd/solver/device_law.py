@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 import warp as wp
 
-from balloon_usd.balloon.rubber import Rubber
 from balloon_usd.solver.kernels.rubber import Law
 from balloon_usd.solver.membrane_data import step_viscosity
+
+if TYPE_CHECKING:
+    from balloon_usd.balloon.rubber import Rubber
 
 MEMBRANE_DAMPING = 0.35
 """Damping of the fastest mesh mode, share of critical."""

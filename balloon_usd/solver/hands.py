@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,8 +10,12 @@ from numpy.typing import NDArray
 from balloon_usd.solver.kernels.gas import OPEN_PASSAGE
 from balloon_usd.solver.kernels.joints import CLASP_MODE, GRIP_MODE, LEAD_MODE
 from balloon_usd.solver.kernels.motion import Spin
-from balloon_usd.solver.scene import Scene
 from balloon_usd.solver.state import WELD_SLOTS
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from balloon_usd.solver.scene import Scene
 
 Floats = NDArray[np.float32]
 
@@ -97,7 +101,9 @@ class Hands:
         self.mode[joints] = 0
 
     def turn(self, balloon: int, joint: int, beyond: float, rate: float) -> None:
-        """Spin the part of a balloon farther than `beyond` (m along it) about its own axis in this frame, at a rate (rad/s)."""
+        """Spin the part of a balloon farther than `beyond` (m along it) about its own axis in this frame,
+        at a rate (rad/s).
+        """
         s = self.scene
         span = slice(int(s.vertex_start[balloon]), int(s.vertex_start[balloon + 1]))
         part = s.x.numpy()[span][s.bodies[balloon].along > beyond]

@@ -64,7 +64,9 @@ class Maker:
         return found
 
     def act(self, begin: float, end: float, middle: Floats) -> None:
-        """Set the hands' goals for the frame from `begin` to `end` (s), given where all rings are (J, 3), m."""
+        """Set the hands' goals for the frame from `begin` to `end` (s), given where all rings are (J, 3),
+        m.
+        """
         moves = self.plan.choreography.moves
         self._frame = round(end * self.plan.recipe.fps)
         for body in self.body.values():
@@ -139,7 +141,9 @@ class Maker:
         self.hands.close(joint, radius, math.pi * (radius**2 - neck**2))
 
     def _steady(self, ring: int, middle: Floats) -> None:
-        """Keep what is already made from swinging round a joint, free to move along the balloon as the neck draws it in."""
+        """Keep what is already made from swinging round a joint, free to move along the balloon as the
+        neck draws it in.
+        """
         made = self._worked(ring)
         if not made:
             return
@@ -203,7 +207,9 @@ class Maker:
         ]
 
     def _open(self, ring: int) -> list[int]:
-        """Rings on the tip's side of a ring, where the tube is still whole: its joints to be, and one in the rest."""
+        """Rings on the tip's side of a ring, where the tube is still whole: its joints to be, and one in
+        the rest.
+        """
         rings = self.plan.table.rings
         rest = self.plan.strips[rings[ring].balloon].bubbles[-1].name
         return [
@@ -229,7 +235,9 @@ class Maker:
         self.hands.goal[joint] = here + smooth(share) * (goal - here)
 
     def _bend(self, k: int, move: Bend, share: float, fresh: bool, middle: Floats) -> None:
-        """Bend a bubble towards a side: its end stays, its start goes, and carries what is already made upright."""
+        """Bend a bubble towards a side: its end stays, its start goes, and carries what is already made
+        upright.
+        """
         rings = [self._ring[r] for r in move.rings]
         before, beyond = self._worked(move.rings[0]), self._open(move.rings[-1])
         if fresh:
@@ -276,7 +284,9 @@ class Maker:
         return pairs
 
     def _neighbours(self, weld: set[int]) -> set[int]:
-        """Joints at the far ends of the bubbles that meet in a weld; of a loop or an open end, a ring inside."""
+        """Joints at the far ends of the bubbles that meet in a weld; of a loop or an open end, a ring
+        inside.
+        """
         found: set[int] = set()
         for bubble, inside, outside in self._meeting(weld):
             guides = [self._ring[g] for g in self.plan.table.guides(bubble)]
@@ -294,7 +304,9 @@ class Maker:
         return {self._ring[self.plan.table.guides(bubble)[0]] for bubble in folded}
 
     def _meeting(self, weld: set[int]) -> list[tuple[str, int, int | None]]:
-        """Bubbles with an end in a weld: name, number of ends in it, and the ring of the other end if there is one."""
+        """Bubbles with an end in a weld: name, number of ends in it, and the ring of the other end if
+        there is one.
+        """
         found = []
         for bubble in self.plan.bubbles:
             start, end = self.plan.table.ends(bubble.name)

@@ -4,17 +4,21 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from balloon_usd.balloon.rubber import Rubber
-from balloon_usd.solver.body import Body
+if TYPE_CHECKING:
+    from balloon_usd.balloon.rubber import Rubber
+    from balloon_usd.solver.body import Body
 
 Floats = NDArray[np.float64]
 
 STIFFENING = 2.6
-"""Largest tangent stiffness met on the way, in rest stiffnesses 4 mu0 (bulged and softened K&C latex: 2.3)."""
+"""Largest tangent stiffness met on the way, in rest stiffnesses 4 mu0 (bulged and softened K&C latex:
+2.3).
+"""
 MASS_SAFETY = 1.35
 """Reserve of the scaled mass over the stability limit of symplectic Euler, for damping and contact."""
 HOURGLASS = 0.1
@@ -44,7 +48,8 @@ class MembraneData:
 def membrane_data(body: Body, dt: float, atmosphere: float, *, scale_mass: bool) -> MembraneData:
     """Return the wall's constants for a time step of `dt` seconds.
 
-    With `scale_mass` every vertex gets the mass that makes this step stable (selective mass scaling): twisting is
+    With `scale_mass` every vertex gets the mass that makes this step stable (selective mass scaling):
+    twisting is
     quasi-static, so the added inertia does not show. Without it the rubber has its own mass.
     """
     p = body.rest[body.quads]
@@ -94,7 +99,7 @@ def _hourglass(p: Floats, hoop: Floats, axial: Floats, spring: Floats) -> Floats
 
 
 def corner_table(quads: NDArray[np.int32], vertices: int) -> NDArray[np.int32]:
-    """Return for every vertex the corners (4 q + corner) that meet there, (V, 4) int32, -1 where there are fewer.
+    """Return for every vertex the corners (4 q + corner) that meet there, (V, 4) int32, else -1.
 
     Raises:
         ValueError: more than four quads meet at a vertex.

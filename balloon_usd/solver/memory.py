@@ -5,19 +5,23 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from balloon_usd.solver.scene import Scene
 
 BEND_SET = 0.7
-"""Share of the bending strain that stays: twisters squeeze the inside of a bend until it keeps (judged by eye)."""
+"""Share of the bending strain that stays: twisters squeeze the inside of a bend until it keeps (judged by
+eye).
+"""
 
 
 def set_bend(scene: Scene, body: int, faces: NDArray[np.int64]) -> None:
     """Make part of the present curve of a bubble its own shape.
 
-    The unstressed length of every face along the tube changes by how much more or less than its ring it is stretched;
+    The unstressed length of every face along the tube changes by how much more or less than its ring it is
+    stretched;
     the rubber's volume stays.
 
     `faces`: quads of the bubble, (rings * around,) in order round each ring, numbered within the body.

@@ -2,22 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
 from balloon_usd.balloon.air import AIR_DENSITY, GAS_CONSTANT, ROOM_TEMPERATURE
-from balloon_usd.solver.body import Body
 from balloon_usd.solver.flatten import Arrays, gas_arrays, mesh_arrays, ring_arrays
 from balloon_usd.solver.kernels.contact import Touch
 from balloon_usd.solver.kernels.gas import Air
 from balloon_usd.solver.membrane_data import membrane_data
-from balloon_usd.solver.settings import SceneSettings
 from balloon_usd.solver.state import state_arrays
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from balloon_usd.solver.body import Body
+    from balloon_usd.solver.settings import SceneSettings
 
 DISCHARGE = 0.6
 """Discharge coefficient of a sharp orifice."""
@@ -70,7 +73,8 @@ def build_scene(
 ) -> Scene:
     """Put bodies on a device.
 
-    `worlds`: sculpture of every body; bodies of different sculptures never touch. `weld_count`, `strut_count`: room for
+    `worlds`: sculpture of every body; bodies of different sculptures never touch. `weld_count`,
+    `strut_count`: room for
     welds and struts.
     """
     vertices, quads, segments, joints = (np.concatenate([[0], np.cumsum(n)]) for n in _sizes(bodies))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -24,6 +23,8 @@ from balloon_usd.solver.struts import StrutLaw, Struts
 from balloon_usd.solver.watch import SHORT_OF_GAS, Watch
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan, Strip
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import warp as wp
 
@@ -19,7 +19,9 @@ from balloon_usd.solver.kernels.gas import balloon_gas, segment_volumes
 from balloon_usd.solver.kernels.joints import hold_welds, load_struts, move_joints, weld_middles
 from balloon_usd.solver.kernels.membrane import quad_forces, vertex_stretch
 from balloon_usd.solver.kernels.motion import move_vertices
-from balloon_usd.solver.scene import Scene
+
+if TYPE_CHECKING:
+    from balloon_usd.solver.scene import Scene
 
 SEARCH_EVERY = 10
 """Substeps between two searches for facing walls."""
@@ -32,7 +34,8 @@ GRID_CELLS = 64
 class Stepper:
     """Advances a scene by whole frames of a fixed number of substeps.
 
-    Kernels are launched by the names of their arguments: each name is an array or a value of the scene, or one that
+    Kernels are launched by the names of their arguments: each name is an array or a value of the scene, or
+    one that
     changes from substep to substep.
     """
 

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from balloon_usd.solver.hands import STEP_STIFFNESS
-from balloon_usd.solver.scene import Scene
+
+if TYPE_CHECKING:
+    from balloon_usd.solver.scene import Scene
 
 Floats = NDArray[np.float32]
 

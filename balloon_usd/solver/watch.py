@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
 FASTEST = 5.0
 """Speed that no part of a balloon reaches between two frames unless the run has gone unstable, m/s."""
+STEADIER = "more substeps (physics: substeps) or a longer step (seconds) make the run steadier"
 SHORT_OF_GAS = 0.98
 """Share of the wanted gas below which inflating counts as failed."""
 
@@ -46,7 +47,7 @@ class Watch:
     def _not_finite(self, frame: Frame) -> str | None:
         for points, strip in zip(frame.points, self._plan.strips.values(), strict=True):
             if not np.isfinite(points).all():
-                return f"balloon {strip.balloon} has flown apart; more substeps (physics: substeps) make the run steadier"
+                return f"balloon {strip.balloon} has flown apart; {STEADIER}"
         return None
 
     def _too_fast(self, frame: Frame) -> str | None:
@@ -56,10 +57,7 @@ class Watch:
         fastest = max(float(np.abs(now - then).max()) for now, then in pairs) * self._fps
         if fastest <= FASTEST:
             return None
-        return (
-            f"a part moves at {fastest:.1f} m/s, faster than hands can move it; more substeps (physics: substeps) "
-            "or a longer step (seconds) make the run steadier"
-        )
+        return f"a part moves at {fastest:.1f} m/s, faster than hands can move it; {STEADIER}"
 
     def _burst(self, frame: Frame) -> str | None:
         if self._plan.recipe.physics.burst != "stop":

@@ -11,7 +11,9 @@ MOST_HITS = wp.constant(HITS)
 FACING = wp.constant(-0.1)
 """Walls face each other when the dot product of their outward normals is below this."""
 DEPTH_LIMIT = wp.constant(0.6)
-"""Deepest overlap taken for a contact, in local tube radii: beyond it the other wall is the tube's far side."""
+"""Deepest overlap taken for a contact, in local tube radii: beyond it the other wall is the tube's far
+side.
+"""
 REACH = wp.constant(0.85)
 """Search reach in lengths of a quad's side: more than half its diagonal."""
 SIDE_SLIP = wp.constant(0.25)
@@ -169,7 +171,7 @@ def find_walls(
     if touching[mine] == 0:
         reach = 0.0
     query = wp.hash_grid_query(grid, p, reach, balloon_world[mine])
-    q = int(0)
+    q = 0
     while wp.hash_grid_query_next(query, q):
         d = p - quad_middle[q]
         near = wp.dot(d, d) < reach * reach
@@ -219,7 +221,9 @@ def find_walls(
 
 @wp.kernel
 def order_hits(hit_count: wp.array[int], most_hits: wp.array[int], hits: wp.array2d[int]):
-    """Sort every quad's list, so that sums do not depend on which thread came first; remember the longest list."""
+    """Sort every quad's list, so that sums do not depend on which thread came first; remember the longest
+    list.
+    """
     q = wp.tid()
     count = hit_count[q]
     if count > 0:
@@ -298,7 +302,7 @@ def press_walls(
 
 @wp.func
 def balancing_turn(r0: wp.vec3, r1: wp.vec3, r2: wp.vec3, r3: wp.vec3, gap: wp.vec3, f: wp.vec3):
-    """Return the vector whose cross products with a quad's corners balance the torque of a contact across a gap.
+    """Return the vector whose cross products with a quad's corners balance a contact across a gap.
 
     The vertex feels f at one end of the gap, the quad -f at the other: a couple, unless the quad takes it up.
     """

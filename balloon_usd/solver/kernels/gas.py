@@ -23,7 +23,9 @@ def segment_volumes(
     x: wp.array[wp.vec3],
     volume: wp.array[float],
 ):
-    """Write the volume (m3) of every segment, its open ends closed by flat fans; a fixed order of summation."""
+    """Write the volume (m3) of every segment, its open ends closed by flat fans; a fixed order of
+    summation.
+    """
     s, lane = wp.tid()
     o = x[segment_origin[s]]
     total = float(0.0)
@@ -79,16 +81,17 @@ def balloon_gas(
     amount: wp.array[wp.float64],
     pressure: wp.array[float],
 ):
-    """Advance one balloon's gas: pump, flow through closing necks (an orifice), pressure (Pa, gauge) of every chamber.
+    """Advance one balloon's gas: pump, flow through closing necks, gauge pressure (Pa) of every chamber.
 
-    Segments whose common neck is fully open form one chamber. Gas pV = n R T, isothermal. A chamber without gas of its
-    own is open to the air (the nozzle's lip) and keeps its pressure.
+    Segments whose common neck is fully open form one chamber of ideal, isothermal gas, p V = n R T; a neck
+    that closes is an orifice. A chamber without gas of its own is open to the air (the nozzle's lip) and
+    keeps its pressure.
     """
     b = wp.tid()
     first = balloon_segment[b]
     last = balloon_segment_end[b]
     begin = int(first)
-    previous = int(-1)
+    previous = -1
     room_before = float(0.0)
     for s in range(first, last):
         joint = end_joint[s]

@@ -1,4 +1,6 @@
-"""Joints: rings closed by a twist, the hands on them, welds between them and the friction that keeps a weld's pose."""
+"""Joints: rings closed by a twist, the hands on them, welds between them and the friction that keeps a
+weld's pose.
+"""
 
 import warp as wp
 
@@ -33,7 +35,9 @@ def turned(p: wp.vec2, turn: wp.vec2):
 
 @wp.func
 def regular_ring(x: wp.array[wp.vec3], first: int, around: int, c: wp.vec3):
-    """Return the two in-plane axes of the regular polygon nearest to a ring, as columns (polar decomposition)."""
+    """Return the two in-plane axes of the regular polygon nearest to a ring, as columns (polar
+    decomposition).
+    """
     a = wp.vec3(0.0)
     b = wp.vec3(0.0)
     step = 2.0 * wp.pi / float(around)
@@ -152,7 +156,9 @@ def move_joints(
 
 @wp.func
 def pair_shift(here: wp.vec3, there: wp.vec3, share: float, gap: float, reach: float):
-    """Return how one of two necks moves, given its share of the move, so that they lie between gap and reach (m)."""
+    """Return how one of two necks moves, given its share of the move, so that they lie between gap and
+    reach (m).
+    """
     d = here - there
     far = wp.max(wp.length(d), 1.0e-9)
     return d * (share * (wp.clamp(far, gap, reach) / far - 1.0))
@@ -173,7 +179,9 @@ def hold_welds(
     x: wp.array[wp.vec3],
     v: wp.array[wp.vec3],
 ):
-    """Keep the necks of every weld side by side: each pair at least its gap (m) and at most its reach (m) apart."""
+    """Keep the necks of every weld side by side: each pair at least its gap (m) and at most its reach (m)
+    apart.
+    """
     g = wp.tid()
     size = weld_size[g]
     for k in range(size):

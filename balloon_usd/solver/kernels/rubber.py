@@ -22,7 +22,9 @@ class Law:
     soft_width: float
     """c of Ogden & Roxburgh 1999."""
     log_limit: float
-    """Logarithm of the stretch at which the law is continued by its value, so that locking stays below a few times the rest stiffness."""
+    """Logarithm of the stretch at which the law is continued by its value, so that locking stays below a
+    few times the rest stiffness.
+    """
     viscosity: float
     """Resistance to the rate of strain, Pa s."""
     hourglass_damping: float
@@ -42,7 +44,9 @@ ERF_6 = wp.constant(0.0000430638)
 
 @wp.func
 def ogden_membrane(law: Law, log_large: float, log_small: float):
-    """Return (large dW/dlarge, small dW/dsmall, W) in Pa, Pa, J/m3 from the logarithms of two stretches (Ogden 1972; Gent 1996)."""
+    """Return (large dW/dlarge, small dW/dsmall, W) in Pa, Pa, J/m3 from the logarithms of two stretches
+    (Ogden 1972; Gent 1996).
+    """
     log_a = wp.min(log_large, law.log_limit)
     log_b = wp.min(log_small, law.log_limit)
     t1 = float(0.0)
