@@ -120,15 +120,13 @@ class Rig:
         return self.array("x")
 
     def place(self, points: Floats) -> None:
-        """Put all vertices somewhere, at rest, and give rings their middles."""
+        """Put all vertices somewhere, at rest; rings and chambers start afresh."""
         self.scene.x.assign(points.astype(np.float32))
         self.scene.v.zero_()
-        self.stepper._joints(self.scene.x, 1.0)
-        self.stepper._volumes(self.scene.x)
+        self.stepper._start()
 
     def fill(self, chamber: int, pressure: float) -> None:
-        """Seal the gas into a chamber that has this gauge pressure (Pa) at its present volume."""
-        self.stepper._volumes(self.scene.x)
+        """Seal gas into a chamber that was just placed: this gauge pressure (Pa) at its present volume."""
         amount, volume = self.array("amount"), self.array("volume")
         amount[chamber] = (
             (self.scene.settings.atmosphere + pressure) * volume[chamber] / (GAS_CONSTANT * ROOM_TEMPERATURE)

@@ -171,7 +171,7 @@ def find_walls(
     if touching[mine] == 0:
         reach = 0.0
     query = wp.hash_grid_query(grid, p, reach, balloon_world[mine])
-    q = 0
+    q = int(0)
     while wp.hash_grid_query_next(query, q):
         d = p - quad_middle[q]
         near = wp.dot(d, d) < reach * reach

@@ -91,7 +91,7 @@ def balloon_gas(
     first = balloon_segment[b]
     last = balloon_segment_end[b]
     begin = int(first)
-    previous = -1
+    previous = int(-1)
     room_before = float(0.0)
     for s in range(first, last):
         joint = end_joint[s]
