@@ -12,6 +12,7 @@ from balloon_usd.cli.stage_writer import stage_writers
 from balloon_usd.solver.errors import SimulationFailed
 from balloon_usd.solver.frame import Frame
 from balloon_usd.solver.simulation import simulate_many
+from balloon_usd.solver.tally import Tally
 from balloon_usd.stage import StageError
 from balloon_usd.staging import describe_stage
 
@@ -42,6 +43,7 @@ class Outcome:
     """What became of one plan."""
 
     plan: Plan
+    tally: Tally
     written: WrittenStage | None = None
     failed: SimulationFailed | None = None
 
@@ -77,12 +79,15 @@ def _stream(
 ) -> list[Outcome]:
     """Pass frames on until every plan has its last one wanted, or has failed."""
     outcomes: list[Outcome | None] = [None] * len(plans)
+    tallies = [Tally(plan, meshes) for plan, meshes in zip(plans, simulation.meshes, strict=True)]
     with progress_bar(sum(codes[-1] for codes in wanted)) as bar:
         for frames in simulation.frames():
             advanced = [frame for frame in frames if isinstance(frame, Frame)]
             for world, frame in enumerate(frames):
                 if outcomes[world] is None:
-                    outcomes[world] = _pass_on(plans[world], frame, wanted[world], writers[world])
+                    outcomes[world] = _pass_on(
+                        tallies[world], plans[world], frame, wanted[world], writers[world]
+                    )
             running = sum(outcome is None for outcome in outcomes)
             bar.advance(_doing(advanced, running), len(advanced))
             if running == 0:
@@ -91,18 +96,19 @@ def _stream(
 
 
 def _pass_on(
-    plan: Plan, frame: Frame | SimulationFailed | None, wanted: range, writer: StageWriter
+    tally: Tally, plan: Plan, frame: Frame | SimulationFailed | None, wanted: range, writer: StageWriter
 ) -> Outcome | None:
     """Hand a frame to its writer; return the outcome when it was the last."""
     if isinstance(frame, SimulationFailed):
         writer.stop()
-        return Outcome(plan, failed=frame)
+        return Outcome(plan, tally, failed=frame)
     if frame is None:
         return None
+    tally.add(frame)
     try:
         if frame.time_code in wanted:
             writer.put(frame)
-        return Outcome(plan, written=writer.finish()) if frame.time_code == wanted[-1] else None
+        return Outcome(plan, tally, written=writer.finish()) if frame.time_code == wanted[-1] else None
     except StageError as error:
         raise Failure(f"{plan.recipe.file}: {error}", ExitCode.NOT_WRITTEN) from error
 

@@ -7,6 +7,9 @@ from typing import TYPE_CHECKING
 from rich.console import Console
 from rich.table import Table
 
+from balloon_usd.balloon.rubber import BURST_STRETCH
+from balloon_usd.plan.lengths import cm
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -24,10 +27,10 @@ def print_summary(outcomes: Sequence[Outcome], seconds: float, detail: str, devi
         detail: level of detail.
         device: where it was computed.
     """
-    table = Table("sculpture", "stage", box=None, pad_edge=False)
-    for heading in ("frames", "animation", "size"):
+    table = Table("sculpture", box=None, pad_edge=False)
+    for heading in ("frames", "animation", "tail left", "highest stretch", "size"):
         table.add_column(heading, justify="right")
-    frames = 0
+    frames, files = 0, []
     for outcome in outcomes:
         recipe = outcome.plan.recipe
         if outcome.written is None:
@@ -36,9 +39,20 @@ def print_summary(outcomes: Sequence[Outcome], seconds: float, detail: str, devi
         count = outcome.written.frames
         size = sum(file.stat().st_size for file in outcome.written.files) / MEGABYTE
         length = f"{count / recipe.fps:.1f} s"
-        table.add_row(recipe.name, str(outcome.written.files[0]), str(count), length, f"{size:.1f} MB")
+        tails = ", ".join(cm(tail) for tail in outcome.tally.tails_left.values())
+        stretch = f"{outcome.tally.highest_stretch:.1f} of {BURST_STRETCH:.1f}"
+        table.add_row(recipe.name, str(count), length, tails, stretch, f"{size:.1f} MB")
+        files.append(f"stage {outcome.written.files[0]}")
         frames += count
     console = Console(soft_wrap=True, highlight=False)
     console.print(table, no_wrap=True, crop=False)
+    for outcome in outcomes:
+        if outcome.tally.bursts:
+            name, bubble = outcome.plan.recipe.name, outcome.tally.highest_bubble
+            console.print(
+                f"{name}: {bubble} would burst: use less gas, or make it longer or softer", soft_wrap=True
+            )
     rate = frames / max(seconds, 1e-9)
     console.print(f"{frames} frames in {seconds:.1f} s, {rate:.0f} frames/s, {detail} on {device}")
+    for file in files:
+        console.print(file)

@@ -60,7 +60,9 @@ def deepest_crossing(meshes: Sequence[tuple[NDArray[np.float32], NDArray[np.int3
 def _triangles(
     meshes: Sequence[tuple[NDArray[np.float32], NDArray[np.int32]]],
 ) -> tuple[Floats, NDArray[np.int64]]:
-    start, points, triangles = 0, [], []
+    start = 0
+    points: list[Floats] = []
+    triangles: list[NDArray[np.int64]] = []
     for vertices, quads in meshes:
         numbers = quads.astype(np.int64) + start
         triangles.extend((numbers[:, :3], numbers[:, [0, 2, 3]]))
