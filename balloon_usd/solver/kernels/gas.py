@@ -136,9 +136,10 @@ def balloon_gas(
 
 
 @wp.func
-def fan_gradient(middle: wp.vec3, area: wp.vec3, before: wp.vec3, after: wp.vec3, share: float):
-    """Return the gradient (m2) of a ring's fan volume by one of its vertices.
+def fan_gradient(arm: wp.vec3, chord: wp.vec3, area: wp.vec3, share: float):
+    """Return the gradient (m2) of the volume on one side of a ring's fan by one of its vertices.
 
-    `middle`: from the origin to the ring's middle; `share`: one over the ring's vertices.
+    `arm`: from the ring's middle to the vertex; `chord`: between its neighbours; `area`: of the fan; `share`: one
+    over the ring's vertices.
     """
-    return (2.0 * share * area + wp.cross(after - before, middle)) / 6.0
+    return (0.5 * wp.cross(arm, chord) + share * area) / 3.0

@@ -137,11 +137,25 @@ def move_joints(
         step = 2.0 * wp.pi / float(n)
         turn = wp.vec2(wp.cos(step), wp.sin(step))
         corner = wp.vec2(radius, 0.0)
+        push = wp.vec3(0.0)
+        twist = wp.vec3(0.0)
         for k in range(n):
-            at = c + axes * corner
+            arm = axes * corner
             corner = turned(corner, turn)
-            v[first + k] = v[first + k] + (at - x[first + k]) / dt
-            x[first + k] = at
+            moved = c + arm - x[first + k]
+            push += moved
+            twist += wp.cross(arm, moved) / dt + wp.cross(moved, v[first + k] - w - kick)
+            v[first + k] = v[first + k] + moved / dt
+            x[first + k] = c + arm
+        # Its shape must neither push nor turn a free ring, not even by rounding: over a second that adds up.
+        push = push / (float(n) * dt)
+        spin = wp.vec3(0.0)
+        if hand[j] != CLASP:
+            # Moments of inertia of a ring: 1/2 about its diameters, 1 about its axis.
+            e3 = wp.cross(axes * wp.vec2(1.0, 0.0), axes * wp.vec2(0.0, 1.0))
+            spin = (2.0 * twist - wp.dot(twist, e3) * e3) / (float(n) * radius * radius)
+        for k in range(n):
+            v[first + k] = v[first + k] - push - wp.cross(spin, x[first + k] - c)
     a = wp.vec3(0.0)
     last = x[first + n - 1] - c
     for k in range(n):

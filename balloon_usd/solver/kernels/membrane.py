@@ -8,13 +8,14 @@ MIN_STRETCH = wp.constant(0.05)
 """Smallest stretch that enters a rubber law (1): a collapsed quad must not divide by zero."""
 SLACK = wp.constant(1.0e-4)
 """Difference of squared stretches below which they count as equal (1)."""
+TINY = wp.constant(1.0e-16)
+"""Squared length of the side of a collapsed quad (m2)."""
 
 
 @wp.kernel
 def quad_forces(
     quads: wp.array[wp.vec4i],
     quad_segment: wp.array[int],
-    segment_origin: wp.array[int],
     quad_law: wp.array[int],
     to_rest: wp.array[wp.mat22],
     hourglass: wp.array[wp.vec4],
@@ -88,26 +89,36 @@ def quad_forces(
     pull_hoop = 0.5 * (p1 * b[0, 0] + p2 * b[0, 1])
     pull_axial = 0.5 * (p1 * b[1, 0] + p2 * b[1, 1])
 
-    # Hourglass: the one deformation that the mean gradient does not see.
+    # Hourglass: the one deformation that the mean gradient does not see. What is damped are its products
+    # with hoop, axial and normal, the changes seen from the quad itself: a turning quad feels no torque.
     h = hourglass[q]
     bow = h[0] * x0 + h[1] * x1 + h[2] * x2 + h[3] * x3
     bow_rate = h[0] * v0 + h[1] * v1 + h[2] * v2 + h[3] * v3
-    resist = -(bow + law.hourglass_damping * bow_rate)
+    normal = wp.cross(hoop, axial)
+    normal_rate = wp.cross(hoop_rate, axial) + wp.cross(hoop, axial_rate)
+    hoop2 = wp.length_sq(hoop)
+    axial2 = wp.length_sq(axial)
+    bent = x0 - x1 + x2 - x3
+    bent2 = wp.length_sq(bent) + TINY
+    slow = law.hourglass_damping
+    slow1 = slow * (wp.dot(bow_rate, hoop) + wp.dot(bow, hoop_rate)) / wp.max(hoop2, bent2)
+    slow2 = slow * (wp.dot(bow_rate, axial) + wp.dot(bow, axial_rate)) / wp.max(axial2, bent2)
+    most2 = wp.max(wp.length_sq(normal), bent2 * wp.max(hoop2, axial2))
+    slow3 = slow * (wp.dot(bow_rate, normal) + wp.dot(bow, normal_rate)) / (most2 + TINY * TINY)
+    resist = -(bow + slow1 * hoop + slow2 * axial + slow3 * normal)
+    pull_hoop += 0.5 * (slow1 * bow + slow3 * wp.cross(axial, bow))
+    pull_axial += 0.5 * (slow2 * bow + slow3 * wp.cross(bow, hoop))
 
     # Gas: the exact gradient of the volume under the bilinear patch.
     p = pressure[quad_segment[q]]
-    o = x[segment_origin[quad_segment[q]]]
-    middle = 0.25 * (x0 + x1 + x2 + x3) - o
-    d1 = x2 - x0
-    d2 = x3 - x1
-    even = (p / 24.0) * wp.cross(d1, d2)
-    push1 = (p / 6.0) * wp.cross(d2, middle)
-    push2 = (p / 6.0) * wp.cross(middle, d1)
+    even = (p / 4.0) * normal
+    tilt1 = (p / 24.0) * wp.cross(hoop, bent)
+    tilt2 = (p / 24.0) * wp.cross(bent, axial)
 
-    f0 = pull_hoop + pull_axial + h[0] * resist + even - push1
-    fa = -pull_hoop + pull_axial + h[1] * resist + even - push2
-    fb = -pull_hoop - pull_axial + h[2] * resist + even + push1
-    fc = pull_hoop - pull_axial + h[3] * resist + even + push2
+    f0 = pull_hoop + pull_axial + h[0] * resist + even - tilt1 - tilt2
+    fa = -pull_hoop + pull_axial + h[1] * resist + even + tilt1 - tilt2
+    fb = -pull_hoop - pull_axial + h[2] * resist + even + tilt1 + tilt2
+    fc = pull_hoop - pull_axial + h[3] * resist + even - tilt1 + tilt2
 
     corner_force[q, 0] = f0
     corner_force[q, 1] = fa

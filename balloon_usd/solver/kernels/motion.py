@@ -27,7 +27,6 @@ def move_vertices(
     joint_first: wp.array[int],
     joint_around: wp.array[int],
     joint_segment: wp.array[wp.vec2i],
-    segment_origin: wp.array[int],
     vertex_along: wp.array[float],
     mass: wp.array[float],
     weight: wp.array[float],
@@ -67,10 +66,8 @@ def move_vertices(
             share = 1.0 / float(n)
             before = x[first + (k + n - 1) % n]
             after = x[first + (k + 1) % n]
-            m = ring_middle[joint]
-            a = ring_area[joint]
-            f += pressure[sides[0]] * fan_gradient(m - x[segment_origin[sides[0]]], a, before, after, share)
-            f -= pressure[sides[1]] * fan_gradient(m - x[segment_origin[sides[1]]], a, before, after, share)
+            fan = fan_gradient(p - ring_middle[joint], after - before, ring_area[joint], share)
+            f += (pressure[sides[0]] - pressure[sides[1]]) * fan
     b = vertex_balloon[i]
     pull = wp.vec3(0.0, 0.0, -gravity[b] * weight[i])
     speed = (v[i] + (f + pull) * (dt / mass[i])) * wp.max(1.0 - drag[b] * dt, 0.0)

@@ -1,0 +1,71 @@
+"""Every shipped recipe, made once at draft detail."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from balloon_usd.plan import Plan, plan
+from balloon_usd.recipe import Recipe
+from balloon_usd.solver.frame import Frame
+from balloon_usd.solver.simulation import Simulation, simulate_many
+from balloon_usd.solver.tally import Tally
+
+RECIPES = sorted((Path(__file__).parents[2] / "recipes").glob("*.yaml"))
+
+
+@dataclass(frozen=True)
+class Made:
+    """A finished sculpture."""
+
+    plan: Plan
+    simulation: Simulation
+    joints: np.ndarray
+    """Middles of all planned rings in every frame after the hands let go, (frames, rings, 3), m."""
+    last: Frame
+    tally: Tally
+
+
+def middles(simulation: Simulation, frame: Frame) -> np.ndarray:
+    """Middles of all planned rings of a sculpture, (rings, 3), m."""
+    plan = simulation.plans[0]
+    names = list(plan.strips)
+    found = []
+    for ring in plan.table.rings:
+        balloon = names.index(ring.balloon)
+        mesh = simulation.meshes[0][balloon]
+        first = mesh.ring_start[mesh.ring_at(ring.along)]
+        found.append(frame.points[balloon][first : first + mesh.around].mean(axis=0))
+    return np.array(found)
+
+
+@cache
+def make(path: Path) -> Made:
+    """Make a recipe and keep what its tests look at."""
+    planned = plan(Recipe.load(path))
+    simulation = simulate_many([planned], detail="draft", device="cpu")
+    let_go = round(planned.choreography.moves[-1].start * simulation.fps)
+    tally, joints = Tally(planned, simulation.meshes[0]), []
+    frame = None
+    for frames in simulation.frames():
+        frame = frames[0]
+        assert isinstance(frame, Frame), f"{path.name}: {frame}"
+        tally.add(frame)
+        if frame.time_code > let_go:
+            joints.append(middles(simulation, frame))
+    assert frame is not None
+    return Made(planned, simulation, np.array(joints), frame, tally)
+
+
+@pytest.fixture(params=RECIPES, ids=lambda path: path.stem, scope="module")
+def made(request: pytest.FixtureRequest) -> Made:
+    return make(request.param)
+
+
+@pytest.fixture(scope="module")
+def dog() -> Made:
+    return make(next(path for path in RECIPES if path.stem == "dog"))

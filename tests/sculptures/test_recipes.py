@@ -1,0 +1,75 @@
+"""Every shipped recipe comes out as a sculpture that one would accept from an artist's hands."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from balloon_usd.balloon.rubber import BURST_STRETCH
+from balloon_usd.plan.choreography import Weld
+from balloon_usd.solver.crossing import deepest_crossing
+
+DEEPEST = 1.0e-3
+"""Deepest that a wall may lie inside another in the final frame, m."""
+POSE_KEPT = 0.05
+"""Largest change of a distance between two joints in the 2 s after the hands let go, share of the sculpture's size."""
+SETTLED = 2.0e-3
+"""Largest change of such a distance in the second of these seconds, m."""
+NECKS_APART = 0.012
+"""Farthest that two necks of one twist may lie from each other, m."""
+
+
+def distances(joints):
+    return np.linalg.norm(joints[:, None] - joints[None], axis=2)
+
+
+def test_no_wall_passes_through_another_in_the_final_frame(made):
+    meshes = [mesh.quads for mesh in made.simulation.meshes[0]]
+    crossing = deepest_crossing(list(zip(made.last.points, meshes, strict=True)))
+    assert crossing.depth < DEEPEST, f"{crossing.depth * 1e3:.2f} mm at {crossing.place}"
+
+
+def test_the_pose_is_kept_for_two_seconds_after_the_hands_let_go(made):
+    start, end = distances(made.joints[0]), distances(made.joints[-1])
+    assert len(made.joints) >= 2 * made.simulation.fps
+    change = np.abs(end - start).max() / start.max()
+    assert change < POSE_KEPT, f"a distance changes by {change:.1%} of the size"
+
+
+def test_the_sculpture_has_come_to_rest_a_second_after_the_hands_let_go(made):
+    one_second = int(made.simulation.fps)
+    change = np.abs(distances(made.joints[-1]) - distances(made.joints[one_second])).max()
+    assert change < SETTLED, f"a distance still changes by {change * 1e3:.1f} mm in a second"
+
+
+def test_joints_that_are_twisted_into_one_lie_together(made):
+    for move in made.plan.choreography.moves:
+        if isinstance(move, Weld):
+            necks = made.joints[-1][list(move.rings)]
+            far = distances(necks).max()
+            assert far < NECKS_APART, f"{move.text}: {far * 1e3:.1f} mm apart"
+
+
+def test_every_bubble_is_full_and_none_has_burst(made):
+    assert made.last.pressure.min() > 3.0e3, made.last.pressure
+    assert made.tally.highest_stretch < BURST_STRETCH, made.tally.highest_bubble
+
+
+def test_every_balloon_has_flat_tail_left(made):
+    for name, tail in made.tally.tails_left.items():
+        assert tail > 0.0, name
+
+
+def test_the_dog_uses_5_to_15_mm_of_flat_tail_for_every_twist(dog):
+    twists = len(dog.plan.bubbles) - 1
+    used = (dog.plan.strips["main"].tail - dog.tally.tails_left["main"]) / twists
+    assert 5.0e-3 < used < 15.0e-3, f"{used * 1e3:.1f} mm"
+
+
+def test_the_dog_stands_on_its_legs_with_ears_above_and_nose_before(dog):
+    place = dict(zip([ring.name for ring in dog.plan.table.rings], dog.joints[-1], strict=True))
+    neck, hips = place["neck.end"], place["body.end"]
+    assert place["left_ear.end"][2] > neck[2] + 0.06
+    assert place["left_foreleg.end"][2] < neck[2] - 0.08
+    assert place["left_hindleg.end"][2] < hips[2] - 0.08
+    assert place["main.knot"][0] < neck[0] - 0.08
+    assert abs(place["left_foreleg.end"][2] - place["left_hindleg.end"][2]) < 0.05
