@@ -1,0 +1,77 @@
+"""The mesh of a balloon is one closed surface of quads with a ring wherever it was asked for."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from balloon_usd.balloon.detail import DETAILS, detail_named
+from balloon_usd.balloon.sizes import SIZES, size_named
+from balloon_usd.balloon.tube_mesh import ring_stations, tube_mesh
+
+JOINTS = (0.0287, 0.0574, 0.09)
+
+
+def dog_tube(detail="draft", size="260"):
+    return tube_mesh(size_named(size), detail_named(detail), JOINTS, (*JOINTS, size_named(size).length))
+
+
+@pytest.mark.parametrize("size", [size.name for size in SIZES])
+@pytest.mark.parametrize("detail", list(DETAILS))
+def test_every_edge_of_every_size_is_shared_by_two_quads_in_opposite_directions(size, detail):
+    quads = dog_tube(detail, size).quads
+    edges = np.concatenate([quads[:, [k, (k + 1) % 4]] for k in range(4)])
+    there, back = {tuple(e) for e in edges}, {tuple(e[::-1]) for e in edges}
+    assert len(there) == len(edges)
+    assert there == back
+
+
+def test_every_vertex_is_used_and_the_surface_is_a_sphere():
+    mesh = dog_tube()
+    assert set(mesh.quads.ravel()) == set(range(len(mesh.points)))
+    assert len(mesh.points) == len(mesh.quads) + 2
+
+
+def test_the_surface_faces_outwards_and_holds_the_tubes_volume():
+    mesh, size = dog_tube("full"), size_named("260")
+    corners = mesh.points[mesh.quads].astype(float)
+    area = 0.5 * np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
+    volume = np.sum(corners.mean(axis=1) * area) / 3.0
+    assert volume == pytest.approx(np.pi * size.radius**2 * size.length, rel=0.08)
+
+
+def test_the_polygon_is_drawn_about_the_circle_of_the_tube():
+    mesh, size = dog_tube(), size_named("260")
+    ring = mesh.points[mesh.ring_start[mesh.ring_at(0.05)] :][: mesh.around, 1:]
+    sides = 0.5 * (ring + np.roll(ring, -1, axis=0))
+    assert np.linalg.norm(sides, axis=1) == pytest.approx(size.radius, rel=1e-5)
+
+
+def test_a_ring_stands_at_every_joint_and_spacing_is_finest_beside_it():
+    mesh = dog_tube()
+    for joint in JOINTS:
+        ring = mesh.ring_at(joint)
+        assert mesh.ring_along[ring] == pytest.approx(joint, abs=1e-9)
+        spacing = np.diff(mesh.ring_along)
+        assert spacing[ring] < 0.8 * spacing[ring : ring + 5].max()
+
+
+def test_bubbles_take_the_faces_between_their_joints():
+    mesh = dog_tube()
+    middle = mesh.along[mesh.quads].mean(axis=1)
+    for bubble, (low, high) in enumerate(zip((-1.0, *JOINTS), (*JOINTS, 1.0), strict=True)):
+        inside = middle[mesh.quad_bubble == bubble]
+        assert inside.min() > low
+        assert inside.max() < high
+
+
+def test_texture_runs_once_round_the_tube_and_once_along_it():
+    st = dog_tube().st
+    assert st.shape == (len(dog_tube().quads), 4, 2)
+    assert st.min() >= 0.0
+    assert st.max() <= 1.0
+
+
+def test_a_joint_beyond_the_tube_is_refused():
+    with pytest.raises(ValueError, match="joints must lie between"):
+        ring_stations(detail_named("draft"), size_named("260"), (0.5,))

@@ -1,0 +1,58 @@
+"""Every kernel takes its data from the scene by name, in one order."""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+
+import pytest
+import warp as wp
+
+from balloon_usd.balloon.detail import detail_named
+from balloon_usd.balloon.rubber import rubber_named
+from balloon_usd.balloon.sizes import size_named
+from balloon_usd.balloon.tube_mesh import tube_mesh
+from balloon_usd.solver import kernels
+from balloon_usd.solver.body import tube_body
+from balloon_usd.solver.scene import build_scene
+from balloon_usd.solver.settings import SceneSettings
+
+CHANGING = {"dt", "fraction", "frame_seconds", "air", "touch", "grid"}
+"""Arguments that are no arrays of the scene."""
+
+
+def all_kernels():
+    found = {}
+    for module in pkgutil.iter_modules(kernels.__path__, kernels.__name__ + "."):
+        for thing in vars(importlib.import_module(module.name)).values():
+            if isinstance(thing, wp.Kernel):
+                found[thing.key] = thing
+    return found
+
+
+@pytest.fixture(scope="module")
+def scene():
+    size = size_named("260")
+    mesh = tube_mesh(size, detail_named("draft"), (0.03,), (0.03, size.length))
+    body = tube_body(mesh, rubber_named(), size.radius, size.thickness, (0.03,), (), 5000.0)
+    return build_scene([body], [0], SceneSettings(dt=4e-4), "cpu", 1, 1)
+
+
+@pytest.mark.parametrize("name", sorted(all_kernels()))
+def test_every_argument_of_a_kernel_is_an_array_of_the_scene(scene, name):
+    kernel = all_kernels()[name]
+    missing = [a.label for a in kernel.adj.args if a.label not in CHANGING and a.label not in scene.arrays]
+    assert not missing
+
+
+@pytest.mark.parametrize("name", sorted(all_kernels()))
+def test_every_kernel_says_what_it_writes(name):
+    assert all_kernels()[name].func.__doc__
+
+
+def test_no_kernel_adds_floats_atomically():
+    for module in pkgutil.iter_modules(kernels.__path__, kernels.__name__ + "."):
+        source = open(importlib.import_module(module.name).__file__).read()
+        for line in source.splitlines():
+            if "atomic_" in line:
+                assert "hit_count" in line or "most_hits" in line, line

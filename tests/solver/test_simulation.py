@@ -1,0 +1,105 @@
+"""Simulations of small balloons: batches, bits, failures."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from balloon_usd.plan import plan
+from balloon_usd.recipe import Recipe, RecipeBuilder
+from balloon_usd.solver.errors import DeviceUnavailable, SimulationFailed
+from balloon_usd.solver.frame import Frame
+from balloon_usd.solver.simulation import simulate_many
+
+SHORT = """
+format: 1
+name: {name}
+units: cm
+fps: 12
+balloons:
+  main: {{size: 260, length: 9, tail: {tail}, color: red}}
+steps:
+  - {kind}: {{head: {head}}}
+  - rest: tail
+physics: {physics}
+"""
+
+
+def short(name="short", head=6, tail=3, kind="bubbles", physics="{hold: 0.2}"):
+    return plan(Recipe.parse(SHORT.format(name=name, head=head, tail=tail, kind=kind, physics=physics)))
+
+
+def bursting():
+    """A loop so short that the outside of its bend bursts."""
+    return short("bursting", head=9, kind="loop", physics="{hold: 0.2, burst: stop}")
+
+
+def last_frames(plans, **options):
+    last = [None] * len(plans)
+    for frames in simulate_many(plans, detail="draft", device="cpu", **options).frames():
+        for world, frame in enumerate(frames):
+            last[world] = frame if frame is not None else last[world]
+    return last
+
+
+def test_two_runs_give_the_same_bits():
+    one, two = last_frames([short()])[0], last_frames([short()])[0]
+    assert np.array_equal(one.points[0], two.points[0])
+    assert np.array_equal(one.stretch[0], two.stretch[0])
+    assert np.array_equal(one.pressure, two.pressure)
+
+
+def test_a_sculpture_comes_out_the_same_alone_and_in_a_batch():
+    alone = last_frames([short()])[0]
+    batch = last_frames([short("other", head=5, tail=3.5), short(), short("third", head=7, tail=2.5)])
+    assert np.array_equal(alone.points[0], batch[1].points[0])
+    assert not np.array_equal(batch[0].points[0], batch[1].points[0])
+
+
+def test_frames_are_counted_from_one_and_announced_in_advance():
+    simulation = simulate_many([short()], detail="draft", device="cpu")
+    codes = [frames[0].time_code for frames in simulation.frames()]
+    assert codes == list(range(1, simulation.frame_counts[0] + 1))
+
+
+def test_the_first_frame_is_flat_and_the_last_has_a_full_bubble():
+    frames = [f[0] for f in simulate_many([short()], detail="draft", device="cpu").frames()]
+    assert frames[0].volume.sum() < 8e-6
+    assert frames[-1].volume[0] > 80e-6
+    assert frames[-1].pressure[0] > 6000.0
+
+
+def test_gas_is_neither_lost_nor_won_once_the_pump_has_stopped():
+    simulation = simulate_many([short()], detail="draft", device="cpu")
+    amounts = []
+    for frames in simulation.frames():
+        if "pinch" in frames[0].doing or "twist" in frames[0].doing:
+            amounts.append(simulation.scene.amount.numpy()[2:].sum())
+    assert len(amounts) > 5
+    assert np.ptp(amounts) / amounts[0] < 1e-6
+
+
+def test_a_burst_stops_the_run_when_the_recipe_says_so():
+    stopped = last_frames([bursting()])[0]
+    assert isinstance(stopped, SimulationFailed)
+    assert "head bursts" in str(stopped)
+
+
+def test_one_failure_in_a_batch_leaves_the_others_alone():
+    alone = last_frames([short(physics="{hold: 0.2, burst: stop}")])[0]
+    failed, fine = last_frames([bursting(), short(physics="{hold: 0.2, burst: stop}")])
+    assert isinstance(failed, SimulationFailed)
+    assert isinstance(fine, Frame)
+    assert np.array_equal(alone.points[0], fine.points[0])
+
+
+def test_a_device_that_is_not_there_is_named_with_those_that_are():
+    with pytest.raises(DeviceUnavailable, match="cpu"):
+        simulate_many([short()], detail="draft", device="cuda:17")
+
+
+def test_a_recipe_made_in_python_runs_too():
+    builder = RecipeBuilder("small").balloon("main", size="260", length=0.06, tail=0.03)
+    recipe = builder.bubbles(head=0.04, seconds=0.5).rest("tail").build()
+    simulation = simulate_many([plan(recipe)], detail="draft", device="cpu")
+    assert isinstance(next(iter(simulation.frames()))[0], Frame)
