@@ -16,14 +16,18 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float32]
 
 
+STRUT_SHARE = 0.6
+"""Stiffness of one strut as a share of the largest that a ring bears."""
+
+
 @dataclass(frozen=True)
 class StrutLaw:
     """Rotational dry friction of a weld, as a yielding strut between neighbouring joints."""
 
-    stiffness: float = 300.0
+    stiffness: float = 800.0
     """N/m, where the time step allows it."""
-    yielding: float = 1.5
-    """Force at which it gives way, N: friction 0.8 x bubble pressure 7 kPa x a contact patch of 3 cm2."""
+    yielding: float = 3.0
+    """Force at which it gives way, N: friction 0.8 x bubble pressure 7 kPa x two contact patches of 3 cm2."""
 
 
 class Struts:
@@ -59,7 +63,7 @@ class Struts:
             joint[k] = (a, b)
             length[k] = np.linalg.norm(middle[b] - middle[a])
             least = float(min(mass[a], mass[b]))
-            stiffness[k] = min(self.law.stiffness, 0.3 * STEP_STIFFNESS * least / s.settings.dt**2)
+            stiffness[k] = min(self.law.stiffness, STRUT_SHARE * STEP_STIFFNESS * least / s.settings.dt**2)
             damping[k] = 0.3 * np.sqrt(stiffness[k] * least)
             yielding[k] = self.law.yielding
             for end, sign in ((a, 1), (b, -1)):

@@ -8,6 +8,7 @@ from __future__ import annotations
 import subprocess
 import sys
 from dataclasses import replace
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,7 +21,6 @@ from balloon_usd.stage.properties import check_stage
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-    from pathlib import Path
 
     from balloon_usd.balloon.detail import Detail
     from balloon_usd.balloon.tube_mesh import BalloonMesh
@@ -42,13 +42,16 @@ def tolerance(points: float, stretch: float, pressure: float, volume: float) -> 
     }
 
 
-# Four times what an error of one unit in the last place of every flat vertex does to the result, rounded.
-# Without wall on wall it stays at micrometres. Once walls press and slip on each other it decides which
-# vertex slips first, and grows to half a millimetre in 15 cm.
+# Four times what an error of one unit in the last place of every flat vertex did to the result at most in
+# eight runs, rounded. Without wall on wall it stays at a micrometre. Once walls press and slip on each other
+# it decides which fold beside a neck snaps over first: a few vertices then differ by a millimetre, all
+# together by a quarter of one. The target of the compiler (generic or native) changed no bit.
 TOLERANCES = {
-    "caterpillar": tolerance(points=2e-5, stretch=1e-4, pressure=1e-4, volume=2e-9),
-    "pair": tolerance(points=2e-3, stretch=0.2, pressure=1e-2, volume=1e-7),
+    "caterpillar": tolerance(points=5e-6, stretch=1e-4, pressure=1e-4, volume=2e-9),
+    "pair": tolerance(points=4e-3, stretch=4e-2, pressure=4e-2, volume=1.2e-7),
 }
+ROOT_MEAN_SQUARE = {"caterpillar": 3e-6, "pair": 1.2e-3}
+"""Tolerance of the distance between the points of one frame, m, as the root of the mean square."""
 recipes = pytest.mark.parametrize("name", TOLERANCES)
 
 
@@ -59,9 +62,23 @@ def found(one: Path, other: Path, name: str, share: float = 1.0) -> str:
     return "\n".join(list(differences(*stages, tolerance=allowed))[:10])
 
 
+def root_mean_square(one: Path, other: Path, name: str) -> list[float]:
+    """How far the points of two stages are apart, frame by frame, m."""
+    stages = [Usd.Stage.Open(str(file)) for file in (one, other)]
+    points = [stage.GetAttributeAtPath(f"/{name}/geo/render/main.points") for stage in stages]
+    gaps = [np.subtract(*(np.asarray(p.Get(time)) for p in points)) for time in points[0].GetTimeSamples()]
+    return [float(np.sqrt((gap**2).sum(axis=1).mean())) for gap in gaps]
+
+
 @recipes
 def test_a_recipe_gives_its_golden_stage(name: str, golden: Find, fresh: Find) -> None:
     assert found(golden(name), fresh(name), name) == ""
+
+
+@recipes
+def test_the_points_of_every_frame_lie_where_they_did(name: str, golden: Find, fresh: Find) -> None:
+    distances = root_mean_square(golden(name), fresh(name), name)
+    assert max(distances) < ROOT_MEAN_SQUARE[name], f"frame {1 + int(np.argmax(distances))}"
 
 
 @recipes
@@ -71,8 +88,8 @@ def test_a_golden_stage_has_every_property_of_a_stage(name: str, golden: Find) -
 
 @recipes
 def test_two_runs_give_the_same_bytes(name: str, fresh: Find, tmp_path: Path) -> None:
-    recipe = f"tests/golden/{name}.yaml"
-    words = ["run", recipe, "-o", str(tmp_path), "--device", "cpu", "--no-preview"]
+    recipe = Path(__file__).with_name(f"{name}.yaml")
+    words = ["run", str(recipe), "-o", str(tmp_path), "--device", "cpu", "--no-preview"]
     subprocess.run([sys.executable, "-m", "balloon_usd", *words], check=True, capture_output=True)
     first = fresh(name).parent
     files = sorted(file.relative_to(first) for file in first.rglob("*") if file.is_file())
@@ -86,7 +103,9 @@ def test_rounding_errors_do_half_of_what_is_tolerated(
     name: str, fresh: Find, performed: Find, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("balloon_usd.solver.simulation.mesh_of", mesh_with_rounding_errors)
-    assert found(performed(name), fresh(name), name, share=0.5) == ""
+    nudged = performed(name)
+    assert found(nudged, fresh(name), name, share=0.5) == ""
+    assert max(root_mean_square(nudged, fresh(name), name)) < 0.5 * ROOT_MEAN_SQUARE[name]
 
 
 def mesh_with_rounding_errors(strip: Strip, detail: Detail) -> BalloonMesh:
