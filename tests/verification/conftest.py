@@ -1,0 +1,54 @@
+"""The verification table: what was measured against theory, printed at the end of a run."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import pytest
+
+TABLE = pytest.StashKey[list["Row"]]()
+
+
+@dataclass(frozen=True)
+class Row:
+    """One line of the table."""
+
+    case: str
+    quantity: str
+    theory: float
+    measured: float
+    tolerance: float
+
+    @property
+    def error(self) -> float:
+        """Relative where the theory is not 0."""
+        return abs(self.measured - self.theory) / (abs(self.theory) or 1.0)
+
+    def __str__(self) -> str:
+        numbers = f"{self.theory:12.6g} {self.measured:12.6g} {self.error:10.2e} {self.tolerance:10.1e}"
+        return f"{self.case:5} {self.quantity:52} {numbers}"
+
+
+@pytest.fixture
+def verify(request):
+    """Hold a measured value against theory at a relative tolerance (absolute where theory says 0)."""
+
+    def check(case, quantity, measured, theory, tolerance):
+        row = Row(case, quantity, float(theory), float(measured), tolerance)
+        request.config.stash.setdefault(TABLE, []).append(row)
+        assert row.error <= tolerance, (
+            f"{case} {quantity}: error {row.error:.2e}, {measured} against {theory}"
+        )
+
+    return check
+
+
+def pytest_terminal_summary(terminalreporter, config):
+    rows = config.stash.get(TABLE, [])
+    if rows:
+        terminalreporter.section("verification")
+        terminalreporter.line(
+            f"{'case':5} {'quantity':52} {'theory':>12} {'measured':>12} {'error':>10} {'tol.':>10}"
+        )
+        for row in rows:
+            terminalreporter.line(str(row))
