@@ -6,6 +6,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import (
     BaseModel,
+    BeforeValidator,
     ConfigDict,
     Field,
     PrivateAttr,
@@ -19,7 +20,7 @@ from .marks import Marks
 from .meaning import meaning_complaints
 from .names import Name, Text
 from .physics import Physics
-from .problem import Complaint, Path, Problem, RecipeError, path_text
+from .problem import Complaint, Path, Problem, RecipeError, path_text, quoted
 from .quantities import METRES, Between, Reading, Units
 from .recipe_file import FilePath, read_recipe_file
 from .steps import Step
@@ -38,6 +39,12 @@ class _Origin:
     text: str | None = None
 
 
+def _format(value: object) -> object:
+    if isinstance(value, (bool, float)):  # both may equal 1
+        raise ValueError(f"{quoted(value)} is no format, expected 1")
+    return value
+
+
 class Recipe(BaseModel):
     """A recipe of balloon twists (format 1), complete and consistent."""
 
@@ -45,7 +52,7 @@ class Recipe(BaseModel):
         frozen=True, extra="forbid", use_attribute_docstrings=True, title="Balloon recipe"
     )
 
-    format: Literal[1]
+    format: Annotated[Literal[1], BeforeValidator(_format)]
     """Version of the recipe language."""
     name: Name
     """Identifier: names the file and the prim."""

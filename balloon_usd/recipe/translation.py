@@ -32,15 +32,21 @@ _CHOICE = re.compile(r"'([^']*)'|(\d+)")
 
 def validation_complaints(error: ValidationError, data: object, root: type[BaseModel]) -> list[Complaint]:
     """Translate the errors of one validation; `root` is the model of the whole recipe."""
-    details = error.errors(include_url=False)
+    details = [detail for detail in error.errors(include_url=False) if not _only_seems_empty(detail)]
     unitless = [detail for detail in details if isinstance(_cause(detail), UnitMissingError)]
-    shown = [detail for detail in details if detail not in unitless[1:]][: PROBLEMS_SHOWN + 1]
+    repeated = {id(detail) for detail in unitless[1:]}
+    shown = [detail for detail in details if id(detail) not in repeated][: PROBLEMS_SHOWN + 1]
     complaints = [_complaint(detail, data, root) for detail in shown]
     if len(unitless) > 1:
         at = shown.index(unitless[0])
         more = f" ({len(unitless) - 1} more lengths have none)"
         complaints[at] = Complaint(complaints[at].path, complaints[at].text + more)
     return complaints
+
+
+def _only_seems_empty(detail: ErrorDetails) -> bool:
+    """Pydantic counts valid entries only: a list of wrong ones is too short to it."""
+    return detail["type"] == "too_short" and bool(detail["input"])
 
 
 def _complaint(detail: ErrorDetails, data: object, root: type[BaseModel]) -> Complaint:
