@@ -32,6 +32,7 @@ _MERIDIAN_NODES = 40
 _FAMILY_NODES = 28
 _HALVINGS = 46
 _LARGEST_AXIAL_STRETCH = 16.0
+_NEAR_AXIS = 0.01
 # A family runs over u, where the widest hoop stretch is (1 - exp(-u)) times that of the tube. Beyond the end
 # (0.03 % thinner than the tube) a bubble is a cylinder between two fixed ends.
 _FAMILY_START, _FAMILY_END = 0.7, 8.0
@@ -145,6 +146,24 @@ def twist_cost(size: BalloonSize, rubber: Rubber) -> float:
     """
     gained = tube_volume_per_rest_length(size, rubber) - tail_volume_per_rest_length(size, rubber)
     return pinch_volume(size, rubber) / gained
+
+
+@lru_cache(maxsize=4096)
+def neck_rubber(size: BalloonSize, rubber: Rubber, rest_length: float, radius: float) -> float:
+    """Return the rest length, m, that one neck of this radius, m, hides from a bubble of this rest length, m.
+
+    The theory closes its necks to a point. Near the axis the rubber is wrinkled and the meridian runs
+    straight inwards, at the one meridional stretch b that gives W - b W_b = C.
+
+    Raises:
+        ValueError: the rest length is not positive and finite, or the rubber cannot hold a bubble.
+    """
+    law, p_star = inflated_rubber(rubber), maxwell_state(rubber).p_star
+    widest = np.array([0.5 * bubble_of_rest_length(size, rubber, rest_length).diameter / size.radius])
+    middle = _axial_stretch(law, widest, 0.5 * p_star * widest**2, axial_force=True)
+    near_axis = np.full(1, _NEAR_AXIS)
+    stretch = _axial_stretch(law, near_axis, _legendre(law, widest, middle), axial_force=False)
+    return radius / float(stretch[0])
 
 
 def bubble_at_stretch(law: MembraneLaw, p_star: float, widest: Floats, tube_stretch: float) -> Floats:

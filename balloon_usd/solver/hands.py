@@ -84,6 +84,12 @@ class Hands:
         drag[balloon] = rate
         self.scene.drag.assign(drag)
 
+    def set_softening(self, balloon: int, rate: float) -> None:
+        """Set which share of a new largest energy the rubber of a balloon takes note of in one substep."""
+        rates = self.scene.softening_rate.numpy()
+        rates[balloon] = rate
+        self.scene.softening_rate.assign(rates)
+
     def touch(self, balloons: Iterable[int]) -> None:
         """Let the walls of these balloons touch from now on."""
         fresh = [b for b in balloons if not self.touching[b]]

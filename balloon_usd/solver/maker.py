@@ -30,6 +30,8 @@ PUMP_RAMP = 0.2
 """Share of that time in which the pump starts, and stops."""
 SPIN_CLEAR = 1e-6
 """What lies farther than this beyond a joint turns with the balloon, m."""
+SOFTENING_SECONDS = 0.2
+"""Time in which stretched rubber softens, s: longer than the waves that hands send through a heavy mesh."""
 ALONG = np.array([1.0, 0.0, 0.0])
 """Direction from the knot to the tip."""
 
@@ -50,6 +52,8 @@ class Maker:
         self._done = 0
         """Moves that are finished."""
         self._frame = 0
+        self._before: Floats = np.zeros((0, 3), dtype=np.float32)
+        """Where all rings were a frame ago."""
         self.doing = ""
         self.inflated = -1
         """Frame at whose end the last balloon has its gas."""
@@ -83,6 +87,7 @@ class Maker:
             self._perform(k, move, (begin, end), share, fresh, middle)
             if move.end <= end and k == self._done:
                 self._done += 1
+        self._before = middle.copy()
 
     def _perform(
         self, k: int, move: Move, frame: tuple[float, float], share: float, fresh: bool, middle: Floats
@@ -116,12 +121,15 @@ class Maker:
             self.hands.pump_limit[b] = PUMP_RESERVE * pressure_maximum(strip.rubber).p_star * scale
             self.hands.grip(int(self.scene.joint_start[b]) + 1, middle)
             self.hands.set_drag(b, 0.0)
+            # What the mesh's artificial inertia adds to the stretch behind the front must not soften it.
+            self.hands.set_softening(b, 0.0)
         # The pump starts and stops gently: the balloon is pushed along by its own front.
         gentle = min(1.0, share / PUMP_RAMP, (1.0 - share) / PUMP_RAMP)
         flow = self.hands.pump_goal[b] / (PUMP_TIME * (1.0 - PUMP_RAMP) * move.seconds)
         self.hands.pump_flow[b] = flow * max(gentle, 0.0)
         if share >= 1.0:
             self.hands.set_drag(b, self.scene.settings.drag)
+            self.hands.set_softening(b, self.scene.settings.dt / SOFTENING_SECONDS)
             self.inflated = self._frame
 
     def _pinch(self, k: int, move: Pinch, share: float, fresh: bool, middle: Floats) -> None:
@@ -150,9 +158,12 @@ class Maker:
         fresh = [joint for joint in made if self.hands.mode[joint] == 0]
         for joint in fresh:
             self.hands.lead(joint, middle)
-        start = self.hands.start[made]
-        drawn = np.mean((middle[made] - start) @ ALONG)
-        self.hands.goal[made] = start + (drawn * ALONG).astype(np.float32)
+        # Along the balloon the hand is where the joint is and as fast as it was: it feels nothing.
+        along = np.outer(ALONG, ALONG).astype(np.float32)
+        here, start = middle[made], self.hands.start[made]
+        speed = np.zeros_like(here) if fresh else here - self._before[made]
+        self.hands.start[made] = start + (here - start) @ along
+        self.hands.goal[made] = self.hands.start[made] + speed @ along
 
     def _spin(self, move: Spin, begin: float, end: float, middle: Floats) -> None:
         ring = self.plan.table.rings[move.ring]

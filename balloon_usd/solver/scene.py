@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 
 DISCHARGE = 0.6
 """Discharge coefficient of a sharp orifice."""
-EQUALISE = 0.25
-"""Largest share of a pressure difference that may even out in one substep: keeps the flow stable."""
+EQUALISE = 0.9
+"""Largest share of a pressure difference that may even out in one substep, between rigid walls: stable."""
 SELF_DISTANCE = 1.0
 """Unstressed distance along one bubble within which its wall never meets itself, R0."""
 

@@ -36,12 +36,14 @@ def state_arrays(scene: Scene, weld_count: int, strut_count: int) -> None:
     for name, count in (("v", vertices), ("normal", vertices), ("quad_middle", quads), ("quad_area", quads)):
         zeros(name, count, wp.vec3)
     for name, count in (
-        ("peak_energy", quads),
         ("area", vertices),
         ("ring_radius", len(a["ring_first"])),
         ("stretch", vertices),
     ):
         zeros(name, count, float)
+    worked = np.concatenate([b.worked for b in scene.bodies]).astype(np.float32)
+    a["peak_energy"] = wp.array(worked, dtype=float, device=device)
+    a["softening_rate"] = wp.full(balloons, 1.0, dtype=float, device=device)
     for name in ("volume", "pressure"):
         zeros(name, segments, float)
     zeros("amount", segments, wp.float64)

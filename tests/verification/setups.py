@@ -84,6 +84,7 @@ class Rig:
             quads=mesh.quads,
             thickness=wall,
             rubber=rubber,
+            worked=np.zeros(len(mesh.quads)),
             radius=mesh.radius,
             along=mesh.points[:, 0].astype(np.float32),
             mesh_rings=mesh.mesh_rings,

@@ -139,7 +139,7 @@ def balloon_gas(
 def fan_gradient(arm: wp.vec3, chord: wp.vec3, area: wp.vec3, share: float):
     """Return the gradient (m2) of the volume on one side of a ring's fan by one of its vertices.
 
-    `arm`: from the ring's middle to the vertex; `chord`: between its neighbours; `area`: of the fan; `share`: one
-    over the ring's vertices.
+    `arm`: from the ring's middle to the vertex; `chord`: between its neighbours; `area`: of the fan;
+    `share`: one over the ring's vertices.
     """
     return (0.5 * wp.cross(arm, chord) + share * area) / 3.0

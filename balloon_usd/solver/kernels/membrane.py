@@ -24,6 +24,7 @@ def quad_forces(
     pressure: wp.array[float],
     x: wp.array[wp.vec3],
     v: wp.array[wp.vec3],
+    softening_rate: wp.array[float],
     peak_energy: wp.array[float],
     corner_force: wp.array2d[wp.vec3],
 ):
@@ -56,8 +57,9 @@ def quad_forces(
         log_large = 0.5 * wp.log(large2)
         log_small = wp.max(0.5 * wp.log(small2), -0.5 * log_large)
         t = ogden_membrane(law, log_large, log_small)
-        peak = wp.max(peak_energy[q], t[2])
-        peak_energy[q] = peak
+        known = peak_energy[q]
+        peak = wp.max(known, t[2])
+        peak_energy[q] = known + softening_rate[quad_law[q]] * (peak - known)
         soft = softening_factor(law, t[2], peak)
         stress_large = soft * t[0] / large2
         stress_small = soft * t[1] / small2
