@@ -1,13 +1,17 @@
 """A balloon as it is taken from the bag and inflated, before the first twist."""
 
-from typing import Annotated, Literal
+from typing import Annotated, Literal, get_args
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema
 
 from .colors import ColorEntry, color
 from .quantities import FlatTail, Length, LengthWithin
 
 BalloonSizeName = Literal["160", "260", "321", "350", "360", "646"]
+
+
+_SIZE_CODES = get_args(BalloonSizeName)
+_SIZE_SCHEMA = {"enum": [*map(int, _SIZE_CODES), *_SIZE_CODES]}
 
 
 def _size_text(value: object) -> object:
@@ -19,9 +23,9 @@ class Balloon(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
 
-    size: Annotated[BalloonSizeName, BeforeValidator(_size_text)]
+    size: Annotated[BalloonSizeName, BeforeValidator(_size_text), WithJsonSchema(_SIZE_SCHEMA)]
     """Size code of the trade: 260 is 2 inches by 60."""
-    color: ColorEntry = color("red")
+    color: Annotated[ColorEntry, Field(json_schema_extra={"default": "red"})] = color("red")
     tail: FlatTail | None = None
     """Flat rubber left empty at the end; m in Python."""
     inflated: Length | None = None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import warp as wp
 
 from balloon_usd.plan import plan
 from balloon_usd.recipe import Recipe, RecipeBuilder
@@ -34,26 +35,40 @@ def bursting():
     return short("bursting", head=9, kind="loop", physics="{hold: 0.2, burst: stop}")
 
 
-def last_frames(plans, **options):
+DEVICES = ["cpu", *(device.alias for device in wp.get_cuda_devices())]
+"""Where simulations can run on this machine."""
+
+
+def last_frames(plans, device="cpu"):
     last = [None] * len(plans)
-    for frames in simulate_many(plans, detail="draft", device="cpu", **options).frames():
+    for frames in simulate_many(plans, detail="draft", device=device).frames():
         for world, frame in enumerate(frames):
             last[world] = frame if frame is not None else last[world]
     return last
 
 
-def test_two_runs_give_the_same_bits():
-    one, two = last_frames([short()])[0], last_frames([short()])[0]
+@pytest.mark.parametrize("device", DEVICES)
+def test_two_runs_on_one_device_give_the_same_bits(device):
+    one, two = last_frames([short()], device)[0], last_frames([short()], device)[0]
     assert np.array_equal(one.points[0], two.points[0])
     assert np.array_equal(one.stretch[0], two.stretch[0])
     assert np.array_equal(one.pressure, two.pressure)
 
 
-def test_a_sculpture_comes_out_the_same_alone_and_in_a_batch():
-    alone = last_frames([short()])[0]
-    batch = last_frames([short("other", head=5, tail=3.5), short(), short("third", head=7, tail=2.5)])
+@pytest.mark.parametrize("device", DEVICES)
+def test_a_sculpture_comes_out_the_same_alone_and_in_a_batch(device):
+    alone = last_frames([short()], device)[0]
+    others = short("other", head=5, tail=3.5), short("third", head=7, tail=2.5)
+    batch = last_frames([others[0], short(), others[1]], device)
     assert np.array_equal(alone.points[0], batch[1].points[0])
     assert not np.array_equal(batch[0].points[0], batch[1].points[0])
+
+
+@pytest.mark.parametrize("device", DEVICES)
+def test_every_device_makes_the_same_bubble(device):
+    here, on_cpu = last_frames([short()], device)[0], last_frames([short()])[0]
+    assert here.points[0] == pytest.approx(on_cpu.points[0], abs=1e-4)
+    assert here.volume == pytest.approx(on_cpu.volume, rel=1e-3)
 
 
 def test_frames_are_counted_from_one_and_announced_in_advance():

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 
 import pytest
 
+README = Path(__file__).parents[2] / "README.md"
+BEGIN, END = "<!-- verification table -->", "<!-- end of verification table -->"
 TABLE = pytest.StashKey[list["Row"]]()
 
 
@@ -27,6 +30,10 @@ class Row:
     def __str__(self) -> str:
         numbers = f"{self.theory:12.6g} {self.measured:12.6g} {self.error:10.2e} {self.tolerance:10.1e}"
         return f"{self.case:5} {self.quantity:52} {numbers}"
+
+
+def pytest_addoption(parser):
+    parser.addoption("--update-table", action="store_true", help="write the README's verification table anew")
 
 
 @pytest.fixture
@@ -52,3 +59,22 @@ def pytest_terminal_summary(terminalreporter, config):
         )
         for row in rows:
             terminalreporter.line(str(row))
+    if rows and config.getoption("--update-table", default=False):
+        write_table(rows)
+
+
+def write_table(rows):
+    """Put the line of every case that is nearest to its tolerance into the README."""
+    worst = {}
+    for row in rows:
+        if row.case not in worst or row.error / row.tolerance > worst[row.case].error / worst[row.case].tolerance:
+            worst[row.case] = row
+    lines = ["| case | nearest to its limit | theory | solver | error | allowed |", "|---|---|---|---|---|---|"]
+    for case in sorted(worst):
+        row = worst[case]
+        numbers = f"{row.theory:.6g} | {row.measured:.6g} | {row.error:.1e} | {row.tolerance:.0e}"
+        count = sum(other.case == case for other in rows)
+        lines.append(f"| {case} ({count}) | {row.quantity} | {numbers} |")
+    text = README.read_text(encoding="utf-8")
+    before, after = text.split(BEGIN)[0], text.split(END)[1]
+    README.write_text(before + BEGIN + "\n\n" + "\n".join(lines) + "\n\n" + END + after, encoding="utf-8")
