@@ -40,7 +40,7 @@ class _Origin:
 
 
 def _format(value: object) -> object:
-    if isinstance(value, (bool, float)):  # both may equal 1
+    if isinstance(value, bool) or not isinstance(value, int):  # true and 1.0 equal 1
         raise ValueError(f"{quoted(value)} is no format, expected 1")
     return value
 

@@ -21,12 +21,10 @@ def _without_null(schema: Any) -> Any:
         return [_without_null(entry) for entry in schema]
     if not isinstance(schema, dict):
         return schema
-    entries = {key: _without_null(value) for key, value in schema.items()}
+    entries = {key: _without_null(value) for key, value in schema.items() if value is not None}
     choices = entries.get("anyOf")
     if isinstance(choices, list) and {"type": "null"} in choices:
         kept = [choice for choice in choices if choice != {"type": "null"}]
         del entries["anyOf"]
-        if entries.get("default", 0) is None:
-            del entries["default"]
         return {**kept[0], **entries} if len(kept) == 1 else {"anyOf": kept, **entries}
     return entries

@@ -36,6 +36,8 @@ class Hands:
         self.mode = np.zeros(joints, dtype=np.int32)
         self.start = np.zeros((joints, 3), dtype=np.float32)
         self.goal = np.zeros((joints, 3), dtype=np.float32)
+        self.free = np.zeros((joints, 3), dtype=np.float32)
+        """Unit direction in which a leading hand does not hold; 0 for none."""
         self.force = np.full(joints, LEAD_FORCE, dtype=np.float32)
         limit = STEP_STIFFNESS * scene.joint_mass.numpy() / scene.settings.dt**2
         self.stiffness = np.minimum(LEAD_STIFFNESS, limit).astype(np.float32)
@@ -72,6 +74,7 @@ class Hands:
         if self.mode[joint] == 0:
             self.mode[joint] = LEAD_MODE
             self.start[joint] = self.goal[joint] = middle[joint]
+            self.free[joint] = 0.0
 
     def close(self, joint: int, radius: float, passage: float) -> None:
         """Set the radius (m) and the open area (m2) that a neck has at the end of the frame."""
@@ -163,6 +166,7 @@ class Hands:
             ("hand", self.mode),
             ("hand_from", self.start),
             ("hand_to", self.goal),
+            ("hand_free", self.free),
             ("hand_force", self.force),
             ("hand_stiffness", self.stiffness),
             ("radius_from", self.radius),

@@ -30,7 +30,7 @@ PUMP_RAMP = 0.2
 """Share of that time in which the pump starts, and stops."""
 SPIN_CLEAR = 1e-6
 """What lies farther than this beyond a joint turns with the balloon, m."""
-SOFTENING_SECONDS = 0.2
+SOFTENING_SECONDS = 0.1
 """Time in which stretched rubber softens, s: longer than the waves that hands send through a heavy mesh."""
 ALONG = np.array([1.0, 0.0, 0.0])
 """Direction from the knot to the tip."""
@@ -52,8 +52,6 @@ class Maker:
         self._done = 0
         """Moves that are finished."""
         self._frame = 0
-        self._before: Floats = np.zeros((0, 3), dtype=np.float32)
-        """Where all rings were a frame ago."""
         self.doing = ""
         self.inflated = -1
         """Frame at whose end the last balloon has its gas."""
@@ -87,7 +85,6 @@ class Maker:
             self._perform(k, move, (begin, end), share, fresh, middle)
             if move.end <= end and k == self._done:
                 self._done += 1
-        self._before = middle.copy()
 
     def _perform(
         self, k: int, move: Move, frame: tuple[float, float], share: float, fresh: bool, middle: Floats
@@ -152,18 +149,9 @@ class Maker:
         """Keep what is already made from swinging round a joint, free to move along the balloon as the
         neck draws it in.
         """
-        made = self._worked(ring)
-        if not made:
-            return
-        fresh = [joint for joint in made if self.hands.mode[joint] == 0]
-        for joint in fresh:
+        for joint in self._worked(ring):
             self.hands.lead(joint, middle)
-        # Along the balloon the hand is where the joint is and as fast as it was: it feels nothing.
-        along = np.outer(ALONG, ALONG).astype(np.float32)
-        here, start = middle[made], self.hands.start[made]
-        speed = np.zeros_like(here) if fresh else here - self._before[made]
-        self.hands.start[made] = start + (here - start) @ along
-        self.hands.goal[made] = self.hands.start[made] + speed @ along
+            self.hands.free[joint] = ALONG
 
     def _spin(self, move: Spin, begin: float, end: float, middle: Floats) -> None:
         ring = self.plan.table.rings[move.ring]

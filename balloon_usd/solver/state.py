@@ -56,7 +56,7 @@ def state_arrays(scene: Scene, weld_count: int, strut_count: int) -> None:
     zeros("hit_count", quads, int)
     zeros("hits", (quads, HITS), int)
     zeros("most_hits", 1, int)
-    for name in ("ring_middle", "ring_area", "ring_speed", "hand_load", "hand_from", "hand_to"):
+    for name in ("ring_middle", "ring_area", "ring_speed", "hand_load", "hand_from", "hand_to", "hand_free"):
         zeros(name, joints, wp.vec3)
     for name in ("radius_from", "radius_to", "open_from", "open_to", "hand_force", "hand_stiffness"):
         zeros(name, joints, float)

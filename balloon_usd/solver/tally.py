@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from balloon_usd.solver.frame import Frame
 
 FLAT_BELOW = 2.0
-"""Hoop stretch below which rubber counts as flat tail: between the thin phase (1.15) and the bulged one (5.7)."""
+"""Hoop stretch below which rubber counts as flat: between the thin phase (1.15) and the bulged one (5.7)."""
 
 
 class Tally:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import pkgutil
+from pathlib import Path
 
 import pytest
 import warp as wp
@@ -52,7 +53,7 @@ def test_every_kernel_says_what_it_writes(name):
 
 def test_no_kernel_adds_floats_atomically():
     for module in pkgutil.iter_modules(kernels.__path__, kernels.__name__ + "."):
-        source = open(importlib.import_module(module.name).__file__).read()
+        source = Path(importlib.import_module(module.name).__file__).read_text(encoding="utf-8")
         for line in source.splitlines():
             if "atomic_" in line:
                 assert "hit_count" in line or "most_hits" in line, line

@@ -67,9 +67,15 @@ def write_table(rows):
     """Put the line of every case that is nearest to its tolerance into the README."""
     worst = {}
     for row in rows:
-        if row.case not in worst or row.error / row.tolerance > worst[row.case].error / worst[row.case].tolerance:
+        if (
+            row.case not in worst
+            or row.error / row.tolerance > worst[row.case].error / worst[row.case].tolerance
+        ):
             worst[row.case] = row
-    lines = ["| case | nearest to its limit | theory | solver | error | allowed |", "|---|---|---|---|---|---|"]
+    lines = [
+        "| case | nearest to its limit | theory | solver | error | allowed |",
+        "|---|---|---|---|---|---|",
+    ]
     for case in sorted(worst):
         row = worst[case]
         numbers = f"{row.theory:.6g} | {row.measured:.6g} | {row.error:.1e} | {row.tolerance:.0e}"

@@ -17,7 +17,7 @@ from balloon_usd.balloon.rubber import Rubber
 from balloon_usd.balloon.tube_theory import TubeState
 from balloon_usd.solver.body import Body, RingSpec
 from balloon_usd.solver.hands import Hands
-from balloon_usd.solver.scene import build_scene
+from balloon_usd.solver.scene import Scene, build_scene
 from balloon_usd.solver.settings import SceneSettings
 from balloon_usd.solver.stepper import Stepper
 
@@ -144,7 +144,9 @@ class Rig:
         """Force on every vertex, (V, 3), N: what the next two substeps change of its momentum."""
         self.scene.v.zero_()
         self.advance()
-        return self.array("mass")[:, None] * self.array("v") / (self.stepper.substeps * self.scene.settings.dt)
+        return (
+            self.array("mass")[:, None] * self.array("v") / (self.stepper.substeps * self.scene.settings.dt)
+        )
 
     def kinetic_energy(self) -> float:
         """J."""
@@ -152,9 +154,7 @@ class Rig:
 
     def momentum(self) -> tuple[Floats, Floats]:
         """Momentum (kg m/s) and angular momentum about the centre of mass (kg m2/s), (3,) each."""
-        mass, x, v = self.array("mass")[:, None], self.points, self.array("v")
-        centre = (mass * x).sum(axis=0) / mass.sum()
-        return (mass * v).sum(axis=0), (mass * np.cross(x - centre, v)).sum(axis=0)
+        return momentum_of(self.scene)
 
     def settle(self, tolerance: float = 2.0e-5, most: int = 400) -> None:
         """Bring everything to rest: motion is stopped at every peak of the kinetic energy (Barnes 1999).
@@ -178,7 +178,17 @@ class Rig:
                 if quiet == 3:
                     return
             energy = now
-        raise AssertionError(f"not at rest after {most} frames: still moving {moved / self.mesh.radius:.1e} radii")
+        raise AssertionError(
+            f"not at rest after {most} frames: still moving {moved / self.mesh.radius:.1e} radii"
+        )
+
+
+def momentum_of(scene: Scene) -> tuple[Floats, Floats]:
+    """Momentum (kg m/s) and angular momentum about the centre of mass (kg m2/s) of all there is, (3,) each."""
+    mass, x, v = (scene.arrays[name].numpy().astype(np.float64) for name in ("mass", "x", "v"))
+    mass = mass[:, None]
+    centre = (mass * x).sum(axis=0) / mass.sum()
+    return (mass * v).sum(axis=0), (mass * np.cross(x - centre, v)).sum(axis=0)
 
 
 def plate(columns: int, rows: int, size: float, distortion: float = 0.0) -> Mesh:
@@ -200,7 +210,9 @@ def cube_sphere(radius: float, cells: int) -> Mesh:
     faces = [(one, u, v), (-one, v, u), (v, one, u), (u, -one, v), (u, v, one), (v, u, -one)]
     every = np.stack([np.stack(f, axis=-1).reshape(-1, 3) for f in faces])
     every /= np.linalg.norm(every, axis=2, keepdims=True)
-    _, first, inverse = np.unique(np.round(every.reshape(-1, 3), 9), axis=0, return_index=True, return_inverse=True)
+    _, first, inverse = np.unique(
+        np.round(every.reshape(-1, 3), 9), axis=0, return_index=True, return_inverse=True
+    )
     grid = inverse.reshape(6, cells + 1, cells + 1).astype(np.int32)
     quads = np.concatenate([_quads(face) for face in grid])
     return Mesh(radius * every.reshape(-1, 3)[first], quads, radius)
@@ -290,7 +302,9 @@ def _disc(around: int, circle: Floats) -> Floats:
     p = circle[grid]
     s = t.transpose(1, 0, 2)
     ruled = (1 - t) * p[:1, 1:-1] + t * p[-1:, 1:-1] + (1 - s) * p[1:-1, :1] + s * p[1:-1, -1:]
-    corners = (1 - t) * (1 - s) * p[0, 0] + t * (1 - s) * p[-1, 0] + t * s * p[-1, -1] + (1 - t) * s * p[0, -1]
+    corners = (
+        (1 - t) * (1 - s) * p[0, 0] + t * (1 - s) * p[-1, 0] + t * s * p[-1, -1] + (1 - t) * s * p[0, -1]
+    )
     return (ruled - corners).reshape(-1, 3)
 
 

@@ -68,6 +68,7 @@ def move_joints(
     hand: wp.array[int],
     hand_from: wp.array[wp.vec3],
     hand_to: wp.array[wp.vec3],
+    hand_free: wp.array[wp.vec3],
     hand_force: wp.array[float],
     hand_stiffness: wp.array[float],
     radius_from: wp.array[float],
@@ -105,9 +106,10 @@ def move_joints(
     goal = hand_from[j] + fraction * (hand_to[j] - hand_from[j])
     load = wp.vec3(0.0)
     if hand[j] == LEAD:
-        load = hand_stiffness[j] * (goal - c) - wp.sqrt(hand_stiffness[j] * joint_mass[j]) * (
-            w - (hand_to[j] - hand_from[j]) / frame_seconds
-        )
+        stiffness = hand_stiffness[j]
+        speed = w - (hand_to[j] - hand_from[j]) / frame_seconds
+        load = stiffness * (goal - c) - wp.sqrt(stiffness * joint_mass[j]) * speed
+        load -= wp.dot(load, hand_free[j]) * hand_free[j]
         size = wp.length(load)
         if size > hand_force[j]:
             load = load * (hand_force[j] / size)

@@ -1,0 +1,197 @@
+"""The JSON Schema that editors use says the same as the reader."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any, cast
+
+import pytest
+
+from balloon_usd.recipe import Balloon, Physics, Recipe, RecipeError, Step, recipe_schema
+from balloon_usd.recipe.steps import KINDS
+from balloon_usd.recipe.yaml_reader import read_yaml
+
+RECIPES = sorted((Path(__file__).parents[2] / "recipes").glob("*.yaml"))
+SCHEMA = recipe_schema()
+HEAD = "format: 1\nname: dog\nunits: cm\nballoons:\n  main: {size: 260, tail: 10}\nsteps:\n"
+ABC = "  - bubbles: {a: 10, b: 5, c: 4 in}\n"
+
+TYPES: dict[str, tuple[type, ...]] = {
+    "object": (dict,),
+    "array": (list, tuple),
+    "string": (str,),
+    "integer": (int,),
+    "number": (int, float),
+    "boolean": (bool,),
+}
+REMARKS = {"title", "description", "default", "$defs", "$schema"}
+
+
+def accepts(schema: Mapping[str, Any], value: Any) -> bool:
+    """Check a value against a schema; an unknown keyword is an error of this test."""
+    checks = {
+        "$ref": lambda rule: accepts(SCHEMA["$defs"][rule.removeprefix("#/$defs/")], value),
+        "anyOf": lambda rule: any(accepts(part, value) for part in rule),
+        "oneOf": lambda rule: sum(accepts(part, value) for part in rule) == 1,
+        "type": lambda rule: (
+            isinstance(value, TYPES[rule]) and isinstance(value, bool) == (rule == "boolean")
+        ),
+        "enum": lambda rule: value in rule,
+        "const": lambda rule: value == rule and type(value) is type(rule),
+        "pattern": lambda rule: not isinstance(value, str) or re.search(rule, value) is not None,
+        "maxLength": lambda rule: not isinstance(value, str) or len(value) <= rule,
+        "minimum": lambda rule: not isinstance(value, (int, float)) or value >= rule,
+        "maximum": lambda rule: not isinstance(value, (int, float)) or value <= rule,
+        "exclusiveMinimum": lambda rule: not isinstance(value, (int, float)) or value > rule,
+        "multipleOf": lambda rule: not isinstance(value, (int, float)) or value % rule == 0,
+        "minItems": lambda rule: not isinstance(value, list) or len(value) >= rule,
+        "maxItems": lambda rule: not isinstance(value, list) or len(value) <= rule,
+        "items": lambda rule: not isinstance(value, list) or all(accepts(rule, item) for item in value),
+        "minProperties": lambda rule: not isinstance(value, dict) or len(value) >= rule,
+        "required": lambda rule: not isinstance(value, dict) or set(rule) <= set(value),
+        "propertyNames": lambda rule: not isinstance(value, dict) or all(accepts(rule, key) for key in value),
+        "properties": lambda rule: accepts_entries(rule, value),
+        "patternProperties": lambda rule: accepts_matching(rule, value),
+        "additionalProperties": lambda rule: (
+            not isinstance(value, dict) or rule is not False or set(value) <= set(schema["properties"])
+        ),
+    }
+    return all(checks[keyword](rule) for keyword, rule in schema.items() if keyword not in REMARKS)
+
+
+def accepts_entries(rules: Mapping[str, Any], value: Any) -> bool:
+    return not isinstance(value, dict) or all(
+        accepts(rules[key], entry) for key, entry in value.items() if key in rules
+    )
+
+
+def accepts_matching(rules: Mapping[str, Any], value: Any) -> bool:
+    return not isinstance(value, dict) or all(
+        accepts(rule, entry)
+        for pattern, rule in rules.items()
+        for key, entry in value.items()
+        if re.search(pattern, key)
+    )
+
+
+def plain(text: str) -> object:
+    return read_yaml(text, "f").data
+
+
+def parts(schema: Any) -> Iterator[dict[str, Any]]:
+    if isinstance(schema, dict):
+        yield cast("dict[str, Any]", schema)
+        for entry in schema.values():
+            yield from parts(entry)
+    elif isinstance(schema, list):
+        for entry in schema:
+            yield from parts(entry)
+
+
+def test_there_are_shipped_recipes() -> None:
+    assert len(RECIPES) >= 6
+
+
+@pytest.mark.parametrize("path", RECIPES, ids=lambda path: path.stem)
+def test_the_schema_accepts_a_shipped_recipe(path: Path) -> None:
+    assert accepts(SCHEMA, plain(path.read_text(encoding="utf-8")))
+
+
+EVERYTHING = (
+    "format: 1\nname: all\ntitle: t\nsource: s\nunits: in\nfps: 30\n"
+    "balloons:\n  m: {size: '160', color: [0, 0.5, 1], inflated: 30 cm, radius: 5 mm, length: 1 m, thickness: 0.2 mm}\n"
+    "steps:\n  - bubbles: {a: 4, b: '4\"', c: 5}\n    balloon: m\n    turns: 2.5\n    seconds: 1\n    note: n\n"
+    "  - loop: {d: 8}\n    point: up\n  - fold: {e: 8}\n  - ear: {f: 1.5}\n  - lock: [a, b]\n"
+    "  - lock: {joints: [b.start, c.end]}\n  - rest: g\n  - bend: {g: 60 deg, a: 30}\n  - wait: 1\n"
+    "physics: {model: latex, rubber: gent, softening: false, gravity: 9.8, friction: 1, substeps: 40, burst: stop,"
+    " hold: 1, mass_scaling: none}\n"
+)
+
+
+def test_the_schema_and_the_reader_accept_a_recipe_with_every_key() -> None:
+    assert Recipe.parse(EVERYTHING).steps[-1].kind == "wait"
+    assert accepts(SCHEMA, plain(EVERYTHING))
+
+
+WRONG = [
+    "format: 2\nname: d\nballoons: {m: {size: 260, tail: 1 cm}}\nsteps: [wait: 1]\n",
+    "format: 1\nname: d\nballoons: {}\nsteps: [wait: 1]\n",
+    "format: 1\nname: d\nballoons: {m: {size: 260, tail: 1 cm}}\nsteps: []\n",
+    "format: 1\nname: 9d\nballoons: {m: {size: 260, tail: 1 cm}}\nsteps: [wait: 1]\n",
+    "format: 1\nname: d\nballoons: {m: {size: 261, tail: 1 cm}}\nsteps: [wait: 1]\n",
+    "format: 1\nname: d\nballoons: {m: {tail: 1 cm}}\nsteps: [wait: 1]\n",
+    "format: 1\nname: d\nballoons: {m: {size: 260, tail: -1}}\nsteps: [wait: 1]\n",
+    "format: 1\nname: d\nballoons: {m: {size: 260, tail: 1 yd}}\nsteps: [wait: 1]\n",
+    "format: 1\nname: d\nballoons: {m: {size: 260, tail: 1 cm, colour: red}}\nsteps: [wait: 1]\n",
+    "format: 1\nname: d\nballoons: {m: {size: 260, tail: 1 cm, color: [1, 2, 3]}}\nsteps: [wait: 1]\n",
+    "format: 1\nname: d\nballoons: {m: {size: 260, tail: 1 cm, color: rde}}\nsteps: [wait: 1]\n",
+    HEAD + "  - {}\n",
+    HEAD + "  - bubbles: {}\n",
+    HEAD + "  - bubbles: {a: 0}\n",
+    HEAD + "  - bubbles: {a: 1}\n    rest: b\n",
+    HEAD + "  - bubbels: {a: 1}\n",
+    HEAD + ABC + "  - lock: a\n",
+    HEAD + ABC + "  - lock: {joints: [a.middle, b.end]}\n",
+    HEAD + ABC + "  - bend: {a: 200}\n",
+    HEAD + "  - bubbles: {a: 1}\n    turns: 2.3\n",
+    HEAD + "  - loop: {a: 1}\n    point: sideways\n",
+    HEAD + "  - wait: 0.1\n",
+    HEAD + ABC + "physics: {rubber: gum}\n",
+    HEAD + ABC + "physics: {softening: on}\n",
+    HEAD + ABC + "physics: {substeps: 20.5}\n",
+    HEAD + ABC + "fps: 500\n",
+    HEAD + ABC + "unit: miles\n",
+]
+
+
+@pytest.mark.parametrize("text", WRONG)
+def test_the_schema_and_the_reader_refuse_the_same_slips(text: str) -> None:
+    with pytest.raises(RecipeError):
+        Recipe.parse(text)
+    assert not accepts(SCHEMA, plain(text))
+
+
+@pytest.mark.parametrize(
+    ("found", "model"),
+    [
+        (SCHEMA, Recipe),
+        (SCHEMA["$defs"]["Balloon"], Balloon),
+        (SCHEMA["$defs"]["Step"], Step),
+        (SCHEMA["$defs"]["Physics"], Physics),
+    ],
+)
+def test_the_schema_describes_every_key_and_forbids_others(found: dict[str, Any], model: type) -> None:
+    assert list(found["properties"]) == list(model.model_fields)
+    assert found["additionalProperties"] is False
+    assert all(entry["description"] for entry in found["properties"].values())
+
+
+def test_the_schema_requires_what_the_reader_requires() -> None:
+    assert SCHEMA["required"] == ["format", "name", "balloons", "steps"]
+    assert SCHEMA["$defs"]["Balloon"]["required"] == ["size"]
+    assert "required" not in SCHEMA["$defs"]["Physics"]
+    assert SCHEMA["$defs"]["Step"]["oneOf"] == [{"required": [kind]} for kind in KINDS]
+
+
+def test_null_is_nowhere_allowed() -> None:
+    assert "null" not in json.dumps(SCHEMA)
+
+
+def test_every_default_is_a_valid_value() -> None:
+    with_default = [part for part in parts(SCHEMA) if "default" in part]
+    assert len(with_default) >= 10
+    for part in with_default:
+        assert accepts(part, part["default"]), part
+
+
+def test_the_schema_is_json_and_names_its_dialect() -> None:
+    assert json.loads(json.dumps(SCHEMA)) == SCHEMA
+    assert SCHEMA["$schema"] == "https://json-schema.org/draft/2020-12/schema"
+
+
+def test_each_call_gives_a_schema_of_its_own() -> None:
+    recipe_schema()["properties"].clear()
+    assert recipe_schema() == SCHEMA
