@@ -24,6 +24,10 @@ REST_GUIDE = 0.07
 """Inflated distance from its joint at which the last bubble is felt by the friction of that joint, m."""
 
 
+TIP_GUIDE = 3.0
+"""Unstressed distance from the tip at which hands hold the flat tail, in R0."""
+
+
 @dataclass(frozen=True)
 class PlannedRing:
     """One ring of a balloon."""
@@ -102,4 +106,4 @@ def _guide_shares(bubble: PlannedBubble, strip: Strip) -> tuple[float, ...]:
         return GUIDES[bubble.kind]
     stretch = maxwell_state(strip.rubber).bulged.b
     share = min(REST_GUIDE / stretch / bubble.rest_length, 0.5)
-    return (share,)
+    return share, max(1.0 - TIP_GUIDE * strip.size.radius / bubble.rest_length, 0.5 * (1.0 + share))

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from balloon_usd.balloon.bubble_shape import tail_volume_per_rest_length, tube_volume_per_rest_length
 from balloon_usd.balloon.tube_theory import maxwell_state, pressure_maximum
 from balloon_usd.plan.choreography import Bend, Bring, Gather, Inflate, LetGo, Move, Pinch, Spin, Weld
 from balloon_usd.plan.closing import closing_pose, smooth
@@ -24,10 +25,12 @@ Floats = NDArray[np.float32]
 
 PUMP_RESERVE = 1.15
 """Pressure of the pump over the pressure at which the flat tube gives way."""
-PUMP_TIME = 0.9
+PUMP_TIME = 0.985
 """Share of the time given to inflating in which the pump has done its work."""
 PUMP_RAMP = 0.2
 """Share of that time in which the pump starts, and stops."""
+TAIL_STIFFNESS = 200.0
+"""Stiffness of the hand that leads the flat tail while the balloon is blown up, N/m: soft, it only steers."""
 SPIN_CLEAR = 1e-6
 """What lies farther than this beyond a joint turns with the balloon, m."""
 SOFTENING_SECONDS = 0.1
@@ -124,10 +127,32 @@ class Maker:
         gentle = min(1.0, share / PUMP_RAMP, (1.0 - share) / PUMP_RAMP)
         flow = self.hands.pump_goal[b] / (PUMP_TIME * (1.0 - PUMP_RAMP) * move.seconds)
         self.hands.pump_flow[b] = flow * max(gentle, 0.0)
+        self._lead_tail(move.balloon, float(self.hands.pump_flow[b]), fresh, middle)
         if share >= 1.0:
             self.hands.set_drag(b, self.scene.settings.drag)
             self.hands.set_softening(b, self.scene.settings.dt / SOFTENING_SECONDS)
             self.inflated = self._frame
+
+    def _lead_tail(self, balloon: str, flow: float, fresh: bool, middle: Floats) -> None:
+        """Keep the flat tail straight and as fast as the front that a flow of gas (mol/s) drives along."""
+        strip = self.plan.strips[balloon]
+        tip = self._ring[self.plan.table.guides(strip.bubbles[-1].name)[-1]]
+        if fresh:
+            self.hands.lead(tip, middle)
+            self.hands.stiffness[tip] = TAIL_STIFFNESS
+        state = maxwell_state(strip.rubber)
+        gained = tube_volume_per_rest_length(strip.size, strip.rubber) - tail_volume_per_rest_length(
+            strip.size, strip.rubber
+        )
+        pressure = self.scene.settings.atmosphere + self.plan.budgets[balloon].pressure
+        rest_speed = flow * float(self.scene.air.molar_energy) / (pressure * gained)
+        forward = np.array(ALONG, dtype=np.float32)
+        axial = float((middle[tip] - self.hands.goal[tip]) @ forward)
+        self.hands.start[tip] = self.hands.goal[tip] + forward * axial
+        step = rest_speed * (state.bulged.b - state.thin.b) / self.plan.recipe.fps
+        self.hands.goal[tip] = self.hands.start[tip] + forward * step
+        if flow == 0.0:
+            self.hands.free[tip] = ALONG
 
     def _pinch(self, k: int, move: Pinch, share: float, fresh: bool, middle: Floats) -> None:
         joint = self._ring[move.ring]
@@ -291,8 +316,10 @@ class Maker:
             guides = [self._ring[g] for g in self.plan.table.guides(bubble)]
             if outside is not None and self.hands.radius_goal[outside] > 0.0:
                 found.add(outside)
-            elif guides and (outside is None or inside == 2):
+            elif guides and inside == 2:
                 found.add(guides[len(guides) // 2])
+            elif guides and outside is None:
+                found.add(guides[0])
         return found
 
     def _cheeks(self, weld: set[int], near: set[int]) -> set[int]:

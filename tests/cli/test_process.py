@@ -2,25 +2,18 @@ from __future__ import annotations
 
 import os
 import signal
-import subprocess
 import sys
 from pathlib import Path
 
 import balloon_usd
+from tests import interruptible
 
 ROOT = Path(balloon_usd.__file__).parents[1]
 
 
 def start(*words, **options):
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(ROOT), str(Path(__file__).parent)])}
-    return subprocess.Popen(
-        [sys.executable, *map(str, words)],
-        env=environment,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        **options,
-    )
+    return interruptible.start([sys.executable, *map(str, words)], env=environment, **options)
 
 
 def test_the_module_is_the_command():

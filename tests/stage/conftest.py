@@ -10,6 +10,7 @@ import pytest
 from pxr import Usd
 
 from balloon_usd.stage import write_stage
+from tests import interruptible
 from tests.stage.tubes import frames, sculpture
 
 if TYPE_CHECKING:
@@ -46,13 +47,7 @@ def child() -> Callable[..., subprocess.Popen[str]]:
             "import os, resource, signal, sys, time\nfrom pathlib import Path\nimport numpy as np\n"
             "from balloon_usd.stage import *\nfrom tests.stage.tubes import *\n"
         )
-        return subprocess.Popen(
-            [sys.executable, "-c", prelude + code],
-            cwd=ROOT,
-            env={**os.environ, **environment},
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            text=True,
-        )
+        words = [sys.executable, "-c", prelude + code]
+        return interruptible.start(words, cwd=ROOT, env={**os.environ, **environment})
 
     return start

@@ -134,8 +134,10 @@ def move_joints(
         return
     if hand[j] != CLASP:
         ring_axes[j] = regular_ring(x, first, n, c)
+    a = wp.vec3(0.0)
     if radius_to[j] > 0.0:
         axes = ring_axes[j]
+        normal = wp.cross(axes * wp.vec2(1.0, 0.0), axes * wp.vec2(0.0, 1.0))
         step = 2.0 * wp.pi / float(n)
         turn = wp.vec2(wp.cos(step), wp.sin(step))
         corner = wp.vec2(radius, 0.0)
@@ -154,16 +156,16 @@ def move_joints(
         spin = wp.vec3(0.0)
         if hand[j] != CLASP:
             # Moments of inertia of a ring: 1/2 about its diameters, 1 about its axis.
-            e3 = wp.cross(axes * wp.vec2(1.0, 0.0), axes * wp.vec2(0.0, 1.0))
-            spin = (2.0 * twist - wp.dot(twist, e3) * e3) / (float(n) * radius * radius)
+            spin = (2.0 * twist - wp.dot(twist, normal) * normal) / (float(n) * radius * radius)
         for k in range(n):
             v[first + k] = v[first + k] - push - wp.cross(spin, x[first + k] - c)
-    a = wp.vec3(0.0)
-    last = x[first + n - 1] - c
-    for k in range(n):
-        here = x[first + k] - c
-        a += wp.cross(last, here)
-        last = here
+        a = (float(n) * turn[1] * radius * radius) * normal
+    else:
+        last = x[first + n - 1] - c
+        for k in range(n):
+            here = x[first + k] - c
+            a += wp.cross(last, here)
+            last = here
     ring_middle[j] = c
     ring_area[j] = 0.5 * a
     ring_speed[j] = w + kick
