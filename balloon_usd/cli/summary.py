@@ -55,4 +55,4 @@ def print_summary(outcomes: Sequence[Outcome], seconds: float, detail: str, devi
     rate = frames / max(seconds, 1e-9)
     console.print(f"{frames} frames in {seconds:.1f} s, {rate:.0f} frames/s, {detail} on {device}")
     for file in files:
-        console.print(file)
+        console.print(file, markup=False)

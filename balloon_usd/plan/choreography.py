@@ -11,6 +11,8 @@ from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
+from balloon_usd.recipe.problem import RecipeError
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
@@ -156,7 +158,11 @@ class _Score:
 
 
 def choreograph(recipe: Recipe, strips: Mapping[str, Strip], table: RingTable) -> Choreography:
-    """Return the timeline of hand moves that make a recipe."""
+    """Return the timeline of hand moves that make a recipe.
+
+    Raises:
+        RecipeError: a lock asks for the tip of a balloon, with its place in the file.
+    """
     score = _Score(recipe, table, {b.name: b.length for s in strips.values() for b in s.bubbles})
     _inflate(score, strips)
     for index, step in enumerate(recipe.steps):
@@ -199,6 +205,10 @@ def _bubbles(score: _Score, step: Step, index: int) -> None:
 def _lock(score: _Score, step: Step, index: int) -> None:
     rings = [score.table.joint(end) for end in step.joints]
     found = [ring for ring in rings if ring is not None]
+    if len(found) < len(rings):
+        tip = next(end for end, ring in zip(step.joints, rings, strict=True) if ring is None)
+        text = f"{tip} is the tip of its balloon and cannot be twisted, expected a joint between two bubbles"
+        raise RecipeError([score.recipe.problem(("steps", index, "lock"), text)])
     text = f"lock twist: {', '.join(str(end.bubble) for end in step.joints)}"
     for first, last in pairwise(found):
         _together(score, step, index, text, min(first, last), max(first, last))

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 FASTEST = 5.0
 """Speed that no part of a balloon reaches between two frames unless the run has gone unstable, m/s."""
 STEADIER = "more substeps (physics: substeps) or a longer step (seconds) make the run steadier"
+LOWEST_PRESSURE = -20.0e3
+"""Gauge pressure that no bubble of a balloon reaches, Pa: hands do not suck."""
 SHORT_OF_GAS = 0.98
 """Share of the wanted gas below which inflating counts as failed."""
 
@@ -36,7 +38,9 @@ class Watch:
 
         `most_hits`: vertices that pressed on one quad at a time, the most so far.
         """
-        cause = self._not_finite(frame) or self._too_fast(frame) or self._burst(frame)
+        cause = (
+            self._not_finite(frame) or self._impossible(frame) or self._too_fast(frame) or self._burst(frame)
+        )
         if cause is None and most_hits > HITS:
             cause = f"{most_hits} vertices press on one face but there is room for {HITS}: use a finer detail"
         self._last = frame
@@ -48,6 +52,13 @@ class Watch:
         for points, strip in zip(frame.points, self._plan.strips.values(), strict=True):
             if not np.isfinite(points).all():
                 return f"balloon {strip.balloon} has flown apart; {STEADIER}"
+        return None
+
+    def _impossible(self, frame: Frame) -> str | None:
+        """Tell of a bubble that has turned inside out: what follows would be no physics."""
+        for bubble, pressure in zip(self._plan.bubbles, frame.pressure, strict=True):
+            if not pressure > LOWEST_PRESSURE:
+                return f"{bubble.name} has turned inside out ({pressure / 1e3:.0f} kPa): make it longer"
         return None
 
     def _too_fast(self, frame: Frame) -> str | None:

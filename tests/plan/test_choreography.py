@@ -8,7 +8,7 @@ import pytest
 
 from balloon_usd.plan import plan
 from balloon_usd.plan.choreography import Bend, Gather, Inflate, LetGo, Pinch, Spin, Weld
-from balloon_usd.recipe import RecipeBuilder
+from balloon_usd.recipe import RecipeBuilder, RecipeError
 
 
 def moves(build):
@@ -80,3 +80,8 @@ def test_a_bend_leads_a_bubble_by_its_angle():
     made = moves(lambda b: b.bubbles(neck=0.2, body=0.1).bend(neck=60, point="up").rest("tail"))
     (bend,) = kinds(made, Bend)
     assert bend.angle == pytest.approx(math.radians(60.0))
+
+
+def test_the_tip_of_a_balloon_cannot_be_locked():
+    with pytest.raises(RecipeError, match="tip of its balloon"):
+        moves(lambda b: b.bubbles(nose=0.1, body=0.1).rest("tail").lock(joints=["nose.start", "tail.end"]))
