@@ -132,7 +132,7 @@ class Simulation:
             state["volume"][bubbles],
             maker.doing,
         )
-        failed = self.watches[world].failure(frame, int(state["most_hits"][0])) or self._short_of_gas(
+        failed = self.watches[world].failure(frame, int(state["most_hits"][world])) or self._short_of_gas(
             maker, bodies, index, state["amount"]
         )
         if failed is not None:

@@ -55,7 +55,7 @@ def state_arrays(scene: Scene, weld_count: int, strut_count: int) -> None:
     zeros("touching", balloons, int)
     zeros("hit_count", quads, int)
     zeros("hits", (quads, HITS), int)
-    zeros("most_hits", 1, int)
+    zeros("most_hits", max(scene.worlds) + 1, int)
     for name in ("ring_middle", "ring_area", "ring_speed", "hand_load", "hand_from", "hand_to", "hand_free"):
         zeros(name, joints, wp.vec3)
     for name in ("radius_from", "radius_to", "open_from", "open_to", "hand_force", "hand_stiffness"):

@@ -220,14 +220,16 @@ def find_walls(
 
 
 @wp.kernel
-def order_hits(hit_count: wp.array[int], most_hits: wp.array[int], hits: wp.array2d[int]):
+def order_hits(
+    quad_world: wp.array[int], hit_count: wp.array[int], most_hits: wp.array[int], hits: wp.array2d[int]
+):
     """Sort every quad's list, so that sums do not depend on which thread came first; remember the longest
     list.
     """
     q = wp.tid()
     count = hit_count[q]
     if count > 0:
-        wp.atomic_max(most_hits, 0, count)
+        wp.atomic_max(most_hits, quad_world[q], count)
         count = wp.min(count, MOST_HITS)
         hit_count[q] = count
         for k in range(1, count):
