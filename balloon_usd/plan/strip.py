@@ -69,6 +69,10 @@ class Strip:
     bubbles: tuple[PlannedBubble, ...]
     """From the knot to the tip; the last one owns all remaining rubber."""
 
+    def bubble_at(self, along: float) -> PlannedBubble:
+        """Return the bubble that owns the rubber at an unstressed distance from the knot (m)."""
+        return next((bubble for bubble in self.bubbles if along <= bubble.rest_end), self.bubbles[-1])
+
 
 def lay_strips(recipe: Recipe) -> dict[str, Strip]:
     """Return the strip of every balloon of a recipe, by name.

@@ -38,7 +38,6 @@ def mesh_arrays(scene: Scene, data: list[MembraneData], host: Arrays) -> None:
     host["vertex_along"] = np.concatenate([b.along for b in bodies]).astype(np.float32)
     host["quad_along"] = np.concatenate([b.along[b.quads].mean(axis=1) for b in bodies]).astype(np.float32)
     host["balloon_world"] = np.asarray(scene.worlds, dtype=np.int32)
-    host["vertex_world"] = host["balloon_world"][host["vertex_balloon"]]
     host["quad_world"] = host["balloon_world"][host["quad_balloon"]]
     host["balloon_radius"] = np.array([b.radius for b in bodies], dtype=np.float32)
     for name, value in (

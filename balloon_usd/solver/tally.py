@@ -39,9 +39,7 @@ class Tally:
             worst = int(np.argmax(stretch))
             if stretch[worst] > self.highest_stretch:
                 self.highest_stretch = float(stretch[worst])
-                ends = [bubble.rest_end for bubble in strip.bubbles]
-                place = min(int(np.searchsorted(ends, mesh.along[worst])), len(ends) - 1)
-                self.highest_bubble = strip.bubbles[place].name
+                self.highest_bubble = strip.bubble_at(float(mesh.along[worst])).name
 
     @property
     def bursts(self) -> bool:

@@ -76,8 +76,6 @@ class Watch:
         for stretch, mesh, strip in zip(frame.stretch, self._meshes, self._plan.strips.values(), strict=True):
             worst = int(np.argmax(stretch))
             if stretch[worst] > BURST_STRETCH:
-                ends = [bubble.rest_end for bubble in strip.bubbles]
-                place = min(int(np.searchsorted(ends, mesh.along[worst])), len(ends) - 1)
-                bubble = strip.bubbles[place].name
+                bubble = strip.bubble_at(float(mesh.along[worst])).name
                 return f"{bubble} bursts: stretch {stretch[worst]:.1f}, latex bears {BURST_STRETCH:.1f}"
         return None
