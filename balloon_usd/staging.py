@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 from balloon_usd.balloon.detail import detail_named
 from balloon_usd.plan.meshing import mesh_of
-from balloon_usd.stage import MeshDescription, StageDescription
+from balloon_usd.plan.particles import experiment_spacing, start_particles
+from balloon_usd.stage import AirDescription, MeshDescription, StageDescription
 from balloon_usd.stage import write_stage as write_described_stage
 
 if TYPE_CHECKING:
@@ -19,8 +20,10 @@ if TYPE_CHECKING:
     from balloon_usd.plan import Plan, Strip
     from balloon_usd.stage import StageFrame, WrittenStage
 
-SOLVER = "latex 1"
-"""Model of the physics and its version: another version may move points."""
+SOLVERS = {"latex": "latex 1", "kosaka": "kosaka 1"}
+"""Models of the physics and their versions: another version may move points."""
+DRAWN = 0.4
+"""Diameter of a drawn air particle, in distances of neighbouring ones."""
 
 
 def write_stage(
@@ -64,10 +67,24 @@ def describe_stage(plan: Plan, meshes: Sequence[BalloonMesh]) -> StageDescriptio
         provenance={
             "recipe": Path(recipe.file).name,
             "recipe_sha256": recipe.sha256,
-            "solver": SOLVER,
+            "solver": SOLVERS[recipe.physics.model],
         },
         twists=moves_in_time(plan),
+        airs=_describe_airs(plan),
     )
+
+
+def _describe_airs(plan: Plan) -> tuple[AirDescription, ...]:
+    """Describe the air of every balloon, where the model makes it of particles."""
+    physics = plan.recipe.physics
+    if physics.model != "kosaka":
+        return ()
+    found = []
+    for strip in plan.strips.values():
+        spacing = physics.kosaka.spacing or experiment_spacing(strip.inflated_radius)
+        count = len(start_particles(strip, physics.kosaka.spacing))
+        found.append(AirDescription(f"{strip.balloon}_air", count, DRAWN * spacing))
+    return tuple(found)
 
 
 def _describe_mesh(plan: Plan, strip: Strip, mesh: BalloonMesh) -> MeshDescription:

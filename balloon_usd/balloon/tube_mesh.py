@@ -16,6 +16,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from balloon_usd.balloon.ringed_faces import (
+    Ints,
+    cap_points,
+    ring_starts,
+    ringed_bubbles,
+    ringed_quads,
+    ringed_texture,
+    unit_circle,
+)
+
 if TYPE_CHECKING:
     from balloon_usd.balloon.detail import Detail
     from balloon_usd.balloon.sizes import BalloonSize
@@ -30,7 +40,6 @@ GRADING = 0.18
 """Growth of the axial spacing per distance from the nearest joint."""
 
 Floats = NDArray[np.float32]
-Ints = NDArray[np.int32]
 
 
 @dataclass(frozen=True)
@@ -106,80 +115,31 @@ def tube_mesh(
     )
     along = np.concatenate([behind, ring_stations(detail, size, joints)])
     rings, n = len(along), detail.around
-    inner = (n // 4 - 1) ** 2
     radius = np.full(rings, size.radius / math.cos(math.pi / n))
     flare = np.clip((-knot - along) / lip, 0.0, 1.0)
     radius *= 1.0 + (LIP_FLARE - 1.0) * flare**2
-    theta = 2 * math.pi * np.arange(n) / n
-    circle = np.stack([np.cos(theta), np.sin(theta)], axis=1)
     tube = np.empty((rings, n, 3))
     tube[:, :, 0] = along[:, None]
-    tube[:, :, 1:] = radius[:, None, None] * circle
-    lip_cap, tip_cap = _cap_points(n, radius[0], 0.15), _cap_points(n, radius[-1], 1.0)
+    tube[:, :, 1:] = radius[:, None, None] * unit_circle(n)
+    lip_cap, tip_cap = _domed_cap(n, radius[0], 0.15), _domed_cap(n, radius[-1], 1.0)
     lip_cap[:, 0] = along[0] - lip_cap[:, 0] * 0.5
     tip_cap[:, 0] = along[-1] + tip_cap[:, 0] * size.radius / radius[-1]
     points = np.concatenate([lip_cap, tube.reshape(-1, 3), tip_cap]).astype(np.float32)
-    ring_start = (inner + n * np.arange(rings)).astype(np.int32)
-    quads, st, at = _faces(n, rings, inner, along)
-    quad_bubble = np.minimum(np.searchsorted(np.asarray(bubble_ends), at), len(bubble_ends) - 1).astype(
-        np.int32
-    )
     vertex_along = np.concatenate([lip_cap[:, 0], np.repeat(along, n), tip_cap[:, 0]]).astype(np.float32)
-    return BalloonMesh(points, quads, st, quad_bubble, vertex_along, n, ring_start, along)
+    return BalloonMesh(
+        points=points,
+        quads=ringed_quads(n, rings),
+        st=ringed_texture(n, (along - along[0]) / (along[-1] - along[0])),
+        quad_bubble=ringed_bubbles(n, along, bubble_ends),
+        along=vertex_along,
+        around=n,
+        ring_start=ring_starts(n, rings),
+        ring_along=along,
+    )
 
 
-def _cap_grid(n: int, ring: int, first_inner: int) -> Ints:
-    """Vertex numbers of a cap's square grid, (n/4 + 1, n/4 + 1); its border is the ring, walked once."""
-    m = n // 4
-    grid = np.empty((m + 1, m + 1), dtype=np.int32)
-    border = ring + np.arange(n, dtype=np.int32)
-    grid[:m, 0], grid[m, :m] = border[:m], border[m : 2 * m]
-    grid[m:0:-1, m], grid[0, m:0:-1] = border[2 * m : 3 * m], border[3 * m :]
-    grid[1:m, 1:m] = first_inner + np.arange((m - 1) ** 2, dtype=np.int32).reshape(m - 1, m - 1)
-    return grid
-
-
-def _cap_points(n: int, radius: float, dome: float) -> NDArray[np.float64]:
-    """Inner points of a cap, ((n/4 - 1)^2, 3), m: a Coons patch of the circle lifted to a dome towards +x."""
-    grid = _cap_grid(n, 0, n)
-    theta = 2 * math.pi * np.arange(n) / n
-    flat = np.zeros((grid.max() + 1, 2))
-    flat[:n] = radius * np.stack([np.cos(theta), np.sin(theta)], axis=1)
-    m = n // 4
-    u = np.arange(1, m)[:, None, None] / m
-    v = np.arange(1, m)[None, :, None] / m
-    p = flat[grid]
-    ruled = (1 - u) * p[:1, 1:m] + u * p[m:, 1:m] + (1 - v) * p[1:m, :1] + v * p[1:m, m:]
-    corners = (1 - u) * (1 - v) * p[0, 0] + u * (1 - v) * p[m, 0] + u * v * p[m, m] + (1 - u) * v * p[0, m]
-    inner = (ruled - corners).reshape(-1, 2)
-    lift = dome * np.sqrt(np.maximum(radius**2 - np.sum(inner**2, axis=1), 0.0))
-    return np.column_stack([lift, inner])
-
-
-def _faces(
-    n: int, rings: int, inner: int, along: NDArray[np.float64]
-) -> tuple[Ints, Floats, NDArray[np.float64]]:
-    """Quads, texture coordinates per corner and the unstressed position of each quad's middle."""
-    r, k = np.meshgrid(np.arange(rings - 1), np.arange(n), indexing="ij")
-    start, after = inner + r * n, inner + (r + 1) * n
-    turn = (k + 1) % n
-    tube = np.stack([start + k, start + turn, after + turn, after + k], axis=-1).reshape(-1, 4)
-    t = (along - along[0]) / (along[-1] - along[0])
-    s_low, s_high = k / n, (k + 1) / n
-    corners = [(s_low, t[r]), (s_high, t[r]), (s_high, t[r + 1]), (s_low, t[r + 1])]
-    tube_st = np.stack([np.stack(c, axis=-1) for c in corners], axis=2).reshape(-1, 4, 2)
-    lip = _cap_grid(n, inner, 0)
-    tip = _cap_grid(n, inner + (rings - 1) * n, inner + rings * n)
-    lip_quads, tip_quads = _grid_quads(lip)[:, ::-1], _grid_quads(tip)
-    quads = np.concatenate([lip_quads, tube, tip_quads]).astype(np.int32)
-    m = n // 4
-    cap_st = np.tile(np.array([[0, 0], [1, 0], [1, 1], [0, 1]], dtype=np.float32) / m, (m * m, 1, 1))
-    st = np.concatenate([cap_st, tube_st, 1 - cap_st]).astype(np.float32)
-    middle = np.repeat(0.5 * (along[1:] + along[:-1]), n)
-    at = np.concatenate([np.full(m * m, along[0]), middle, np.full(m * m, along[-1])])
-    return quads, st, at
-
-
-def _grid_quads(grid: Ints) -> Ints:
-    """Quads of a vertex grid, counter-clockwise seen from +x when the border runs counter-clockwise."""
-    return np.stack([grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]], axis=-1).reshape(-1, 4)
+def _domed_cap(around: int, radius: float, dome: float) -> NDArray[np.float64]:
+    """Inner points of a cap, ((around/4 - 1)^2, 3), m, lifted to a dome towards +x."""
+    flat = cap_points(around, radius)
+    lift = dome * np.sqrt(np.maximum(radius**2 - np.sum(flat**2, axis=1), 0.0))
+    return np.column_stack([lift, flat])

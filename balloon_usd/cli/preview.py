@@ -20,7 +20,7 @@ SMALLEST, LARGEST = 16, 4096
 
 
 @click.command(epilog=EXIT_CODES_HELP)
-@click.argument("stage", metavar="STAGE", type=click.Path(path_type=Path))
+@click.argument("stage", metavar="STAGE", type=click.Path())
 @click.option(
     "-o",
     "--output",
@@ -33,6 +33,11 @@ SMALLEST, LARGEST = 16, 4096
     type=moments,
     metavar="A:B|A,B,C",
     help="Frames to draw, or a range to spread eight over. Default: the whole animation.",
+)
+@click.option(
+    "--look",
+    metavar="latex|thesis",
+    help="Draw another look than the one selected in the stage: rubber, or orange wire and the air inside.",
 )
 @click.option("--view", type=click.Choice(VIEWS), default="three-quarter", show_default=True)
 @click.option(
@@ -48,9 +53,10 @@ SMALLEST, LARGEST = 16, 4096
 )
 @device_option
 def preview(
-    stage: Path,
+    stage: str,
     output: Path | None,
     frames: FrameRange | tuple[int, ...] | None,
+    look: str | None,
     view: str,
     columns: int,
     size: tuple[int, int],
@@ -60,23 +66,45 @@ def preview(
 
     STAGE is a USD file, or a folder NAME as `run` writes it.
     """
+    file, picture = _stage_and_picture(stage)
     used = start_device(device)
-    from balloon_usd.preview import PreviewError, draw_contact_sheet  # noqa: PLC0415
+    from balloon_usd.preview import (  # noqa: PLC0415
+        PictureNotWrittenError,
+        PreviewError,
+        draw_contact_sheet,
+    )
 
-    file = stage / f"{stage.name}.usda" if stage.is_dir() else stage
     try:
         sheet = draw_contact_sheet(
             file,
-            output or stage.with_suffix(".png"),
+            output or picture,
             frames=_moments(file, frames),
             columns=columns,
             size=size,
             view=cast("View", view),
+            look=look,
             device=used,
         )
+    except PictureNotWrittenError as error:
+        raise Failure(str(error), ExitCode.NOT_WRITTEN) from error
     except PreviewError as error:
         raise Failure(str(error), ExitCode.BAD_INPUT) from error
     click.echo(f"contact sheet {sheet}")
+
+
+def _stage_and_picture(stage: str) -> tuple[Path, Path]:
+    """Return the file of a stage, given by itself or by its folder, and where its picture goes by default.
+
+    Raises:
+        Failure: there is no name to go by.
+    """
+    path = Path(stage)
+    if stage and path.name in {"", ".."}:
+        path = path.resolve()
+    if not stage or not path.name:
+        raise Failure(f'"{stage}" is no stage, expected a USD file or a folder', ExitCode.BAD_INPUT)
+    file = path / f"{path.name}.usda" if path.is_dir() else path
+    return file, path.with_suffix(".png")
 
 
 def _moments(file: Path, frames: FrameRange | tuple[int, ...] | None) -> tuple[float, ...] | None:

@@ -11,15 +11,16 @@ from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
+from balloon_usd.plan.lengths import cm
 from balloon_usd.recipe.problem import RecipeError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from balloon_usd.plan.rings import RingTable
-    from balloon_usd.plan.strip import Strip
+    from balloon_usd.plan.strip import PlannedBubble, Strip
     from balloon_usd.recipe import Recipe
-    from balloon_usd.recipe.steps import Step
+    from balloon_usd.recipe.steps import PushedBubble, Step
 
 Vector = tuple[float, float, float]
 
@@ -33,10 +34,20 @@ TURN_SECONDS = 0.14
 """One full turn of a twist, s."""
 HAND_SPEED = 0.22
 """Mean speed of a hand that brings joints together, m/s; its peak is 1.9 times this."""
+CARRYING_SPEED = 0.08
+"""The same in model kosaka, where air particles must follow the bubble that carries them, m/s."""
+DRAWING_SECONDS = 0.8
+"""Closing of a ring by force in model kosaka, with time for the air to leave, s."""
 GATHER_LEAST = 0.8
 """Shortest gathering, s."""
 BEND_SECONDS = 0.9
 """Bending one bubble, s."""
+PUSH_SECONDS = 1.0
+"""Pressing with a finger, holding and releasing, s."""
+SPREAD_SECONDS = 1.5
+"""Time in which the air particles of a balloon that starts blown up spread, s."""
+FAR_FROM_FINGER = 1.0 / 3.0
+"""Share of a pushed bubble's length beyond which the other hand holds its ends."""
 
 POINTS: dict[str, Vector] = {
     "up": (0.0, 0.0, 1.0),
@@ -122,6 +133,23 @@ class Bend(Move):
 
 
 @dataclass(frozen=True)
+class Push(Move):
+    """Press a finger into a wall, hold it there, and take it away, while the other hand holds some rings."""
+
+    balloon: str = ""
+    along: float = 0.0
+    """Place of the finger: unstressed distance from the knot, m."""
+    point: Vector = (0.0, 0.0, -1.0)
+    """Unit direction in which the finger moves."""
+    force: float = 0.0
+    """How hard it presses, N; 0 where depth is given."""
+    depth: float = 0.0
+    """How deep it presses, m; 0 where force is given."""
+    holds: tuple[int, ...] = ()
+    """Rings that the other hand holds."""
+
+
+@dataclass(frozen=True)
 class Weld(Move):
     """Twist joints that lie together into one."""
 
@@ -148,9 +176,20 @@ class _Score:
 
     recipe: Recipe
     table: RingTable
+    strips: Mapping[str, Strip]
     lengths: dict[str, float]
     now: float = 0.0
     moves: list[Move] = field(default_factory=list)
+
+    @property
+    def blown_up(self) -> bool:
+        """Whether balloons start blown up and joints freeze instead of being wound, as in model kosaka."""
+        return self.recipe.physics.model == "kosaka"
+
+    @property
+    def hand_speed(self) -> float:
+        """Mean speed of a hand that brings joints together, m/s."""
+        return CARRYING_SPEED if self.blown_up else HAND_SPEED
 
     def add(self, move: Move) -> None:
         self.moves.append(move)
@@ -161,14 +200,18 @@ def choreograph(recipe: Recipe, strips: Mapping[str, Strip], table: RingTable) -
     """Return the timeline of hand moves that make a recipe.
 
     Raises:
-        RecipeError: a lock asks for the tip of a balloon, with its place in the file.
+        RecipeError: a lock asks for the tip of a balloon, or a finger pushes beyond a bubble, with its place
+            in the file.
     """
-    score = _Score(recipe, table, {b.name: b.length for s in strips.values() for b in s.bubbles})
-    _inflate(score, strips)
+    score = _Score(recipe, table, strips, {b.name: b.length for s in strips.values() for b in s.bubbles})
+    if score.blown_up:
+        score.add(Move(0.0, SPREAD_SECONDS, -1, "air spreads"))
+    else:
+        _inflate(score, strips)
     for index, step in enumerate(recipe.steps):
         begin, first = score.now, len(score.moves)
         _STEPS[step.kind](score, step, index)
-        if step.seconds is not None and step.kind != "wait":
+        if step.seconds is not None and step.kind not in {"push", "wait"}:
             _retime(score, first, begin, step.seconds)
     score.add(LetGo(score.now, 0.0, len(recipe.steps), "let go"))
     score.add(Move(score.now, recipe.physics.hold, len(recipe.steps), "hold"))
@@ -187,13 +230,14 @@ def _inflate(score: _Score, strips: Mapping[str, Strip]) -> None:
 
 
 def _twist(score: _Score, step: Step, index: int, bubble: str) -> None:
-    """Pinch and turn at the end of a bubble, unless that is the tip."""
+    """Pinch and, where joints are wound, turn at the end of a bubble, unless that is the tip."""
     ring = score.table.ends(bubble)[1]
     if ring is not None:
-        score.add(Pinch(score.now, PINCH_SECONDS, index, f"pinch: {bubble}", ring=ring))
-        score.add(
-            Spin(score.now, step.turns * TURN_SECONDS, index, f"twist: {bubble}", ring=ring, turns=step.turns)
-        )
+        seconds = DRAWING_SECONDS if score.blown_up else PINCH_SECONDS
+        score.add(Pinch(score.now, seconds, index, f"pinch: {bubble}", ring=ring))
+        if not score.blown_up:
+            seconds = step.turns * TURN_SECONDS
+            score.add(Spin(score.now, seconds, index, f"twist: {bubble}", ring=ring, turns=step.turns))
         score.add(LetGo(score.now, 0.0, index, "let go"))
 
 
@@ -239,7 +283,7 @@ def _together(score: _Score, step: Step, index: int, text: str, first: int, last
     elif len(joints) == 3:
         cheeks = tuple((score.table.guides(rings[j].bubble)[0], k) for k, j in enumerate(joints[1:]))
     length = sum(score.lengths[rings[j].bubble] for j in joints[1:])
-    seconds = max(GATHER_LEAST, length / HAND_SPEED)
+    seconds = max(GATHER_LEAST, length / score.hand_speed)
     point = POINTS[step.point or "up"]
     score.add(Gather(score.now, seconds, index, text, corners=corners, cheeks=cheeks, point=point))
 
@@ -260,6 +304,46 @@ def _bend(score: _Score, step: Step, index: int) -> None:
             Bend(score.now, BEND_SECONDS, index, f"bend: {bubble}", rings=rings, angle=angle, point=point)
         )
         score.add(LetGo(score.now, 0.0, index, "let go"))
+
+
+def _push(score: _Score, step: Step, index: int) -> None:
+    push = step.push
+    assert push is not None, "a step of this kind has a push"
+    strip, bubble = next((s, b) for s in score.strips.values() for b in s.bubbles if b.name == push.bubble)
+    _check_push(score, strip, bubble, push, index)
+    at = 0.5 * bubble.length if push.at is None else push.at
+    start, end = score.table.ends(bubble.name)
+    far_end = score.table.guides(bubble.name)[-1] if end is None else end
+    ends = ((start, at), (far_end, bubble.length - at))
+    move = Push(
+        score.now,
+        PUSH_SECONDS if step.seconds is None else step.seconds,
+        index,
+        f"push: {bubble.name}",
+        balloon=strip.balloon,
+        along=strip.rest_place(bubble, at),
+        point=POINTS[step.point or "down"],
+        force=push.force or 0.0,
+        depth=push.depth or 0.0,
+        holds=tuple(ring for ring, away in ends if away > FAR_FROM_FINGER * bubble.length),
+    )
+    score.add(move)
+    score.add(Move(score.now, 2.0 * SETTLE_SECONDS, index, move.text))
+    score.add(LetGo(score.now, 0.0, index, "let go"))
+
+
+def _check_push(score: _Score, strip: Strip, bubble: PlannedBubble, push: PushedBubble, index: int) -> None:
+    """Refuse a finger beside the bubble, or one that would come out at its other side."""
+    problems = []
+    if push.at is not None and push.at >= bubble.length:
+        text = f"{cm(push.at)} does not lie inside {bubble.name}, expected less than {cm(bubble.length)}"
+        problems.append(score.recipe.problem(("steps", index, "push", "at"), text))
+    wide = 2.0 * strip.inflated_radius
+    if push.depth is not None and push.depth >= wide:
+        text = f"{cm(push.depth)} goes through a {strip.size.name}, expected less than {cm(wide)}"
+        problems.append(score.recipe.problem(("steps", index, "push", "depth"), text))
+    if problems:
+        raise RecipeError(problems)
 
 
 def _rest(score: _Score, step: Step, index: int) -> None:
@@ -291,5 +375,6 @@ _STEPS = {
     "ear": _merge,
     "rest": _rest,
     "bend": _bend,
+    "push": _push,
     "wait": _wait,
 }

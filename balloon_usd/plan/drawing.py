@@ -23,6 +23,7 @@ MARGIN = 40.0
 _HEAD = 44.0
 _ABOVE_TUBE = 84.0
 _BELOW_TUBE = 96.0
+_BELOW_CAPSULE = 52.0
 _STYLE = (
     "text{font:11px sans-serif;fill:#333}.name{text-anchor:middle}.head{font-size:16px;font-weight:bold}"
     ".mark{stroke:#333;stroke-width:0.6}.bubble{stroke:#333;stroke-width:0.8;fill-opacity:0.8}"
@@ -40,7 +41,8 @@ def plan_svg(plan: Plan) -> str:
     for name, strip in plan.strips.items():
         body += _strip_shapes(strip, colors[name], top)
         top += _strip_height(strip)
-        width = max(width, SCALE * max(strip.bubbles[-1].end, strip.size.length))
+        flat = 0.0 if strip.capsule else strip.size.length
+        width = max(width, SCALE * max(strip.bubbles[-1].end, flat))
     body += graph_shapes(plan.graph, colors, (MARGIN, top))
     width, height = width + 2.0 * MARGIN, top + HEIGHT + MARGIN
     size = f'width="{width:.0f}" height="{height:.0f}" viewBox="0 0 {width:.0f} {height:.0f}"'
@@ -53,17 +55,19 @@ def _thickness(strip: Strip) -> float:
 
 
 def _strip_height(strip: Strip) -> float:
-    return _ABOVE_TUBE + _thickness(strip) + _BELOW_TUBE
+    return _ABOVE_TUBE + _thickness(strip) + (_BELOW_CAPSULE if strip.capsule else _BELOW_TUBE)
 
 
 def _strip_shapes(strip: Strip, color: str, top: float) -> Iterator[str]:
     thick = _thickness(strip)
     middle = top + _ABOVE_TUBE + 0.5 * thick
-    yield svg.text(f"{strip.balloon}: {strip.size.name}, leave {cm(strip.tail)} flat", (MARGIN, top + 12.0))
+    filling = f"capsule of {cm(strip.bubbles[-1].end)}" if strip.capsule else f"leave {cm(strip.tail)} flat"
+    yield svg.text(f"{strip.balloon}: {strip.size.name}, {filling}", (MARGIN, top + 12.0))
     for bubble in strip.bubbles:
         yield from _bubble_shapes(bubble, color, middle, thick)
     yield from _ruler(strip.bubbles[-1].end, middle + 0.5 * thick + 10.0)
-    yield from _flat_shapes(strip, middle + 0.5 * thick + 44.0)
+    if not strip.capsule:
+        yield from _flat_shapes(strip, middle + 0.5 * thick + 44.0)
 
 
 def _bubble_shapes(bubble: PlannedBubble, color: str, middle: float, thick: float) -> Iterator[str]:

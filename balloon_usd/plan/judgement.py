@@ -43,12 +43,9 @@ def cautions_of(
 ) -> tuple[Caution, ...]:
     """Return all cautions, those of the whole sculpture last."""
     found = chain(
-        _turns(recipe),
         _unequal_pairs(recipe),
-        _short_bubbles(strips),
         chain.from_iterable(_tail(budget) for budget in budgets.values()),
-        _softening(recipe),
-        _unwinding(strips, graph),
+        _of_latex(recipe, strips, graph, budgets) if recipe.physics.model == "latex" else (),
         _loose_pieces(strips, graph),
     )
     return tuple(
@@ -56,9 +53,20 @@ def cautions_of(
     )
 
 
+def _of_latex(
+    recipe: Recipe, strips: Mapping[str, Strip], graph: SculptureGraph, budgets: Mapping[str, Budget]
+) -> Iterator[Caution]:
+    """What springs with frozen joints do not know: they neither harden, soften, burst nor unwind."""
+    yield from _turns(recipe)
+    yield from _short_bubbles(strips)
+    yield from chain.from_iterable(_burst(budget) for budget in budgets.values())
+    yield from _softening(recipe)
+    yield from _unwinding(strips, graph)
+
+
 def _turns(recipe: Recipe) -> Iterator[Caution]:
     for index, step in enumerate(recipe.steps):
-        if step.kind in {"rest", "bend", "wait"}:
+        if step.kind in {"rest", "bend", "push", "wait"}:
             continue
         if step.turns < FEWEST_TURNS:
             yield Caution(
@@ -120,7 +128,10 @@ def _tail(budget: Budget) -> Iterator[Caution]:
         f"{len(budget.twists)} twists fill {cm(budget.tail_needed)} of flat tail, of {cm(budget.tail)} left",
         f"leave a tail of at least {at_least(budget.tail_needed)}",
     )
-    burst = next((twist for twist in budget.twists if _bursts(twist)), None)
+
+
+def _burst(budget: Budget) -> Iterator[Caution]:
+    burst = next((twist for twist in budget.twists if twist.tail_left <= 0.0 and _bursts(twist)), None)
     if burst is not None:
         yield Caution(
             burst.step,

@@ -1,9 +1,10 @@
-"""The mesh that a plan asks for: a ring at every joint, finer beside it."""
+"""The mesh that a plan asks for: a tube with a ring at every joint, or an even capsule."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from balloon_usd.balloon.capsule_mesh import capsule_mesh
 from balloon_usd.balloon.tube_mesh import BalloonMesh, tube_mesh
 
 if TYPE_CHECKING:
@@ -18,5 +19,7 @@ def joint_places(strip: Strip) -> tuple[float, ...]:
 
 def mesh_of(strip: Strip, detail: Detail) -> BalloonMesh:
     """Return the mesh of one balloon at a level of detail."""
-    joints = joint_places(strip)
-    return tube_mesh(strip.size, detail, joints, tuple(bubble.rest_end for bubble in strip.bubbles))
+    ends = tuple(bubble.rest_end for bubble in strip.bubbles)
+    if strip.capsule:
+        return capsule_mesh(ends[-1], strip.inflated_radius, detail.capsule_around, ends)
+    return tube_mesh(strip.size, detail, joint_places(strip), ends)

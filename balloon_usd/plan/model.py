@@ -24,7 +24,7 @@ class Plan:
     """By balloon, in the order of the recipe."""
     graph: SculptureGraph
     budgets: dict[str, Budget]
-    """By balloon, in the order of the recipe."""
+    """By balloon, in the order of the recipe; a capsule has none."""
     cautions: tuple[Caution, ...]
     table: RingTable
     """Rings that hands hold and close."""

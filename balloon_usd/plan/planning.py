@@ -8,9 +8,9 @@ from balloon_usd.plan.budget import budget_of
 from balloon_usd.plan.choreography import choreograph
 from balloon_usd.plan.graph import sculpture_graph
 from balloon_usd.plan.judgement import cautions_of
+from balloon_usd.plan.laying import lay_strips
 from balloon_usd.plan.model import Plan
 from balloon_usd.plan.rings import RingTable
-from balloon_usd.plan.strip import lay_strips
 
 if TYPE_CHECKING:
     from balloon_usd.recipe import Recipe
@@ -24,7 +24,7 @@ def plan(recipe: Recipe) -> Plan:
     """
     strips = lay_strips(recipe)
     graph = sculpture_graph(recipe, strips)
-    budgets = {name: budget_of(strip) for name, strip in strips.items()}
+    budgets = {name: budget_of(strip) for name, strip in strips.items() if not strip.capsule}
     table = RingTable(strips)
     cautions = cautions_of(recipe, strips, graph, budgets)
     return Plan(recipe, strips, graph, budgets, cautions, table, choreograph(recipe, strips, table))

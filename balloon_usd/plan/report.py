@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 PLAN_FORMAT = 1
 """Version of the layout of `plan_json`."""
+MODELS = {"latex": "hyperelastic rubber and gas", "kosaka": "springs and air particles"}
+"""The physical models in a few words."""
 
 
 def plan_text(plan: Plan) -> str:
@@ -26,8 +28,12 @@ def plan_text(plan: Plan) -> str:
     lines = [title]
     if recipe.source:
         lines.append(f"after {recipe.source}")
+    lines.append(f"model {recipe.physics.model}: {MODELS[recipe.physics.model]}")
     for name, strip in plan.strips.items():
-        lines += ["", *_strip_lines(strip), *_budget_lines(plan.budgets[name])]
+        if strip.capsule:
+            lines += ["", *_capsule_lines(strip)]
+        else:
+            lines += ["", *_strip_lines(strip), *_budget_lines(plan, plan.budgets[name])]
     lines += ["", *_graph_lines(plan), "", *_caution_lines(plan.cautions)]
     return "\n".join(lines) + "\n"
 
@@ -45,12 +51,26 @@ def _strip_lines(strip: Strip) -> Iterator[str]:
         )
 
 
-def _budget_lines(budget: Budget) -> Iterator[str]:
+def _capsule_lines(strip: Strip) -> Iterator[str]:
+    width = max(len("bubble"), *(len(bubble.name) for bubble in strip.bubbles))
+    length, wide = strip.bubbles[-1].end, 2.0 * strip.inflated_radius
+    volume = sum(bubble.volume for bubble in strip.bubbles)
+    yield f"balloon {strip.balloon}: capsule of a {strip.size.name}, {cm(length)} long, {cm(wide)} wide"
+    yield f"  {'bubble':{width}}  kind    length    from      to     air"
+    for bubble in strip.bubbles:
+        yield (
+            f"  {bubble.name:{width}}  {bubble.kind:6}{bubble.length * 100:5.1f} cm  "
+            f"{bubble.start * 100:6.1f}  {bubble.end * 100:6.1f}  {bubble.volume * 1e6:4.0f} mL"
+        )
+    yield f"  starts blown up: {volume * 1e3:.2f} L"
+
+
+def _budget_lines(plan: Plan, budget: Budget) -> Iterator[str]:
     twists = len(budget.twists)
-    yield (
-        f"  blow up {cm(budget.inflated_length)}, leave {cm(budget.tail)} flat: "
-        f"{budget.volume * 1e3:.2f} L at {budget.pressure / 1e3:.1f} kPa, {budget.gas_amount:.3f} mol"
-    )
+    gas = f"{budget.volume * 1e3:.2f} L"
+    if plan.recipe.physics.model == "latex":
+        gas += f" at {budget.pressure / 1e3:.1f} kPa, {budget.gas_amount:.3f} mol"
+    yield f"  blow up {cm(budget.inflated_length)}, leave {cm(budget.tail)} flat: {gas}"
     yield (
         f"  {twists} {'twist uses' if twists == 1 else 'twists use'} {cm(budget.tail_used)} of flat tail "
         f"(about {cm(budget.cost_per_twist)} each), {cm(budget.tail_left)} are left"
@@ -66,23 +86,25 @@ def _budget_lines(budget: Budget) -> Iterator[str]:
 def _graph_lines(plan: Plan) -> Iterator[str]:
     graph = plan.graph
     strokes = "one balloon" if graph.one_stroke else f"{graph.fewest_balloons} balloons"
-    yield (
-        f"{len(graph.joints)} joints, {len(graph.edges)} bubbles, {graph.rings} closed rings; "
-        f"{strokes} could make it"
-    )
+    bubbles, rings = _count(len(graph.edges), "bubble"), _count(graph.rings, "closed ring")
+    yield f"{len(graph.joints)} joints, {bubbles}, {rings}; {strokes} could make it"
     for index, step in enumerate(plan.recipe.steps):
         for joint in step.joints[:1]:
             meeting = graph.joint_of(joint)
             yield f"  step {index + 1} locks {', '.join(map(str, step.joints))} (joint {meeting.index})"
     for place in graph.joints:
-        yield f"  joint {place.index}, {graph.degree(place.index)} bubble ends: {place}"
+        yield f"  joint {place.index}, {_count(graph.degree(place.index), 'bubble end')}: {place}"
+
+
+def _count(number: int, what: str) -> str:
+    return f"{number} {what}" if number == 1 else f"{number} {what}s"
 
 
 def _caution_lines(cautions: tuple[Caution, ...]) -> Iterator[str]:
     if not cautions:
         yield "no cautions"
         return
-    yield f"{len(cautions)} caution{'s' if len(cautions) > 1 else ''}"
+    yield _count(len(cautions), "caution")
     for caution in cautions:
         place = "" if caution.step is None else f"step {caution.step + 1}: "
         yield f"  {place}{caution.what}"
@@ -92,13 +114,14 @@ def _caution_lines(cautions: tuple[Caution, ...]) -> Iterator[str]:
 
 def plan_json(plan: Plan) -> dict[str, Any]:
     """Return the plan as plain data, ready for JSON: SI units, step indices from 0."""
-    graph = plan.graph
+    graph, latex = plan.graph, plan.recipe.physics.model == "latex"
     return {
         "format": PLAN_FORMAT,
         "name": plan.recipe.name,
         "title": plan.recipe.title,
         "recipe_sha256": plan.recipe.sha256,
-        "balloons": [_balloon_json(strip, plan.budgets[name]) for name, strip in plan.strips.items()],
+        "model": plan.recipe.physics.model,
+        "balloons": [_balloon_json(strip, plan.budgets.get(name)) for name, strip in plan.strips.items()],
         "graph": {
             "joints": [
                 {
@@ -106,7 +129,7 @@ def plan_json(plan: Plan) -> dict[str, Any]:
                     "ends": [str(end) for end in joint.ends],
                     "degree": graph.degree(joint.index),
                     "merged": joint.merged,
-                    "springs_back": graph.springs_back(joint.index),
+                    "springs_back": latex and graph.springs_back(joint.index),
                 }
                 for joint in graph.joints
             ],
@@ -121,26 +144,32 @@ def plan_json(plan: Plan) -> dict[str, Any]:
     }
 
 
-def _balloon_json(strip: Strip, budget: Budget) -> dict[str, Any]:
+def _balloon_json(strip: Strip, budget: Budget | None) -> dict[str, Any]:
+    """Data of one balloon; a capsule has no budget."""
     return {
         "name": strip.balloon,
         "size": asdict(strip.size),
         "rubber": strip.rubber.name,
         "softening": strip.rubber.softening is not None,
+        "capsule": strip.capsule,
         "tail": strip.tail,
-        "inflated_length": budget.inflated_length,
+        "inflated_length": strip.bubbles[-1].end if budget is None else budget.inflated_length,
         "bubbles": [asdict(bubble) for bubble in strip.bubbles],
-        "budget": {
-            "tail_needed": budget.tail_needed,
-            "tail_used": budget.tail_used,
-            "tail_left": budget.tail_left,
-            "most_tail": budget.most_tail,
-            "cost_per_twist": budget.cost_per_twist,
-            "shortest_inflation": budget.shortest_inflation,
-            "longest_inflation": budget.longest_inflation,
-            "volume": budget.volume,
-            "pressure": budget.pressure,
-            "gas_amount": budget.gas_amount,
-            "twists": [asdict(twist) for twist in budget.twists],
-        },
+        "budget": None if budget is None else _budget_json(budget),
+    }
+
+
+def _budget_json(budget: Budget) -> dict[str, Any]:
+    return {
+        "tail_needed": budget.tail_needed,
+        "tail_used": budget.tail_used,
+        "tail_left": budget.tail_left,
+        "most_tail": budget.most_tail,
+        "cost_per_twist": budget.cost_per_twist,
+        "shortest_inflation": budget.shortest_inflation,
+        "longest_inflation": budget.longest_inflation,
+        "volume": budget.volume,
+        "pressure": budget.pressure,
+        "gas_amount": budget.gas_amount,
+        "twists": [asdict(twist) for twist in budget.twists],
     }

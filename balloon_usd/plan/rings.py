@@ -104,6 +104,6 @@ def _rings(strip: Strip) -> list[PlannedRing]:
 def _guide_shares(bubble: PlannedBubble, strip: Strip) -> tuple[float, ...]:
     if bubble.kind in GUIDES:
         return GUIDES[bubble.kind]
-    stretch = maxwell_state(strip.rubber).bulged.b
+    stretch = 1.0 if strip.capsule else maxwell_state(strip.rubber).bulged.b
     share = min(REST_GUIDE / stretch / bubble.rest_length, 0.5)
     return share, max(1.0 - TIP_GUIDE * strip.size.radius / bubble.rest_length, 0.5 * (1.0 + share))

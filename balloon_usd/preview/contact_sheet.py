@@ -8,17 +8,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
-from balloon_usd.preview.error import PreviewError
-from balloon_usd.preview.raycast import Raycaster
+from balloon_usd.preview.painter import painter_of
+from balloon_usd.preview.png_file import require_place, write_png
 from balloon_usd.preview.read_stage import read_stage
-from balloon_usd.preview.surface import SmoothSurface
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from balloon_usd.preview.camera import View
-    from balloon_usd.preview.raycast import Shot
     from balloon_usd.preview.read_stage import StageScene
+    from balloon_usd.preview.shot import Shot
 
     Font = ImageFont.ImageFont | ImageFont.FreeTypeFont
 
@@ -52,36 +51,39 @@ def draw_contact_sheet(
     columns: int = 4,
     size: tuple[int, int] = (480, 320),
     view: View = "three-quarter",
+    look: str | None = None,
     device: str = "auto",
 ) -> Path:
     """Draw moments of a stage, each framed on its own, and write one PNG.
 
     Args:
-        stage_path: any USD stage with meshes.
+        stage_path: any USD stage with meshes; points are drawn as balls.
         png_path: where the sheet goes; replaced when it is complete.
         frames: time codes; None takes eight, the last frame among them.
         columns: pictures in a row.
         size: width and height of one picture (pixels).
         view: side, three-quarter, top or front.
+        look: a variant of the stage's looks, such as latex or thesis; None takes the stage's own.
         device: cpu, cuda:N, or auto for the first CUDA device and else the CPU.
 
     Raises:
-        PreviewError: the stage cannot be read, the sheet cannot be written, or there is no such device.
+        PreviewError: the stage cannot be read or has no such look, the sheet cannot be written, or there is
+            no such device.
     """
-    scene = read_stage(stage_path)
+    require_place(Path(png_path))
+    scene = read_stage(stage_path, look)
     moments = tuple(frames) if frames is not None else spread_moments(scene.start, scene.end)
-    surfaces = [SmoothSurface(mesh.face_counts, mesh.corners) for mesh in scene.meshes]
-    caster = Raycaster(surfaces, [mesh.colors for mesh in scene.meshes], device=device)
+    painter = painter_of(scene, device)
     sheet = _empty_sheet(scene, len(moments), columns, size)
     for number, moment in enumerate(moments):
-        shot = caster.shoot(scene.points(moment), view, size)
+        shot = painter.shoot(scene.points(moment), view, size, scene.particles(moment))
         row, column = divmod(number, columns)
         left = MARGIN + column * (size[0] + GUTTER)
         top = HEADER + MARGIN + row * (size[1] + CAPTION + GUTTER)
         sheet.paste(Image.fromarray(shot.picture), (left, top))
         words = (f"frame {moment:g}", scene.doing(moment))
         _caption(sheet, (left, top + size[1]), size[0], words, shot)
-    return _save(sheet, Path(png_path))
+    return write_png(sheet, Path(png_path))
 
 
 def spread_moments(start: float, end: float, count: int = MOMENTS) -> tuple[float, ...]:
@@ -133,15 +135,3 @@ def _shortened(text: str, room: float, pen: ImageDraw.ImageDraw, font: Font) -> 
         return text
     fitting = [end for end in range(1, len(text)) if pen.textlength(text[:end] + "...", font) <= room]
     return text[: fitting[-1]] + "..." if fitting else ""
-
-
-def _save(sheet: Image.Image, path: Path) -> Path:
-    """Write beside the final name and then replace it, so that no half-written sheet is ever seen."""
-    partial = path.with_name(f".{path.name}.partial")
-    try:
-        sheet.save(partial, format="PNG")
-        partial.replace(path)
-    except OSError as error:
-        partial.unlink(missing_ok=True)
-        raise PreviewError(f"{path} cannot be written: {error.strerror or error}") from error
-    return path

@@ -11,6 +11,9 @@ import numpy as np
 if TYPE_CHECKING:
     import numpy.typing as npt
 
+DIRECTIONS = 96
+"""Rays that gather light over the whole sphere."""
+
 
 @dataclass(frozen=True)
 class Softbox:

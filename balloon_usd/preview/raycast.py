@@ -2,54 +2,36 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import warp as wp
 
+from balloon_usd.preview.balls import ball_tree, balls_of
 from balloon_usd.preview.camera import Axes, frame_points
 from balloon_usd.preview.device import drawing_device, vectors
-from balloon_usd.preview.error import PreviewError
 from balloon_usd.preview.floor import bake_floor
-from balloon_usd.preview.kernels.raycast import (
-    Camera,
-    Scene,
-    draw,
-    light_vertices,
-    measure_studio,
-    smooth_edges,
-)
-from balloon_usd.preview.kernels.studio import Studio
-from balloon_usd.preview.lighting import SOFTBOXES, level, softbox_axes, sphere_directions
+from balloon_usd.preview.kernels.raycast import Scene, draw, light_vertices, smooth_edges
+from balloon_usd.preview.lighting import DIRECTIONS, sphere_directions
+from balloon_usd.preview.particles import Particles
+from balloon_usd.preview.scenery import camera_of, light_directions, require_within_reach, studio_of
+from balloon_usd.preview.shot import Shot
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     import numpy.typing as npt
 
-    from balloon_usd.preview.camera import Framing, View
+    from balloon_usd.preview.camera import View
+    from balloon_usd.preview.kernels.balls import Balls
+    from balloon_usd.preview.kernels.raycast import Camera
+    from balloon_usd.preview.kernels.studio import Studio
+    from balloon_usd.preview.shot import Picture
     from balloon_usd.preview.subdivide import Points
     from balloon_usd.preview.surface import SmoothSurface
 
-    Picture = npt.NDArray[np.uint8]
-
-DIRECTIONS = 96
-"""Rays that gather light over the whole sphere."""
 SAMPLES = 3
 """Rays along each side of a pixel with an edge."""
-CLEARANCE = 1.0e-4
-"""Gap between the lowest point and the floor (m)."""
-
-
-@dataclass(frozen=True)
-class Shot:
-    """One picture."""
-
-    picture: Picture
-    """(height, width, 3) rgb."""
-    metres_per_pixel: float
-    """Scale in the plane through the middle of the sculpture."""
 
 
 class Raycaster:
@@ -81,7 +63,11 @@ class Raycaster:
             self._directions = vectors(sphere_directions(DIRECTIONS))
 
     def shoot(
-        self, points: Sequence[Points], view: View = "three-quarter", size: tuple[int, int] = (480, 320)
+        self,
+        points: Sequence[Points],
+        view: View = "three-quarter",
+        size: tuple[int, int] = (480, 320),
+        particles: Particles | None = None,
     ) -> Shot:
         """Draw one frame.
 
@@ -89,27 +75,32 @@ class Raycaster:
             points: cage points (V, 3) of each mesh (m, z up).
             view: side, three-quarter, top or front.
             size: width and height (pixels).
+            particles: drawn as balls where no wall hides them.
 
         Raises:
-            PreviewError: a point is not finite.
+            PreviewError: a point is not finite or out of all reach.
         """
-        refined = [s.refine(p) for s, p in zip(self._surfaces, points, strict=True)]
-        everything = np.concatenate(refined)
-        if not np.isfinite(everything).all():
-            raise PreviewError("there are points that are not finite")
+        balls = particles or Particles.none()
+        used = [s.used_points(p) for s, p in zip(self._surfaces, points, strict=True)]
+        require_within_reach(np.concatenate([*used, balls.bounds]))
+        refined = [s.spread(u) for s, u in zip(self._surfaces, used, strict=True)]
+        everything = np.concatenate([*refined, balls.bounds])
         axes = Axes.of(view)
         framing = frame_points(everything, axes, size[0] / size[1])
         with wp.ScopedDevice(self._device):
-            # The mesh must outlive every launch that knows its id.
-            mesh = wp.Mesh(vectors(everything), self._triangles.flatten())
-            studio = _studio(axes, float(everything[:, 2].min()) - CLEARANCE)
-            camera = _camera(framing, axes)
-            scene = self._scene(mesh, studio, camera, refined)
+            # The mesh and the tree must outlive every launch that knows their ids.
+            mesh = wp.Mesh(vectors(np.concatenate(refined)), self._triangles.flatten())
+            tree = ball_tree(balls)
+            studio = studio_of(axes, float(everything[:, 2].min()))
+            camera = camera_of(framing, axes)
+            scene = self._scene(mesh, studio, camera, refined, balls_of(balls, tree))
             seen = [scene, studio, camera, bake_floor(everything, scene, studio.floor)]
             picture = _develop(seen, size)
         return Shot(picture, 2.0 * framing.half_height * framing.distance / size[1])
 
-    def _scene(self, mesh: wp.Mesh, studio: Studio, camera: Camera, refined: Sequence[Points]) -> Scene:
+    def _scene(
+        self, mesh: wp.Mesh, studio: Studio, camera: Camera, refined: Sequence[Points], balls: Balls
+    ) -> Scene:
         """Gather what the kernels need, with the light baked into the vertices."""
         normals = [s.normals(r) for s, r in zip(self._surfaces, refined, strict=True)]
         scene = Scene()
@@ -117,9 +108,8 @@ class Raycaster:
         scene.triangles = self._triangles
         scene.normals = vectors(np.concatenate(normals))
         scene.colors = self._colors
-        scene.directions = self._directions
-        scene.radiances = wp.empty(len(self._directions), dtype=wp.float32)
-        wp.launch(measure_studio, dim=DIRECTIONS, inputs=[studio, scene.directions, scene.radiances])
+        scene.balls = balls
+        light_directions(scene, studio, self._directions)
         scene.light = self._light(scene, camera, refined, normals)
         return scene
 
@@ -142,30 +132,6 @@ def _face_colors(colors: npt.ArrayLike, surface: SmoothSurface) -> npt.NDArray[n
     if rows.ndim == 1:
         return np.broadcast_to(rows, (len(surface.quads), 3))
     return rows[surface.cage_face]
-
-
-def _studio(axes: Axes, floor: float) -> Studio:
-    """Set up the lamps for a camera above a floor at height `floor` (m)."""
-    studio = Studio()
-    studio.floor = floor
-    studio.ahead = wp.vec3(*level(axes.forward))
-    for box in SOFTBOXES:
-        centre, right, up = softbox_axes(box, axes.forward)
-        setattr(studio, box.name, wp.vec3(*centre))
-        setattr(studio, f"{box.name}_right", wp.vec3(*right))
-        setattr(studio, f"{box.name}_up", wp.vec3(*up))
-        setattr(studio, f"{box.name}_radiance", box.radiance)
-    return studio
-
-
-def _camera(framing: Framing, axes: Axes) -> Camera:
-    """Stand the kernels' camera where the framing says."""
-    camera = Camera()
-    camera.eye = wp.vec3(*framing.eye)
-    camera.forward = wp.vec3(*axes.forward)
-    camera.right = wp.vec3(*(axes.right * framing.half_width))
-    camera.up = wp.vec3(*(axes.up * framing.half_height))
-    return camera
 
 
 def _develop(seen: list[object], size: tuple[int, int]) -> Picture:

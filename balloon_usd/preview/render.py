@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from balloon_usd.preview.camera import View
-    from balloon_usd.preview.raycast import Picture
+    from balloon_usd.preview.shot import Picture
 
 
 def render_mesh(

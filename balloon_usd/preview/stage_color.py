@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from pxr import UsdGeom, UsdShade
 
+from balloon_usd.preview.error import PreviewError
+
 if TYPE_CHECKING:
     import numpy.typing as npt
 
@@ -20,6 +22,9 @@ def face_colors(mesh: Any, face_counts: npt.NDArray[np.int64], corners: npt.NDAr
     """Return the linear rgb of every face (F, 3) of a `UsdGeom.Mesh` at its default time.
 
     A material bound to a face subset is stronger than the mesh's own, which is stronger than displayColor.
+
+    Raises:
+        PreviewError: there are colours for another number of faces, or a subset of faces that are not there.
     """
     binding = UsdShade.MaterialBindingAPI(mesh.GetPrim())
     color = _material_color(binding)
@@ -27,8 +32,15 @@ def face_colors(mesh: Any, face_counts: npt.NDArray[np.int64], corners: npt.NDAr
     for subset in binding.GetMaterialBindSubsets():
         color = _material_color(UsdShade.MaterialBindingAPI(subset.GetPrim()))
         if color is not None:
-            colors[np.asarray(subset.GetIndicesAttr().Get(), dtype=np.int64)] = color
+            colors[_faces_of(subset, len(face_counts))] = color
     return colors
+
+
+def _faces_of(subset: Any, count: int) -> npt.NDArray[np.int64]:
+    faces = np.asarray(subset.GetIndicesAttr().Get() or [], dtype=np.int64)
+    if len(faces) and (faces.min() < 0 or faces.max() >= count):
+        raise PreviewError(f"{subset.GetPath()} names faces that its mesh has not")
+    return faces
 
 
 def _material_color(binding: Any) -> tuple[float, float, float] | None:
@@ -48,12 +60,20 @@ def _display_colors(mesh: Any, face_counts: npt.NDArray[np.int64], corners: npt.
     primvar = mesh.GetDisplayColorPrimvar()
     values = np.asarray(primvar.ComputeFlattened() or [UNPAINTED], dtype=np.float32).reshape(-1, 3)
     faces = len(face_counts)
+    interpolation = primvar.GetInterpolation()
     if len(values) == 1:
         return _all(values[0], faces)
-    interpolation = primvar.GetInterpolation()
     if interpolation == UsdGeom.Tokens.uniform:
-        return values.copy()
-    by_corner = values if interpolation == UsdGeom.Tokens.faceVarying else values[corners]
+        expected = faces
+    elif interpolation == UsdGeom.Tokens.faceVarying:
+        expected = len(corners)
+    else:
+        expected = int(corners.max(initial=-1)) + 1
+    if len(values) < expected:
+        raise PreviewError(f"{mesh.GetPath()} has {len(values)} colours, but needs {expected}")
+    if interpolation == UsdGeom.Tokens.uniform:
+        return values[:faces].copy()
+    by_corner = values[: len(corners)] if interpolation == UsdGeom.Tokens.faceVarying else values[corners]
     starts = np.cumsum(face_counts) - face_counts
     return np.asarray(np.add.reduceat(by_corner, starts, axis=0) / face_counts[:, None], dtype=np.float32)
 

@@ -53,7 +53,11 @@ class SmoothSurface:
 
     def refine(self, points: Points) -> Points:
         """Return the refined points (vertex_count, 3) of cage points (V, 3)."""
-        return self.spread(np.asarray(points, dtype=np.float32)[self._used])
+        return self.spread(self.used_points(points))
+
+    def used_points(self, points: Points) -> Points:
+        """Return the points (cage_count, 3) that faces name, of all points (V, 3)."""
+        return np.asarray(points, dtype=np.float32)[self._used]
 
     def spread(self, values: Points) -> Points:
         """Carry values (cage_count, 3) of the cage smoothly to all refined vertices (vertex_count, 3)."""

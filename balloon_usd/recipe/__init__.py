@@ -8,20 +8,23 @@ from __future__ import annotations
 from .balloons import Balloon
 from .builder import RecipeBuilder
 from .colors import LATEX_COLORS, Color
+from .kosaka import Kosaka
 from .physics import Physics
 from .problem import Problem, RecipeError
 from .recipe import Recipe
 from .schema import recipe_schema
-from .steps import Joint, LockJoints, Step
+from .steps import Joint, LockJoints, PushedBubble, Step
 
 __all__ = [
     "LATEX_COLORS",
     "Balloon",
     "Color",
     "Joint",
+    "Kosaka",
     "LockJoints",
     "Physics",
     "Problem",
+    "PushedBubble",
     "Recipe",
     "RecipeBuilder",
     "RecipeError",

@@ -9,6 +9,10 @@ from .quantities import FlatTail, Length, LengthWithin
 
 BalloonSizeName = Literal["160", "260", "321", "350", "360", "646"]
 
+FILLINGS = ("tail", "inflated", "capsule")
+"""Keys that say how far a balloon is blown up: exactly one of them."""
+FLAT_ONLY = ("length", "thickness")
+"""Keys of a flat tube that a capsule does not have."""
 
 _SIZE_CODES = get_args(BalloonSizeName)
 _SIZE_SCHEMA = {"enum": [*map(int, _SIZE_CODES), *_SIZE_CODES]}
@@ -19,7 +23,7 @@ def _size_text(value: object) -> object:
 
 
 class Balloon(BaseModel):
-    """One balloon of the recipe; `tail` or `inflated` says how far it is blown up."""
+    """One balloon of the recipe; `tail`, `inflated` or `capsule` says how far it is blown up."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
 
@@ -30,6 +34,8 @@ class Balloon(BaseModel):
     """Flat rubber left empty at the end; m in Python."""
     inflated: Length | None = None
     """Length of the inflated part, instead of tail; m in Python."""
+    capsule: Length | None = None
+    """Inflated length of a closed capsule, instead of a balloon with knot and tail; m in Python."""
     radius: Annotated[float, LengthWithin(0.0005, 0.1)] | None = None
     """Unstressed radius, where a brand differs; m in Python."""
     length: Length | None = None

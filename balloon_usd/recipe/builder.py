@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Self
 
+from .kosaka import kosaka_entries
 from .quantities import Units, length_entry
 from .recipe import Recipe
 from .writer import Entries, recipe_text
@@ -50,14 +51,16 @@ class RecipeBuilder:
         color: str | Sequence[float] | None = None,
         tail: LengthLike | None = None,
         inflated: LengthLike | None = None,
+        capsule: LengthLike | None = None,
         radius: LengthLike | None = None,
         length: LengthLike | None = None,
         thickness: LengthLike | None = None,
     ) -> Self:
-        """Take a balloon; give `tail` (flat) or `inflated`, m."""
+        """Take a balloon; give `tail` (flat), `inflated` or `capsule`, m."""
         lengths = {
             "tail": tail,
             "inflated": inflated,
+            "capsule": capsule,
             "radius": radius,
             "length": length,
             "thickness": thickness,
@@ -166,13 +169,39 @@ class RecipeBuilder:
         manner = {"point": point, "balloon": balloon, "seconds": seconds, "note": note}
         return self._step("bend", {**(angles or {}), **more}, manner)
 
+    def push(
+        self,
+        bubble: str,
+        *,
+        at: LengthLike | None = None,
+        depth: LengthLike | None = None,
+        force: float | str | None = None,
+        point: Point | None = None,
+        balloon: str | None = None,
+        seconds: float | None = None,
+        note: str | None = None,
+    ) -> Self:
+        """Push a finger into a bubble at a distance from its start, so deep (m) or so hard (N)."""
+        lengths = {"at": at, "depth": depth}
+        what: Entries = {"bubble": bubble}
+        what |= {key: self._length(value) for key, value in lengths.items() if value is not None}
+        manner = {"point": point, "balloon": balloon, "seconds": seconds, "note": note}
+        return self._step("push", what | _given({"force": force}), manner)
+
     def wait(self, seconds: float, *, note: str | None = None) -> Self:
         """Do nothing for some seconds."""
         return self._step("wait", seconds, {"note": note})
 
-    def physics(self, **settings: str | float | bool) -> Self:
-        """Set entries of the physics block."""
+    def physics(
+        self,
+        *,
+        kosaka: Mapping[str, LengthLike] | None = None,
+        **settings: str | float | bool,
+    ) -> Self:
+        """Set entries of the physics block; lengths among the constants of `kosaka` in m."""
         self._physics |= settings
+        if kosaka is not None:
+            self._physics["kosaka"] = kosaka_entries(kosaka, self._units)
         return self
 
     def to_yaml(self) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import difflib
 from typing import TYPE_CHECKING
 
-from .problem import quoted
+from .problem import printable, quoted
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -28,7 +28,7 @@ def nearest(word: str, choices: Sequence[str]) -> str | None:
 
 def one_of(choices: Iterable[str]) -> str:
     """List the choices: `one of up, down, left`."""
-    listed = list(choices)
+    listed = [printable(choice) for choice in choices]
     if len(listed) == 1:
         return listed[0]
     more = len(listed) - _CHOICES_LISTED

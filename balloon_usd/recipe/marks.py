@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from .problem import Complaint, Path, Place, Problem, path_text
+from .problem import Complaint, Path, Place, Problem, escaped, path_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -33,7 +33,7 @@ class Marks:
     def problem(self, path: Path, text: str, at: Place | None = None) -> Problem:
         """Make a problem of what is wrong at a path."""
         line, column = at or self.place(path)
-        return Problem(self.file, line, column, path_text(path), text)
+        return Problem(self.file, line, column, path_text(path), escaped(text))
 
     def problems(self, complaints: Iterable[Complaint]) -> list[Problem]:
         """Look up the places of complaints."""

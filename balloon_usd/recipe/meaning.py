@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from .balloons import FILLINGS, FLAT_ONLY
 from .choices import one_of, unknown
-from .names import NAME_LIMIT
+from .model_words import model_complaints
+from .names import NAME_LIMIT, rest_name
 from .outline import StepOutline, balloons_in, outlines_in
 from .problem import PROBLEMS_SHOWN, Complaint, Path, path_text, quoted
-from .steps import KINDS, MAKING, MANNERS, Joint
+from .steps import KINDS, MAKING, MANNERS, PRESSING, Joint
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -26,7 +28,7 @@ def meaning_complaints(data: object) -> list[Complaint]:
         if workbench.full:
             break
         workbench.check(step)
-    return workbench.complaints
+    return [*workbench.complaints, *model_complaints(data)]
 
 
 class _Workbench:
@@ -44,6 +46,7 @@ class _Workbench:
         for step in self.steps:
             for name, path, _ in step.made:
                 self._made_ever.setdefault(name, path)
+        self._rests = self._automatic_rests()
 
     @property
     def full(self) -> bool:
@@ -63,17 +66,27 @@ class _Workbench:
         if step.joints is not None:
             self._check_lock_joints(step, step.joints)
         for name in step.bent:
-            self._find(name, (*step.path, "bend", name))
+            self._find_whole(name, step, (*step.path, "bend", name))
+        if step.pushed is not None:
+            self._find_whole(step.pushed, step, (*step.path, "push", "bubble"))
+        self._check_pressing(step)
         self._check_owner(step)
 
     def check_filling(self, balloon: str, entry: object) -> None:
         if not isinstance(entry, dict):
             return
         path: Path = ("balloons", balloon)
-        if "tail" in entry and "inflated" in entry:
-            self._complain((*path, "inflated"), "stands beside tail, expected exactly one of tail, inflated")
-        elif "tail" not in entry and "inflated" not in entry:
-            self._complain(path, "does not say how far it is blown up, expected one of tail, inflated")
+        given = [key for key in FILLINGS if key in entry]
+        if not given:
+            self._complain(path, f"does not say how far it is blown up, expected {one_of(FILLINGS)}")
+        for extra in given[1:]:
+            what = f"stands beside {given[0]}, expected exactly {one_of(FILLINGS)}"
+            self._complain((*path, extra), what)
+        if given == ["capsule"]:
+            for key in entry:
+                if key in FLAT_ONLY:
+                    what = "makes no sense with capsule, which is no flat tube, expected no such entry"
+                    self._complain((*path, key), what)
 
     def _complain(self, path: Path, text: str) -> None:
         self.complaints.append(Complaint(path, text))
@@ -127,8 +140,8 @@ class _Workbench:
         if merged:
             self._merge([(balloon, at), (balloon, at + 1)])
 
-    def _find(self, name: str, path: Path) -> bool:
-        """Say whether a bubble exists by now, and complain if it does not."""
+    def _find(self, name: str, path: Path, rests: Iterable[str] = ()) -> bool:
+        """Say whether a bubble exists by now, and complain if it does not; `rests` could be meant, too."""
         if name in self._made_at:
             return True
         later = self._made_ever.get(name)
@@ -136,10 +149,45 @@ class _Workbench:
             what = f"bubble {quoted(name)} does not exist yet, it is made at {path_text(later)}"
             self._complain(path, f"{what}: expected this step after that one")
         elif len(name) <= NAME_LIMIT and not self.full:
-            self._complain(path, unknown("bubble", name, self._made_at))
+            self._complain(path, unknown("bubble", name, [*self._made_at, *rests]))
         elif not self.full:
             self._complain(path, f"unknown bubble {quoted(name)}")
         return False
+
+    def _automatic_rests(self) -> dict[str, tuple[str, int]]:
+        """Balloons whose rest no step names: by the rest's name, its balloon and the last step that makes
+        something of it.
+        """
+        only = next(iter(self._balloons)) if len(self._balloons) == 1 else None
+        last = dict.fromkeys(self._balloons, -1)
+        ended = set()
+        for step in self.steps:
+            balloon = step.balloon or only
+            if balloon in last and step.made:
+                last[balloon] = int(step.path[1])
+            if step.rest is not None:
+                ended.add(balloon)
+        names = {rest_name(balloon, self._made_ever): balloon for balloon in last if balloon not in ended}
+        return {name: (balloon, last[balloon]) for name, balloon in names.items()}
+
+    def _find_whole(self, name: str, step: StepOutline, path: Path) -> None:
+        """Complain if a bubble, which may be an unnamed rest, does not exist by now."""
+        here = int(step.path[1])
+        if name not in self._rests:
+            self._find(name, path, (rest for rest, (_, last) in self._rests.items() if last <= here))
+            return
+        balloon, last = self._rests[name]
+        if last > here:
+            what = f"bubble {quoted(name)} does not exist yet, steps[{last}] makes more of {quoted(balloon)}"
+            self._complain(path, f"{what}: expected this step after that one")
+
+    def _check_pressing(self, step: StepOutline) -> None:
+        path = (*step.path, "push")
+        if step.pressing is not None and len(step.pressing) == 0:
+            self._complain(path, f"does not say how deep or how hard, expected {one_of(PRESSING)}")
+        elif step.pressing is not None and len(step.pressing) > 1:
+            what = f"stands beside {step.pressing[0]}, expected exactly {one_of(PRESSING)}"
+            self._complain((*path, step.pressing[1]), what)
 
     def _check_lock_list(self, step: StepOutline, names: Sequence[str]) -> None:
         path = (*step.path, "lock")
@@ -211,16 +259,17 @@ class _Workbench:
                 self._joined[root] = first
 
     def _check_owner(self, step: StepOutline) -> None:
-        """A lock or bend that names its balloon must stay on it."""
+        """A lock, bend or push that names its balloon must stay on it."""
         if step.balloon not in self._balloons:
             return
         named: Iterable[str] = (
             *(step.lock or ()),
             *(joint.bubble for joint in step.joints or ()),
             *step.bent,
+            *filter(None, [step.pushed]),
         )
         for name in named:
-            place = self._bubbles.get(name)
+            place = self._bubbles.get(name) or self._rests.get(name)
             if place and place[0] != step.balloon:
                 what = (
                     f"bubble {quoted(name)} is on balloon {quoted(place[0])}, expected no other balloon named"

@@ -2,6 +2,7 @@
 
 import re
 import unicodedata
+from collections.abc import Container
 from typing import Annotated
 
 from pydantic import BeforeValidator, Field, WithJsonSchema
@@ -50,6 +51,14 @@ def text(value: object) -> str:
         if letter not in "\n\t" and unicodedata.category(letter) in _CONTROLS:
             raise ValueError(f"character U+{ord(letter):04X} is not allowed, expected printable text")
     return value
+
+
+def rest_name(balloon: str, taken: Container[str]) -> str:
+    """Return the name of a balloon's last bubble where no step gives one: `main_rest`, made unique."""
+    found = f"{balloon}_rest"
+    while found in taken:
+        found += "_"
+    return found
 
 
 Name = Annotated[

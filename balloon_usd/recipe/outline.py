@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from .steps import KINDS, MANNERS, MERGING, Joint, Kind, joint
+from .steps import KINDS, MANNERS, MERGING, PRESSING, Joint, Kind, joint
 
 if TYPE_CHECKING:
     from .problem import Path
@@ -26,6 +26,9 @@ class StepOutline:
     lock: tuple[str, ...] | None
     joints: tuple[Joint, ...] | None
     bent: tuple[str, ...]
+    pushed: str | None
+    pressing: tuple[str, ...] | None
+    """What of depth and force a push is given; None without a readable push."""
     rest: str | None
     balloon: str | None
     well_formed: bool
@@ -49,6 +52,8 @@ def _outline(path: Path, step: dict[str, object]) -> StepOutline:
     kinds = tuple(kind for kind in KINDS if kind in step)
     lock, joints, well_formed = _lock(step.get("lock"))
     bend, rest, balloon = step.get("bend"), step.get("rest"), step.get("balloon")
+    push = step.get("push")
+    pushed = push.get("bubble") if isinstance(push, dict) else None
     return StepOutline(
         path=path,
         kinds=kinds,
@@ -57,6 +62,8 @@ def _outline(path: Path, step: dict[str, object]) -> StepOutline:
         lock=lock,
         joints=joints,
         bent=tuple(bend) if isinstance(bend, dict) else (),
+        pushed=pushed if isinstance(pushed, str) else None,
+        pressing=tuple(key for key in PRESSING if key in push) if isinstance(push, dict) else None,
         rest=rest if isinstance(rest, str) else None,
         balloon=balloon if isinstance(balloon, str) else None,
         well_formed=well_formed,

@@ -4,7 +4,10 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, StrictBool
 
+from .kosaka import Kosaka
 from .quantities import Between
+
+ModelName = Literal["latex", "kosaka"]
 
 
 class Physics(BaseModel):
@@ -12,8 +15,8 @@ class Physics(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
 
-    model: Literal["latex"] = "latex"
-    """Physical model."""
+    model: ModelName = "latex"
+    """Physical model: latex with its gas, or springs and air particles after Kosaka 2008."""
     rubber: Literal["ogden", "ogden-treloar", "gent", "mooney-rivlin", "neo-hooke"] = "ogden"
     """Law of the rubber."""
     softening: StrictBool = True
@@ -30,3 +33,5 @@ class Physics(BaseModel):
     """Seconds shown after the hands let go."""
     mass_scaling: Literal["selective", "none"] = "selective"
     """Whether vertices that would need a smaller time step are made heavier."""
+    kosaka: Kosaka = Kosaka()
+    """Constants of the model kosaka."""

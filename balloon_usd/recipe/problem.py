@@ -88,6 +88,15 @@ def shortened(text: str) -> str:
 
 def quoted(value: object) -> str:
     """Quote a value of the file for a message: no control characters, no flood."""
-    text = shortened(value if isinstance(value, str) else repr(value))
-    shown = "".join(letter if letter.isprintable() else ascii(letter)[1:-1] for letter in text)
+    shown = printable(value if isinstance(value, str) else repr(value))
     return f'"{shown}"' if isinstance(value, str) else shown
+
+
+def printable(text: str) -> str:
+    """Shorten a text of the file and escape what cannot be printed."""
+    return escaped(shortened(text))
+
+
+def escaped(text: str) -> str:
+    """Escape what cannot be printed, such as control characters."""
+    return "".join(letter if letter.isprintable() else ascii(letter)[1:-1] for letter in text)

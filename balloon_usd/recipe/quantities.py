@@ -1,4 +1,4 @@
-"""Lengths, angles and bounded numbers: from what a maker writes to SI units, and back without loss."""
+"""Lengths, angles, forces and bounded numbers: from what a maker writes to SI units, and back."""
 
 import math
 import re
@@ -24,6 +24,9 @@ METRES: dict[str, Decimal] = {
     "ft": Decimal("0.3048"),
 }
 """Metres in one unit (international inch and foot)."""
+
+NEWTONS: dict[str, Decimal] = {"N": Decimal(1), "mN": Decimal("0.001")}
+"""Newtons in one unit."""
 
 LONGEST = 5.0
 """Metres. Three times the longest balloon in the trade, so that a slip of the unit is seen."""
@@ -71,6 +74,18 @@ def radians(value: object) -> float:
     if unit not in ("", "deg", "rad"):
         raise ValueError(f"unknown angle unit {quoted(unit)}, expected one of deg, rad")
     return float(number) if unit == "rad" else math.radians(float(number))
+
+
+def newtons(value: object) -> float:
+    """Read a force in newtons: a number is in newtons; "2 N" and "500 mN" say so.
+
+    Raises:
+        ValueError: if it is no force or has an unknown unit.
+    """
+    number, unit = _number_and_unit(value, "force", '2 or "2 N"')
+    if unit and unit not in NEWTONS:
+        raise ValueError(f"unknown force unit {quoted(unit)}, expected {one_of(NEWTONS)}")
+    return float(number * NEWTONS[unit or "N"])
 
 
 def length_entry(length: float, units: str | None) -> int | float | str:
@@ -203,6 +218,28 @@ class AngleWithin:
         return {"anyOf": [{"type": "number", "exclusiveMinimum": 0, "maximum": 180}, text]}
 
 
+class ForceWithin:
+    """A force above 0 and at most `high`, in newtons."""
+
+    high = 100.0
+
+    def read(self, value: object) -> float:
+        """Convert to newtons."""
+        force = newtons(value)
+        if not 0.0 < force <= self.high:
+            raise ValueError(f"{force:g} N is out of range, expected more than 0 and at most {self.high:g} N")
+        return force
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.no_info_before_validator_function(self.read, handler(source))
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        text = {"type": "string", "pattern": rf"^\s*\+?[0-9.]+\s*({'|'.join(NEWTONS)})?\s*$"}
+        return {"anyOf": [{"type": "number", "exclusiveMinimum": 0, "maximum": self.high}, text]}
+
+
 def _shown(length: float) -> str:
     for unit, scale in (("m", 1.0), ("cm", 0.01)):
         if abs(length) >= scale:
@@ -213,3 +250,4 @@ def _shown(length: float) -> str:
 Length = Annotated[float, LengthWithin()]
 FlatTail = Annotated[float, LengthWithin(low_included=True)]
 Angle = Annotated[float, AngleWithin()]
+Force = Annotated[float, ForceWithin()]

@@ -17,13 +17,13 @@ from pydantic import (
 
 from .names import NAME_PATTERN, Name, Text
 from .problem import quoted
-from .quantities import Angle, Between, Length
+from .quantities import Angle, Between, Force, Length
 
 End = Literal["start", "end"]
-Kind = Literal["bubbles", "lock", "loop", "fold", "ear", "rest", "bend", "wait"]
+Kind = Literal["bubbles", "lock", "loop", "fold", "ear", "rest", "bend", "push", "wait"]
 Point = Literal["up", "down", "left", "right", "forward", "back"]
 
-KINDS: tuple[Kind, ...] = ("bubbles", "lock", "loop", "fold", "ear", "rest", "bend", "wait")
+KINDS: tuple[Kind, ...] = ("bubbles", "lock", "loop", "fold", "ear", "rest", "bend", "push", "wait")
 MAKING: tuple[Kind, ...] = ("bubbles", "loop", "fold", "ear", "rest")
 """Operations that make bubbles."""
 MERGING: tuple[Kind, ...] = ("loop", "fold", "ear")
@@ -37,9 +37,13 @@ MANNERS: dict[Kind, tuple[str, ...]] = {
     "ear": ("balloon", "point", "turns", "seconds", "note"),
     "rest": ("balloon", "seconds", "note"),
     "bend": ("balloon", "point", "seconds", "note"),
+    "push": ("balloon", "point", "seconds", "note"),
     "wait": ("note",),
 }
 """What may stand beside each operation."""
+
+PRESSING = ("depth", "force")
+"""Keys that say how a finger pushes: exactly one of them."""
 
 TURNS = 3.0
 """Full turns of a twist: the common advice of makers."""
@@ -90,6 +94,21 @@ class LockJoints(BaseModel):
     """Joints that become one, each written bubble.start or bubble.end."""
 
 
+class PushedBubble(BaseModel):
+    """What a finger pushes: a bubble, the place on it, and how deep or how hard."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
+
+    bubble: Name
+    """The bubble that is pushed."""
+    at: Length | None = None
+    """Distance from the bubble's start along the inflated bubble; its middle when absent; m in Python."""
+    depth: Length | None = None
+    """How deep the finger goes; m in Python."""
+    force: Force | None = None
+    """How hard it pushes, instead of depth; N."""
+
+
 def _lock_form(value: object) -> str | None:
     if isinstance(value, (dict, LockJoints)):
         return "joints"
@@ -133,13 +152,15 @@ class Step(BaseModel):
     """Name what is left of the balloon: nothing more is made of it."""
     bend: Annotated[dict[Name, Angle], Field(min_length=1)] | None = None
     """Bend bubbles by an angle (degrees; radians in Python), their ends towards point."""
+    push: PushedBubble | None = None
+    """Push a finger into a bubble, hold it there, and take it away."""
     wait: Seconds | None = None
     """Do nothing for some seconds."""
 
     balloon: Name | None = None
     """The balloon worked on; needed when there are several."""
     point: Point | None = None
-    """Where the folded or bent bubbles go, as seen by the maker."""
+    """Where the folded or bent bubbles or the pushing finger go, as seen by the maker."""
     turns: Annotated[float, Between(0.5, 10.0, "turns", step=0.5)] = TURNS
     """Full turns of each twist."""
     seconds: Seconds | None = None

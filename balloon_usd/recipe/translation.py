@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 from .balloons import Balloon
 from .choices import one_of, unknown
+from .kosaka import Kosaka
 from .physics import Physics
 from .problem import PROBLEMS_SHOWN, Complaint, Path, quoted
 from .quantities import UnitMissingError
-from .steps import KINDS, LockJoints, Step
+from .steps import KINDS, LockJoints, PushedBubble, Step
 
 if TYPE_CHECKING:
     from pydantic import BaseModel, ValidationError
@@ -86,10 +87,18 @@ def _path(location: Sequence[str | int], data: object) -> Path:
 
 
 def _model_at(path: Path, root: type[BaseModel]) -> type[BaseModel]:
-    models: dict[str, type[BaseModel]] = {"balloons": Balloon, "steps": Step, "physics": Physics}
     if not path:
         return root
-    return LockJoints if path[-1] == "lock" else models.get(str(path[0]), root)
+    models: dict[tuple[str, str], type[BaseModel]] = {
+        ("balloons", ""): Balloon,
+        ("steps", ""): Step,
+        ("steps", "lock"): LockJoints,
+        ("steps", "push"): PushedBubble,
+        ("physics", ""): Physics,
+        ("physics", "kosaka"): Kosaka,
+    }
+    block = str(path[0])
+    return models.get((block, str(path[-1]))) or models.get((block, ""), root)
 
 
 def _unknown_key(path: Path, root: type[BaseModel]) -> str:
@@ -113,5 +122,6 @@ def _wanted(path: Path) -> str:
         "steps": f"a list of steps, each with {one_of(KINDS)}",
         "size": "the size of the balloon, such as 260",
         "joints": "a list such as [nose.end, tail.start]",
+        "bubble": "the bubble that is pushed",
     }
     return wanted.get(str(path[-1]), "it here")

@@ -7,13 +7,15 @@ import re
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
+from .balloons import FILLINGS
+from .kosaka import kosaka_entries
 from .quantities import angle_entry, length_entry, short_number
 from .scalars import plain_scalar
 
 if TYPE_CHECKING:
     from .balloons import Balloon
     from .recipe import Recipe
-    from .steps import Step
+    from .steps import PushedBubble, Step
 
 Entries = dict[str, object]
 
@@ -31,7 +33,7 @@ def recipe_entries(recipe: Recipe) -> Entries:
     steps = [_step_entries(step, recipe.units) for step in recipe.steps]
     entries: Entries = {"format": recipe.format, **kept, "balloons": balloons, "steps": steps}
     if "physics" in written:
-        entries["physics"] = written["physics"]
+        entries["physics"] = _physics_entries(written["physics"], recipe.units)
     return entries
 
 
@@ -55,7 +57,7 @@ def _balloon_entries(balloon: Balloon, units: str | None) -> Entries:
     entries: Entries = {"size": int(balloon.size)}
     if "color" in balloon.model_fields_set:
         entries["color"] = balloon.model_dump(include={"color"})["color"]
-    for key in ("tail", "inflated", "radius", "length", "thickness"):
+    for key in (*FILLINGS, "radius", "length", "thickness"):
         length = getattr(balloon, key)
         if length is not None:
             entries[key] = length_entry(length, units)
@@ -68,7 +70,21 @@ def _step_entries(step: Step, units: str | None) -> Entries:
         entries[step.kind] = {name: length_entry(length, units) for name, length in step.lengths.items()}
     if step.bend:
         entries["bend"] = {name: angle_entry(angle) for name, angle in step.bend.items()}
+    if step.push:
+        entries["push"] = _push_entries(step.push, units)
     return entries
+
+
+def _push_entries(push: PushedBubble, units: str | None) -> Entries:
+    lengths = {"at": push.at, "depth": push.depth}
+    entries: Entries = {"bubble": push.bubble}
+    entries |= {key: length_entry(length, units) for key, length in lengths.items() if length is not None}
+    return entries if push.force is None else entries | {"force": push.force}
+
+
+def _physics_entries(physics: Entries, units: str | None) -> Entries:
+    kosaka = physics.get("kosaka")
+    return physics | {"kosaka": kosaka_entries(kosaka, units)} if isinstance(kosaka, Mapping) else physics
 
 
 def _step_lines(step: object) -> list[str]:

@@ -7,34 +7,28 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from balloon_usd.solver.corners import corner_table
+
 if TYPE_CHECKING:
-    from balloon_usd.solver.membrane_data import MembraneData
     from balloon_usd.solver.scene import Scene
 
 Arrays = dict[str, NDArray[Any]]
 
 
-def mesh_arrays(scene: Scene, data: list[MembraneData], host: Arrays) -> None:
-    """Topology and material of quads and vertices."""
+def mesh_arrays(scene: Scene, host: Arrays) -> None:
+    """Topology of quads and vertices."""
     bodies = scene.bodies
     index = np.arange(len(bodies), dtype=np.int32)
     v, q, s = scene.vertex_start, scene.quad_start, scene.segment_start
     host["quads"] = np.concatenate([b.quads + v[k] for k, b in enumerate(bodies)]).astype(np.int32)
+    tables = [corner_table(b.quads, len(b.points)) for b in bodies]
     host["corners"] = np.concatenate(
-        [np.where(d.corners >= 0, d.corners + 4 * q[k], -1) for k, d in enumerate(data)]
+        [np.where(table >= 0, table + 4 * q[k], -1) for k, table in enumerate(tables)]
     ).astype(np.int32)
-    host["to_rest"] = np.concatenate([d.to_rest for d in data]).astype(np.float32)
-    host["hourglass"] = np.concatenate([d.hourglass for d in data]).astype(np.float32)
-    host["rubber_volume"] = np.concatenate([d.rubber_volume for d in data]).astype(np.float32)
-    host["mass"] = np.concatenate([d.mass for d in data]).astype(np.float32)
-    host["weight"] = np.concatenate([d.true_mass for d in data]).astype(np.float32)
     segments = [np.searchsorted(b.segment_ends, np.arange(len(b.quads)), side="right") for b in bodies]
     host["quad_segment"] = np.concatenate([g + s[k] for k, g in enumerate(segments)]).astype(np.int32)
-    host["quad_law"] = np.repeat(index, np.diff(q)).astype(np.int32)
-    host["quad_balloon"], host["vertex_balloon"] = (
-        host["quad_law"],
-        np.repeat(index, np.diff(v)).astype(np.int32),
-    )
+    host["quad_balloon"] = np.repeat(index, np.diff(q)).astype(np.int32)
+    host["vertex_balloon"] = np.repeat(index, np.diff(v)).astype(np.int32)
     host["vertex_along"] = np.concatenate([b.along for b in bodies]).astype(np.float32)
     host["quad_along"] = np.concatenate([b.along[b.quads].mean(axis=1) for b in bodies]).astype(np.float32)
     host["balloon_world"] = np.asarray(scene.worlds, dtype=np.int32)
@@ -48,7 +42,7 @@ def mesh_arrays(scene: Scene, data: list[MembraneData], host: Arrays) -> None:
         host[name] = np.full(len(bodies), value, dtype=np.float32)
 
 
-def ring_arrays(scene: Scene, data: list[MembraneData], host: Arrays) -> None:
+def ring_arrays(scene: Scene, host: Arrays) -> None:
     """Rings of the mesh, and the rings that can be held or closed ("joints")."""
     bodies, v = scene.bodies, scene.vertex_start
     ring_start = np.concatenate([[0], np.cumsum([len(b.mesh_rings) for b in bodies])])
@@ -68,28 +62,30 @@ def ring_arrays(scene: Scene, data: list[MembraneData], host: Arrays) -> None:
     host["joint_first"] = np.array(first or [0], dtype=np.int32)
     host["joint_around"] = np.array(around or [1], dtype=np.int32)
     host["joint_parts"] = np.array([r.parts for b in bodies for r in b.rings] or [False], dtype=np.int32)
+    carried = [r.carried for b in bodies for r in b.rings]
+    host["joint_carried"] = np.array(carried or [0], dtype=np.int32)
     vertex_joint = np.full(v[-1], -1, dtype=np.int32)
-    for j, (f, n) in enumerate(zip(first, around, strict=True)):
-        vertex_joint[f : f + n] = j
+    for j, (f, n, before) in enumerate(zip(first, around, carried, strict=True)):
+        vertex_joint[f - before : f + n] = j
     host["vertex_joint"] = vertex_joint
     home = np.full(v[-1], -1, dtype=np.int32)
     home[host["quads"].reshape(-1)] = np.repeat(host["quad_segment"], 4)
     parting = (vertex_joint >= 0) & (host["joint_parts"][vertex_joint] == 1)
     host["vertex_segment"] = np.where(parting, -1, home).astype(np.int32)
-    mass = np.concatenate([d.mass for d in data])
+    mass = host["mass"]
     host["joint_mass"] = np.array(
         [mass[f : f + n].sum() for f, n in zip(first, around, strict=True)] or [1.0], dtype=np.float32
     )
 
 
-def gas_arrays(scene: Scene, host: Arrays) -> None:
-    """Chambers: runs of quads between the rings that part them."""
-    quad, quad_end, origin, start_joint, end_joint, gauge = [], [], [], [], [], []
+def segment_arrays(scene: Scene, host: Arrays) -> None:
+    """Segments: runs of quads between the rings that part them."""
+    quad, quad_end, origin, start_joint, end_joint = [], [], [], [], []
     sides = np.full((max(1, int(scene.joint_start[-1])), 2), -1, dtype=np.int32)
     for k, b in enumerate(scene.bodies):
         parting = [scene.joint_start[k] + i for i, r in enumerate(b.rings) if r.parts]
         if len(parting) != len(b.segment_ends) - 1:
-            raise ValueError("every border between two chambers needs its ring")
+            raise ValueError("every border between two segments needs its ring")
         begin = 0
         for i, end in enumerate(b.segment_ends):
             quad.append(begin + scene.quad_start[k])
@@ -97,7 +93,6 @@ def gas_arrays(scene: Scene, host: Arrays) -> None:
             origin.append(b.quads[begin, 0] + scene.vertex_start[k])
             start_joint.append(parting[i - 1] if i > 0 else -1)
             end_joint.append(parting[i] if i < len(parting) else -1)
-            gauge.append(b.gauge[i])
             if i > 0:
                 sides[parting[i - 1], 1] = len(quad) - 1
             if i < len(parting):
@@ -107,7 +102,3 @@ def gas_arrays(scene: Scene, host: Arrays) -> None:
     host["segment_origin"] = np.array(origin, np.int32)
     host["start_joint"], host["end_joint"] = np.array(start_joint, np.int32), np.array(end_joint, np.int32)
     host["joint_segment"] = sides
-    host["balloon_segment"] = scene.segment_start[:-1].astype(np.int32)
-    host["balloon_segment_end"] = scene.segment_start[1:].astype(np.int32)
-    host["inlet"] = (scene.segment_start[:-1] + [b.inlet for b in scene.bodies]).astype(np.int32)
-    host["start_gauge"] = np.array(gauge, np.float32)

@@ -26,3 +26,7 @@ class Frame:
     """Gas volume of every bubble in plan order, (bubbles,) float32, m3."""
     doing: str
     """What the hands do."""
+    air: tuple[NDArray[np.float32], ...] = ()
+    """Air particles of every balloon, (P, 3) float32, m; empty where the air is no particles."""
+    cluster: tuple[NDArray[np.int32], ...] = ()
+    """Bubble of every particle, (P,) int32 in plan order; an undivided run has the number of its first."""

@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
-from balloon_usd.balloon.air import AIR_DENSITY, GAS_CONSTANT, ROOM_TEMPERATURE
-from balloon_usd.solver.flatten import Arrays, gas_arrays, mesh_arrays, ring_arrays
-from balloon_usd.solver.kernels.contact import Touch
-from balloon_usd.solver.kernels.gas import Air
-from balloon_usd.solver.membrane_data import membrane_data
-from balloon_usd.solver.state import state_arrays
+from balloon_usd.solver.flatten import Arrays, mesh_arrays, ring_arrays, segment_arrays
+from balloon_usd.solver.kernels.contact import HITS, TARGETS, Touch
+from balloon_usd.solver.kernels.fingers import Finger
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -22,13 +19,10 @@ if TYPE_CHECKING:
     from balloon_usd.solver.body import Body
     from balloon_usd.solver.settings import SceneSettings
 
-DISCHARGE = 0.6
-"""Discharge coefficient of a sharp orifice."""
-EQUALISE = 0.9
-"""Largest share of a pressure difference that may even out in one substep, between rigid walls: stable."""
 SELF_DISTANCE = 1.0
 """Unstressed distance along one bubble within which its wall never meets itself, R0."""
-
+WELD_SLOTS = 16
+"""Joints that one weld may hold together."""
 
 Ints = NDArray[np.int64]
 
@@ -47,12 +41,11 @@ class Scene:
     quad_start: Ints
     """First quad of every body."""
     segment_start: Ints
-    """First chamber of every body."""
+    """First segment of every body."""
     joint_start: Ints
     """First ring of every body."""
     arrays: dict[str, Any] = field(default_factory=dict)
     """Device arrays by the names that the kernels give them."""
-    air: Air = field(default_factory=Air)
     touch: Touch = field(default_factory=Touch)
 
     def __getattr__(self, name: str) -> Any:
@@ -62,52 +55,90 @@ class Scene:
         except KeyError:
             raise AttributeError(name) from None
 
+    @classmethod
+    def of(cls, bodies: Sequence[Any], worlds: Sequence[int], settings: SceneSettings, device: str) -> Self:
+        """Return an empty scene of some bodies; different `worlds` never touch."""
+        sizes = (
+            [len(b.points) for b in bodies],
+            [len(b.quads) for b in bodies],
+            [len(b.segment_ends) for b in bodies],
+            [len(b.rings) for b in bodies],
+        )
+        vertices, quads, segments, joints = (np.concatenate([[0], np.cumsum(n)]) for n in sizes)
+        return cls(tuple(bodies), tuple(worlds), settings, device, vertices, quads, segments, joints)
 
-def build_scene(
-    bodies: Sequence[Body],
-    worlds: Sequence[int],
-    settings: SceneSettings,
-    device: str,
-    weld_count: int,
-    strut_count: int,
-) -> Scene:
-    """Put bodies on a device.
+    def bubbles_of(self, body: int) -> Ints:
+        """Segments that are the bubbles of one body: those after its spare ones."""
+        return np.arange(
+            self.segment_start[body] + self.bodies[body].spare_segments, self.segment_start[body + 1]
+        )
 
-    `worlds`: sculpture of every body; bodies of different sculptures never touch. `weld_count`,
-    `strut_count`: room for
-    welds and struts.
+    def put(self, host: Arrays) -> None:
+        """Put host arrays on the device under their names."""
+        for name, values in host.items():
+            self.arrays[name] = wp.array(values, dtype=_dtype(name, values), device=self.device)
+
+    def zeros(self, name: str, shape: int | tuple[int, ...], dtype: Any) -> None:
+        """Make an array of zeros on the device."""
+        self.arrays[name] = wp.zeros(shape, dtype=dtype, device=self.device)
+
+
+def lay_meshes(scene: Scene, host: Arrays, weld_count: int) -> None:
+    """Put what all models share on the device: meshes, rings, hands, welds and contact.
+
+    `host`: what a model has already; of it `mass` (V,), kg, is needed. `weld_count`: room for welds.
     """
-    vertices, quads, segments, joints = (np.concatenate([[0], np.cumsum(n)]) for n in _sizes(bodies))
-    scene = Scene(tuple(bodies), tuple(worlds), settings, device, vertices, quads, segments, joints)
-    data = [
-        membrane_data(b, settings.dt, settings.atmosphere, scale_mass=settings.scale_mass) for b in bodies
-    ]
-    host: Arrays = {}
-    mesh_arrays(scene, data, host)
-    ring_arrays(scene, data, host)
-    gas_arrays(scene, host)
-    for name, values in host.items():
-        scene.arrays[name] = wp.array(values, dtype=_dtype(name, values), device=device)
-    state_arrays(scene, weld_count, strut_count)
-    scene.touch.offset = settings.contact_offset
-    scene.touch.pressure = settings.contact_pressure
-    scene.touch.margin = 0.5 * settings.contact_offset
+    mesh_arrays(scene, host)
+    ring_arrays(scene, host)
+    segment_arrays(scene, host)
+    scene.put(host)
+    _motion_arrays(scene)
+    _contact_arrays(scene)
+    _hand_arrays(scene, max(1, weld_count))
+
+
+def _motion_arrays(scene: Scene) -> None:
+    vertices, a = int(scene.vertex_start[-1]), scene.arrays
+    points = np.concatenate([b.points for b in scene.bodies]).astype(np.float32)
+    a["x"], a["x_next"] = (wp.array(points, dtype=wp.vec3, device=scene.device) for _ in range(2))
+    scene.zeros("v", vertices, wp.vec3)
+    scene.zeros("stretch", vertices, float)
+    scene.zeros("volume", int(scene.segment_start[-1]), float)
+
+
+def _contact_arrays(scene: Scene) -> None:
+    vertices, quads, a = int(scene.vertex_start[-1]), int(scene.quad_start[-1]), scene.arrays
+    for name, count in (("normal", vertices), ("quad_middle", quads), ("quad_area", quads)):
+        scene.zeros(name, count, wp.vec3)
+    scene.zeros("area", vertices, float)
+    scene.zeros("ring_radius", len(a["ring_first"]), float)
+    for name in ("slip", "contact_force"):
+        scene.zeros(name, (vertices, TARGETS), wp.vec3)
+    scene.zeros("contact_share", (vertices, TARGETS), wp.vec4)
+    a["target"] = wp.full((vertices, TARGETS), -1, dtype=int, device=scene.device)
+    scene.zeros("touching", len(scene.bodies), int)
+    scene.zeros("hit_count", quads, int)
+    scene.zeros("hits", (quads, HITS), int)
+    scene.zeros("most_hits", max(scene.worlds) + 1, int)
+    scene.touch.offset = scene.settings.contact_offset
+    scene.touch.pressure = scene.settings.contact_pressure
+    scene.touch.margin = 0.5 * scene.settings.contact_offset
     scene.touch.apart = SELF_DISTANCE
-    scene.air.atmosphere = settings.atmosphere
-    scene.air.molar_energy = wp.float64(GAS_CONSTANT * ROOM_TEMPERATURE)
-    scene.air.density = AIR_DENSITY
-    scene.air.discharge = DISCHARGE
-    scene.air.equalise = EQUALISE
-    return scene
 
 
-def _sizes(bodies: Sequence[Body]) -> tuple[list[int], ...]:
-    return (
-        [len(b.points) for b in bodies],
-        [len(b.quads) for b in bodies],
-        [len(b.segment_ends) for b in bodies],
-        [len(b.rings) for b in bodies],
-    )
+def _hand_arrays(scene: Scene, welds: int) -> None:
+    joints = len(scene.arrays["joint_first"])
+    for name in ("ring_middle", "ring_area", "ring_speed", "hand_load", "hand_from", "hand_to", "hand_free"):
+        scene.zeros(name, joints, wp.vec3)
+    for name in ("radius_from", "radius_to", "hand_force", "hand_stiffness"):
+        scene.zeros(name, joints, float)
+    scene.zeros("hand", joints, int)
+    scene.zeros("fingers", len(scene.bodies), Finger)
+    scene.zeros("finger_share", int(scene.vertex_start[-1]), float)
+    scene.zeros("weld_joint", (welds, WELD_SLOTS), int)
+    scene.zeros("weld_size", welds, int)
+    scene.zeros("weld_reach", welds, float)
+    scene.zeros("weld_gap", welds, float)
 
 
 _VECTORS = {
@@ -116,6 +147,9 @@ _VECTORS = {
     "to_rest": wp.mat22,
     "hourglass": wp.vec4,
     "joint_segment": wp.vec2i,
+    "air": wp.vec3,
+    "spring_ends": wp.vec4i,
+    "natural": wp.vec4,
 }
 
 

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from balloon_usd.balloon.rubber import BURST_STRETCH
-from balloon_usd.solver.errors import SimulationFailed
 from balloon_usd.solver.kernels.contact import HITS
 
 if TYPE_CHECKING:
@@ -20,8 +19,6 @@ FASTEST = 5.0
 STEADIER = "more substeps (physics: substeps) or a longer step (seconds) make the run steadier"
 LOWEST_PRESSURE = -20.0e3
 """Gauge pressure that no bubble of a balloon reaches, Pa: hands do not suck."""
-SHORT_OF_GAS = 0.98
-"""Share of the wanted gas below which inflating counts as failed."""
 
 
 class Watch:
@@ -33,20 +30,13 @@ class Watch:
         self._fps = fps
         self._last: Frame | None = None
 
-    def failure(self, frame: Frame, most_hits: int) -> SimulationFailed | None:
-        """Return what is wrong with a frame, or None.
-
-        `most_hits`: vertices that pressed on one quad at a time, the most so far.
-        """
+    def failure(self, frame: Frame) -> str | None:
+        """Return what is wrong with a frame, one sentence, or None."""
         cause = (
             self._not_finite(frame) or self._impossible(frame) or self._too_fast(frame) or self._burst(frame)
         )
-        if cause is None and most_hits > HITS:
-            cause = f"{most_hits} vertices press on one face but there is room for {HITS}: use a finer detail"
         self._last = frame
-        return (
-            None if cause is None else SimulationFailed(frame.doing, (frame.time_code - 1) / self._fps, cause)
-        )
+        return cause
 
     def _not_finite(self, frame: Frame) -> str | None:
         for points, strip in zip(frame.points, self._plan.strips.values(), strict=True):
@@ -79,3 +69,10 @@ class Watch:
                 bubble = strip.bubble_at(float(mesh.along[worst])).name
                 return f"{bubble} bursts: stretch {stretch[worst]:.1f}, latex bears {BURST_STRETCH:.1f}"
         return None
+
+
+def crowded(most_hits: int) -> str | None:
+    """Tell when more vertices have pressed on one face at a time than there is room for."""
+    if most_hits <= HITS:
+        return None
+    return f"{most_hits} vertices press on one face but there is room for {HITS}: use a finer detail"

@@ -8,12 +8,15 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 import numpy as np
 from pxr import Sdf, Vt
 
+from balloon_usd.stage.cluster_color import colors_of
 from balloon_usd.stage.provenance import KEY
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from balloon_usd.stage.pose import MeshPose, Pose
+    from numpy.typing import NDArray
+
+    from balloon_usd.stage.pose import AirPose, MeshPose, Pose
 
 STEP = f"{KEY}:step"
 """String on the root prim: what the hands do, sampled where a step of the recipe begins."""
@@ -24,12 +27,14 @@ P = TypeVar("P")
 
 @dataclass(frozen=True)
 class Animated(Generic[P]):
-    """An attribute, its value type and how its value is read from a pose."""
+    """An attribute, its value type and how its value is read from a pose or a part of it."""
 
     name: str
     type_name: Any
     read: Callable[[P], Any]
     documentation: str = ""
+    blends: bool = False
+    """Whether readers blend between samples what should jump."""
 
 
 def _vectors(values: Any) -> Any:
@@ -40,12 +45,32 @@ def _floats(values: Any) -> Any:
     return Vt.FloatArray.FromNumpy(np.ascontiguousarray(values))
 
 
+def _integers(values: Any) -> Any:
+    return Vt.IntArray.FromNumpy(np.ascontiguousarray(values))
+
+
 ON_MESH: tuple[Animated[MeshPose], ...] = (
     Animated("points", Sdf.ValueTypeNames.Point3fArray, lambda pose: _vectors(pose.points)),
     Animated("extent", Sdf.ValueTypeNames.Float3Array, lambda pose: _vectors(pose.extent)),
     Animated("primvars:stretch", Sdf.ValueTypeNames.FloatArray, lambda pose: _floats(pose.stretch)),
     Animated("primvars:pressure", Sdf.ValueTypeNames.FloatArray, lambda pose: _floats(pose.pressure)),
 )
+
+ON_AIR: tuple[Animated[AirPose], ...] = (
+    Animated("points", Sdf.ValueTypeNames.Point3fArray, lambda pose: _vectors(pose.points)),
+    Animated("extent", Sdf.ValueTypeNames.Float3Array, lambda pose: _vectors(pose.extent)),
+)
+
+BY_CLUSTER: tuple[Animated[NDArray[np.int32]], ...] = (
+    Animated("primvars:cluster", Sdf.ValueTypeNames.IntArray, _integers),
+    Animated(
+        "primvars:displayColor",
+        Sdf.ValueTypeNames.Color3fArray,
+        lambda cluster: _vectors(colors_of(cluster)),
+        blends=True,
+    ),
+)
+"""What changes with the clusters (P,) of the air, which is seldom: sampled only then."""
 
 ON_ROOT: tuple[Animated[Pose], ...] = (
     Animated(

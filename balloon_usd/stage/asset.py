@@ -7,8 +7,17 @@ from typing import TYPE_CHECKING, Any
 
 from pxr import Sdf, Usd
 
+from balloon_usd.stage import looks
 from balloon_usd.stage.built import Built
-from balloon_usd.stage.earlier import MATERIALS, Earlier, carry_over, detail_files, find_earlier
+from balloon_usd.stage.earlier import (
+    MATERIALS,
+    TEXTURE,
+    Earlier,
+    carry_over,
+    detail_files,
+    find_earlier,
+    orphaned_texture,
+)
 from balloon_usd.stage.error import writing
 from balloon_usd.stage.geometry import author_geometry
 from balloon_usd.stage.interface import VARIANT_SET, add_detail, author_root, payload_layer, set_asset_info
@@ -16,6 +25,7 @@ from balloon_usd.stage.layer_metadata import set_provenance, set_time_range, set
 from balloon_usd.stage.materials import author_materials
 from balloon_usd.stage.prim_paths import root_path
 from balloon_usd.stage.provenance import provenance_of
+from balloon_usd.stage.wire_texture import wire_png
 
 if TYPE_CHECKING:
     from balloon_usd.stage.description import StageDescription
@@ -57,8 +67,14 @@ def complete_asset(
         interface_layer = _interface_layer(description, take, detail, earlier)
         interface_layer.Export(str(work.built / interface))
         stale = [file for other in earlier.stale for file in detail_files(other)]
+        if description.airs:
+            (work.built / TEXTURE).write_bytes(wire_png())
+        else:
+            stale += orphaned_texture(work.final)
         carry_over(work.final, work.built, stale)
-    return Built((interface, payload, samples, geometry, MATERIALS), earlier.stale)
+    textures = (TEXTURE,) if description.airs else ()
+    files = (interface, payload, samples, geometry, MATERIALS, *textures)
+    return Built(files, stale=earlier.stale)
 
 
 def _geometry_layer(description: StageDescription, take: Take) -> Any:
@@ -86,4 +102,6 @@ def _interface_layer(description: StageDescription, take: Take, detail: str, ear
     for name, extent in sorted({**earlier.kept, detail: take.extent}.items()):
         add_detail(root, name, extent)
     root.variantSelections[VARIANT_SET] = detail
+    if description.airs:
+        root.variantSelections[looks.VARIANT_SET] = looks.THESIS
     return layer

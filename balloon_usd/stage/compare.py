@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pxr import Usd
+from pxr import Sdf, Usd
 
 from balloon_usd.stage.provenance import KEY
 
@@ -74,6 +74,9 @@ def _attribute_differences(one: Any, other: Any, tolerance: float) -> Iterator[s
 def _same(one: Any, other: Any, tolerance: float) -> bool:
     if one is None or other is None:
         return one is other
+    if isinstance(one, Sdf.AssetPath) and isinstance(other, Sdf.AssetPath):
+        # Where the file lies is another matter than how the stage names it.
+        return str(one.path) == str(other.path)
     first, second = np.asarray(one), np.asarray(other)
     if first.shape != second.shape or first.dtype != second.dtype:
         return False

@@ -1,4 +1,4 @@
-"""What a stage shows: meshes with fixed topology, and the frames that move them."""
+"""What a stage shows: meshes with fixed topology, particles of air, and the frames that move them."""
 
 from __future__ import annotations
 
@@ -40,6 +40,20 @@ class StageFrame(Protocol):
     @property
     def volume(self) -> NDArray[np.float32]:
         """Gas volume [m3], (bubbles,) float32 in the order of `StageDescription.bubble_names`."""
+
+    @property
+    def air(self) -> tuple[NDArray[np.float32], ...]:
+        """Particle positions [m], one (P, 3) float32 array for each of `StageDescription.airs`.
+
+        Not read where there are none.
+        """
+
+    @property
+    def cluster(self) -> tuple[NDArray[np.int32], ...]:
+        """Bubble of every particle, one (P,) int32 array for each of `StageDescription.airs`.
+
+        Counted in the order of `StageDescription.bubble_names`; not read where there is no air.
+        """
 
 
 @dataclass(frozen=True)
@@ -98,6 +112,27 @@ class MeshDescription:
 
 
 @dataclass(frozen=True)
+class AirDescription:
+    """The air in one balloon: particles whose number never changes.
+
+    Raises:
+        StageError: The name is no USD identifier, there are no particles, or they have no size.
+    """
+
+    name: str
+    """Prim name."""
+    count: int
+    """Number of particles P."""
+    width: float
+    """Diameter of a drawn particle [m]."""
+
+    def __post_init__(self) -> None:
+        require_identifier(self.name)
+        _require(self.count > 0, f'air "{self.name}" has {self.count} particles')
+        _require(0.0 < self.width < float("inf"), f'air "{self.name}": width is {self.width}')
+
+
+@dataclass(frozen=True)
 class StageDescription:
     """One sculpture: its balloons and everything that does not move.
 
@@ -118,12 +153,15 @@ class StageDescription:
     """At least "recipe", "recipe_sha256" and "solver"; no dates, hosts or durations."""
     twists: tuple[tuple[int, str], ...] = ()
     """When each step of the recipe begins: (time code, what is done)."""
+    airs: tuple[AirDescription, ...] = ()
+    """Air of the balloons, in the order of `StageFrame.air`; empty for models without particles."""
 
     def __post_init__(self) -> None:
         require_identifier(self.name)
         _require(len(self.meshes) > 0, f'"{self.name}" has no meshes')
         _require(0.0 < self.fps < float("inf"), f'"{self.name}": fps is {self.fps}')
-        for names in ([mesh.name for mesh in self.meshes], self.bubble_names):
+        prims = [*(mesh.name for mesh in self.meshes), *(air.name for air in self.airs)]
+        for names in (prims, self.bubble_names):
             twice = {name for name in names if list(names).count(name) > 1}
             _require(not twice, f'"{self.name}": name used twice: {", ".join(sorted(twice))}')
         for mesh in self.meshes:

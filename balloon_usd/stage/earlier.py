@@ -14,6 +14,7 @@ from pxr import Sdf, Tf
 
 from balloon_usd.stage.interface import EXTENTS_HINT, VARIANT_SET
 from balloon_usd.stage.provenance import KEY
+from balloon_usd.stage.wire_texture import FILE_NAME, wire_png
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 MATERIALS = Path("payload", "materials.usda")
+TEXTURE = Path("payload", FILE_NAME)
 
 
 @dataclass(frozen=True)
@@ -59,6 +61,12 @@ def find_earlier(asset: Path, built: Path, name: str, written: str) -> Earlier:
         else:
             stale.append(detail)
     return Earlier(kept, tuple(stale))
+
+
+def orphaned_texture(asset: Path) -> list[Path]:
+    """The texture of the wire, if an earlier run left it; somebody's own file of that name is none."""
+    file = asset / TEXTURE
+    return [TEXTURE] if file.is_file() and file.read_bytes() == wire_png() else []
 
 
 def carry_over(asset: Path, built: Path, leave_out: Iterable[Path]) -> None:

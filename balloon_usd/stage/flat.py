@@ -14,11 +14,17 @@ from balloon_usd.stage.interface import author_root, set_asset_info, set_extents
 from balloon_usd.stage.materials import author_materials
 from balloon_usd.stage.prim_paths import root_path
 from balloon_usd.stage.provenance import provenance_of
+from balloon_usd.stage.wire_texture import FILE_NAME, wire_png
 
 if TYPE_CHECKING:
     from balloon_usd.stage.description import StageDescription
     from balloon_usd.stage.samples import Take
     from balloon_usd.stage.workspace import Workspace
+
+
+def files_beside(description: StageDescription) -> tuple[str, ...]:
+    """Names of the files that the one file needs beside it."""
+    return (FILE_NAME,) if description.airs else ()
 
 
 def begin_flat(description: StageDescription, detail: str, work: Workspace) -> Any:
@@ -44,6 +50,9 @@ def complete_flat(layer: Any, take: Take, description: StageDescription, _: str,
     stage = Usd.Stage.Open(layer)
     author_geometry(stage, description, take.final)
     author_materials(stage, description)
+    beside = files_beside(description)
     with writing(work.final):
         layer.Save()
-    return Built((Path(),))
+        for name in beside:
+            work.built.with_name(name).write_bytes(wire_png())
+    return Built((Path(),), beside)

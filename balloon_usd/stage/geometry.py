@@ -1,4 +1,4 @@
-"""What does not move: the meshes' topology, texture coordinates, bubbles, and a resting pose."""
+"""What does not move: the meshes' topology, texture coordinates, bubbles, the air, and a resting pose."""
 
 from __future__ import annotations
 
@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from pxr import Gf, Sdf, UsdGeom, Vt
 
+from balloon_usd.stage.air import author_air
 from balloon_usd.stage.animated import ON_MESH, ON_ROOT
-from balloon_usd.stage.prim_paths import mesh_path, meshes_path, root_path
+from balloon_usd.stage.looks import author_within_quad
+from balloon_usd.stage.prim_paths import part_path, parts_path, root_path
 from balloon_usd.stage.provenance import KEY
 
 if TYPE_CHECKING:
@@ -22,17 +24,21 @@ FAMILY = "bubbles"
 
 
 def author_geometry(stage: Any, description: StageDescription, final: Pose) -> None:
-    """Author the meshes; their default is the final pose, which is what still viewers show."""
+    """Author the meshes and the air; their default is the final pose, which is what still viewers show."""
     root = UsdGeom.Xform.Define(stage, root_path(description.name)).GetPrim()
-    scope = meshes_path(description.name)
+    scope = parts_path(description.name)
     UsdGeom.Scope.Define(stage, scope.GetParentPath())
     UsdGeom.Scope.Define(stage, scope)
     for mesh, pose in zip(description.meshes, final.meshes, strict=True):
-        usd_mesh = UsdGeom.Mesh.Define(stage, mesh_path(description.name, mesh.name))
-        _author_topology(usd_mesh, mesh)
+        usd_mesh = UsdGeom.Mesh.Define(stage, part_path(description.name, mesh.name))
+        _author_topology(usd_mesh, mesh, seen_through=bool(description.airs))
         _author_pose(usd_mesh.GetPrim(), pose)
         _author_primvars(usd_mesh.GetPrim(), mesh, description.bubbles_of(mesh))
         _author_subsets(usd_mesh, description.bubble_names, description.bubbles_of(mesh))
+        if description.airs:
+            author_within_quad(usd_mesh.GetPrim(), len(mesh.quads))
+    for air, air_pose in zip(description.airs, final.airs, strict=True):
+        author_air(stage, part_path(description.name, air.name), air, air_pose)
     names = root.CreateAttribute(f"{KEY}:bubbles", Sdf.ValueTypeNames.TokenArray, custom=True)
     names.Set(Vt.TokenArray(description.bubble_names))
     for moving in ON_ROOT:
@@ -41,14 +47,14 @@ def author_geometry(stage: Any, description: StageDescription, final: Pose) -> N
         attribute.Set(moving.read(final))
 
 
-def _author_topology(usd_mesh: Any, mesh: MeshDescription) -> None:
+def _author_topology(usd_mesh: Any, mesh: MeshDescription, *, seen_through: bool) -> None:
     counts = np.full(len(mesh.quads), 4, dtype=np.int32)
     usd_mesh.CreateFaceVertexCountsAttr(_integers(counts))
     usd_mesh.CreateFaceVertexIndicesAttr(_integers(mesh.quads.ravel()))
     usd_mesh.CreateSubdivisionSchemeAttr(UsdGeom.Tokens.catmullClark)
     usd_mesh.CreateInterpolateBoundaryAttr(UsdGeom.Tokens.edgeAndCorner)
     usd_mesh.CreateOrientationAttr(UsdGeom.Tokens.rightHanded)
-    usd_mesh.CreateDoubleSidedAttr(False)
+    usd_mesh.CreateDoubleSidedAttr(seen_through)
 
 
 def _author_pose(prim: Any, pose: MeshPose) -> None:

@@ -1,4 +1,4 @@
-"""Latex: one material a colour, bound to every mesh of that colour."""
+"""Latex, one material a colour, bound to every mesh of that colour; wire and air where there is air."""
 
 from __future__ import annotations
 
@@ -6,7 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 from pxr import Gf, Sdf, UsdGeom, UsdShade
 
-from balloon_usd.stage.prim_paths import materials_path, mesh_path
+from balloon_usd.stage.looks import author_looks
+from balloon_usd.stage.prim_paths import materials_path, part_path
+from balloon_usd.stage.thesis_materials import AIR, WIRE, author_air_material, author_wire_material
 
 if TYPE_CHECKING:
     from balloon_usd.stage.description import MeshDescription, StageDescription
@@ -24,22 +26,32 @@ SUBSURFACE = 0.35
 
 def author_materials(stage: Any, description: StageDescription) -> None:
     """Author the materials and bind them; meshes that are not in the stage become overs."""
-    names = materials_by_color(description.meshes)
+    names = materials_by_color(description.meshes, (AIR, WIRE) if description.airs else ())
     scope = materials_path(description.name)
     stage.OverridePrim(scope.GetParentPath())
     UsdGeom.Scope.Define(stage, scope)
     materials = {color: _author_latex(stage, scope.AppendChild(name), color) for color, name in names.items()}
     for mesh in description.meshes:
-        prim = stage.OverridePrim(mesh_path(description.name, mesh.name))
-        UsdShade.MaterialBindingAPI.Apply(prim).Bind(materials[mesh.color])
+        prim = stage.OverridePrim(part_path(description.name, mesh.name))
+        binding = UsdShade.MaterialBindingAPI.Apply(prim)
+        if not description.airs:
+            binding.Bind(materials[mesh.color])
+    if description.airs:
+        particles = author_air_material(stage, scope.AppendChild(AIR))
+        for air in description.airs:
+            prim = stage.OverridePrim(part_path(description.name, air.name))
+            UsdShade.MaterialBindingAPI.Apply(prim).Bind(particles)
+        wire = author_wire_material(stage, scope.AppendChild(WIRE))
+        latex = {mesh.name: materials[mesh.color] for mesh in description.meshes}
+        author_looks(stage, description, latex, wire)
 
 
-def materials_by_color(meshes: tuple[MeshDescription, ...]) -> dict[Color, str]:
+def materials_by_color(meshes: tuple[MeshDescription, ...], taken: tuple[str, ...] = ()) -> dict[Color, str]:
     """Material name of each colour: the first mesh of a colour names it, a taken name is numbered."""
     names: dict[Color, str] = {}
     for mesh in meshes:
         name, number = mesh.material, 2
-        while mesh.color not in names and name in names.values():
+        while mesh.color not in names and name in (*names.values(), *taken):
             name, number = f"{mesh.material}_{number}", number + 1
         names.setdefault(mesh.color, name)
     return names

@@ -10,7 +10,12 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from balloon_usd.stage.description import MeshDescription, StageDescription, StageFrame
+    from balloon_usd.stage.description import (
+        AirDescription,
+        MeshDescription,
+        StageDescription,
+        StageFrame,
+    )
 
 
 @dataclass(frozen=True)
@@ -28,10 +33,23 @@ class MeshPose:
 
 
 @dataclass(frozen=True)
+class AirPose:
+    """The air of one balloon at one time code."""
+
+    points: NDArray[np.float32]
+    """Positions (P, 3) [m]."""
+    extent: NDArray[np.float32]
+    """Smallest and largest corner of the drawn particles (2, 3) [m]."""
+    cluster: NDArray[np.int32]
+    """Bubble of each particle (P,)."""
+
+
+@dataclass(frozen=True)
 class Pose:
     """The whole sculpture at one time code."""
 
     meshes: tuple[MeshPose, ...]
+    airs: tuple[AirPose, ...]
     pressure: NDArray[np.float32]
     """Gauge pressure of each bubble (B,) [Pa]."""
     volume: NDArray[np.float32]
@@ -39,13 +57,14 @@ class Pose:
 
     @property
     def extent(self) -> NDArray[np.float32]:
-        """Smallest and largest corner of all meshes (2, 3) [m]."""
-        return union([mesh.extent for mesh in self.meshes])
+        """Smallest and largest corner of all meshes and particles (2, 3) [m]."""
+        return union([*(mesh.extent for mesh in self.meshes), *(air.extent for air in self.airs)])
 
     @property
     def size(self) -> int:
         """Memory of the arrays [B]."""
         arrays = [array for mesh in self.meshes for array in (mesh.points, mesh.stretch, mesh.pressure)]
+        arrays += [air.points for air in self.airs]
         return sum(array.nbytes for array in (*arrays, self.pressure, self.volume))
 
 
@@ -62,8 +81,18 @@ def pose_of(frame: StageFrame, description: StageDescription) -> Pose:
             )
             for mesh, points, stretch in meshes
         ),
+        airs=_air_poses(frame, description.airs),
         pressure=frame.pressure.copy(),
         volume=frame.volume.copy(),
+    )
+
+
+def _air_poses(frame: StageFrame, airs: tuple[AirDescription, ...]) -> tuple[AirPose, ...]:
+    if not airs:
+        return ()
+    return tuple(
+        AirPose(points.copy(), extent_of_balls(points, air.width), cluster.copy())
+        for air, points, cluster in zip(airs, frame.air, frame.cluster, strict=True)
     )
 
 
@@ -72,6 +101,12 @@ def extent_of(points: NDArray[np.float32]) -> NDArray[np.float32]:
     # NumPy reduces long rows about forty times as fast as a long narrow array's columns.
     rows = np.ascontiguousarray(points.T)
     return np.stack([rows.min(axis=1), rows.max(axis=1)])
+
+
+def extent_of_balls(points: NDArray[np.float32], width: float) -> NDArray[np.float32]:
+    """Smallest and largest corner (2, 3) of balls of one diameter at points (P, 3)."""
+    radius = np.float32(0.5 * width)
+    return extent_of(points) + np.stack([-radius, radius])[:, None]
 
 
 def union(extents: list[NDArray[np.float32]]) -> NDArray[np.float32]:

@@ -17,14 +17,14 @@ def class_path(name: str) -> Any:
     return Sdf.Path(f"/__class__/{name}")
 
 
-def meshes_path(name: str) -> Any:
-    """Path of the scope that holds the meshes."""
+def parts_path(name: str) -> Any:
+    """Path of the scope that holds the meshes and the air."""
     return Sdf.Path(f"/{name}/geo/render")
 
 
-def mesh_path(name: str, mesh: str) -> Any:
-    """Path of one balloon's mesh."""
-    return meshes_path(name).AppendChild(mesh)
+def part_path(name: str, part: str) -> Any:
+    """Path of one balloon's mesh or air."""
+    return parts_path(name).AppendChild(part)
 
 
 def materials_path(name: str) -> Any:

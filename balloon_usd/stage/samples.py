@@ -7,12 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 from pxr import Sdf
 
-from balloon_usd.stage.animated import ON_MESH, ON_ROOT, STEP
+from balloon_usd.stage.animated import STEP
 from balloon_usd.stage.error import StageError, writing
 from balloon_usd.stage.frame_check import check_frame
+from balloon_usd.stage.held import HeldSamples
 from balloon_usd.stage.layer_metadata import set_time_range
 from balloon_usd.stage.pose import Pose, pose_of, union
-from balloon_usd.stage.prim_paths import mesh_path, root_path
+from balloon_usd.stage.prim_paths import part_path, root_path
+from balloon_usd.stage.tracks import Tracks
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -58,7 +60,8 @@ class SampleStream:
         self.layer = layer
         self._description = description
         self._target = target
-        self._tracks = _declare(layer, description)
+        self._tracks = Tracks.declare(layer, description)
+        self._held = [HeldSamples(layer, part_path(description.name, air.name)) for air in description.airs]
         self._take: Take | None = None
         self._unsaved = 0
 
@@ -70,7 +73,9 @@ class SampleStream:
         """
         check_frame(frame, self._description, self._take.last + 1 if self._take else None)
         pose = pose_of(frame, self._description)
-        _write(self.layer, self._tracks, frame.time_code, pose)
+        self._tracks.sample(self.layer, frame.time_code, pose)
+        for held, air in zip(self._held, pose.airs, strict=True):
+            held.write(frame.time_code, air.cluster)
         self._take = _longer(self._take, frame.time_code, pose)
         self._unsaved += pose.size
         if self._unsaved >= SAVE_BYTES:
@@ -90,27 +95,6 @@ class SampleStream:
         _write_steps(self.layer, self._description, take)
         set_time_range(self.layer, self._description.fps, take.first, take.last)
         return take
-
-
-def _declare(layer: Any, description: StageDescription) -> list[tuple[Any, ...]]:
-    """Create the moving attributes: the paths of the meshes' in order, then those of the root's."""
-    paths = []
-    for mesh in description.meshes:
-        prim = Sdf.CreatePrimInLayer(layer, mesh_path(description.name, mesh.name))
-        paths.append(tuple(Sdf.AttributeSpec(prim, a.name, a.type_name).path for a in ON_MESH))
-    root = layer.GetPrimAtPath(root_path(description.name))
-    custom = {"variability": Sdf.VariabilityVarying, "declaresCustom": True}
-    paths.append(tuple(Sdf.AttributeSpec(root, a.name, a.type_name, **custom).path for a in ON_ROOT))
-    return paths
-
-
-def _write(layer: Any, tracks: list[tuple[Any, ...]], time_code: int, pose: Pose) -> None:
-    """Set one sample of every attribute."""
-    for paths, mesh in zip(tracks[:-1], pose.meshes, strict=True):
-        for path, on_mesh in zip(paths, ON_MESH, strict=True):
-            layer.SetTimeSample(path, time_code, on_mesh.read(mesh))
-    for path, on_root in zip(tracks[-1], ON_ROOT, strict=True):
-        layer.SetTimeSample(path, time_code, on_root.read(pose))
 
 
 def _longer(take: Take | None, time_code: int, pose: Pose) -> Take:

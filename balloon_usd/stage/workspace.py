@@ -11,6 +11,7 @@ from balloon_usd.stage.error import writing
 from balloon_usd.stage.lock import hold, is_held
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
     from types import TracebackType
 
 SUFFIX = ".writing"
@@ -46,13 +47,15 @@ class Workspace:
         """Where the asset is built: a path that does not exist at first."""
         return self._folder / self._place.name
 
-    def publish(self) -> None:
-        """Give the built asset its final name; raises `StageError` when that fails.
+    def publish(self, beside: Iterable[str] = ()) -> None:
+        """Give the built asset its final name, and before that those built beside it; raises `StageError`.
 
         A file is replaced in one step. A folder takes two renames: a run killed between them
         leaves the earlier asset in the hidden folder, and the next run puts it back.
         """
         with writing(self.final):
+            for name in beside:
+                self.built.with_name(name).replace(self._place.with_name(name))
             if self.built.is_dir() and self._place.is_dir():
                 self.built.chmod(self._place.stat().st_mode)
                 (self._folder / PREVIOUS).mkdir()

@@ -13,7 +13,7 @@ from balloon_usd.stage.asset import begin_asset, complete_asset
 from balloon_usd.stage.description import require_identifier
 from balloon_usd.stage.earlier import MATERIALS
 from balloon_usd.stage.error import StageError, writing
-from balloon_usd.stage.flat import begin_flat, complete_flat
+from balloon_usd.stage.flat import begin_flat, complete_flat, files_beside
 from balloon_usd.stage.properties import one_sample_per_time_code, opens_whole
 from balloon_usd.stage.samples import SampleStream
 from balloon_usd.stage.workspace import Workspace
@@ -65,6 +65,9 @@ class StageWriter:
         if self._final.exists() and self._final.is_dir() == flat:
             in_the_way = "folder" if flat else "file"
             raise StageError(f"{self._final} could not be written: a {in_the_way} is in the way")
+        for beside in (self._final.with_name(name) for name in (files_beside(description) if flat else ())):
+            if beside.is_dir():
+                raise StageError(f"{beside} could not be written: a folder is in the way")
         self._work = Workspace(self._final)
 
     def __enter__(self) -> Self:
@@ -88,8 +91,9 @@ class StageWriter:
         built = complete(self._stream.layer, take, self._description, self._detail, self._work)
         del self._stream
         _verify(self._work.built / built.files[0])
-        self._work.publish()
-        files = tuple(self._final / file for file in built.files)
+        self._work.publish(built.beside)
+        beside = tuple(self._final.with_name(name) for name in built.beside)
+        files = (*(self._final / file for file in built.files), *beside)
         _refresh(files)
         low, high = ((float(x), float(y), float(z)) for x, y, z in take.extent)
         return WrittenStage(files, take.frames, (low, high), built.stale)
@@ -113,6 +117,8 @@ def write_stage(
 
     Memory does not grow with the number of frames. Until the last file is whole nothing stands under the
     final name, and what stood there before stays. Other details of the same recipe stay as variants.
+    Where there is air, the one file takes along the texture of the wire, `folder/wire.png`, which is the
+    same for every sculpture.
 
     Raises:
         StageError: The folder cannot be written, the disk is full, or a frame is not right.

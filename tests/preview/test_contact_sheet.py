@@ -1,11 +1,15 @@
 from __future__ import annotations
 
+import errno
+from concurrent.futures import ThreadPoolExecutor
+
 import numpy as np
 import pytest
 from PIL import Image
 from pxr import Gf, Usd, UsdGeom, Vt
 
-from balloon_usd.preview import PreviewError, draw_contact_sheet, spread_moments
+from balloon_usd.preview import PictureNotWrittenError, PreviewError, draw_contact_sheet, spread_moments
+from balloon_usd.preview.png_file import write_png
 
 SMALL = (96, 64)
 
@@ -63,6 +67,78 @@ def test_moments_differ(stage_path, tmp_path):
         pixels = np.asarray(image).astype(int)
     left, right = pixels[70:134, 24:120], pixels[70:134, 134:230]
     assert np.abs(left - right).max() > 50
+
+
+def picture_of(sheet, size=SMALL):
+    """The first picture on a sheet."""
+    with Image.open(sheet) as image:
+        return np.asarray(image).astype(int)[70 : 70 + size[1], 24 : 24 + size[0]]
+
+
+def test_a_sheet_shows_the_look_of_the_stage_or_the_one_asked_for(springs, tmp_path):
+    own, thesis, latex = (
+        picture_of(
+            draw_contact_sheet(
+                springs, tmp_path / f"{look}.png", frames=(8,), size=SMALL, look=look, device="cpu"
+            )
+        )
+        for look in (None, "thesis", "latex")
+    )
+    assert np.array_equal(own, thesis)
+    is_red = latex[..., 0] > latex[..., 1] + 80
+    is_blue = own[..., 2] > own[..., 0] + 40
+    assert is_red.mean() > 0.15
+    assert is_blue.any()
+    assert not (latex[..., 2] > latex[..., 0] + 40).any()
+    assert not (own[..., 0] > own[..., 1] + 150).any()
+
+
+def test_clusters_change_colour_with_the_frames(springs, tmp_path):
+    size = (240, 160)
+    green = []
+    for time in (4, 5):
+        sheet = draw_contact_sheet(springs, tmp_path / "x.png", frames=(time,), size=size, device="cpu")
+        picture = picture_of(sheet, size)
+        green.append(bool((picture[..., 1] > picture[..., [0, 2]].max(axis=2) + 25).any()))
+    assert green == [False, True]
+
+
+def test_a_look_that_is_not_there_draws_nothing(stage_path, tmp_path):
+    with pytest.raises(PreviewError, match='has no look "thesis"'):
+        draw_contact_sheet(stage_path, tmp_path / "x.png", look="thesis", device="cpu")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_place_that_cannot_be_is_told_before_the_stage_is_read(tmp_path):
+    (tmp_path / "taken.png").mkdir()
+    for path, words in (
+        (tmp_path / "taken.png", r"taken.png cannot be written: a folder is in the way"),
+        (tmp_path / "no" / "x.png", r"x.png cannot be written: .*no is not a folder"),
+    ):
+        with pytest.raises(PreviewError, match=words):
+            draw_contact_sheet(tmp_path / "no_stage.usda", path)
+
+
+def test_two_runs_at_once_do_not_fight_over_one_sheet(tmp_path):
+    size = (400, 400)
+    images = [Image.effect_noise(size, sigma) for sigma in (40, 90)]
+    with ThreadPoolExecutor(max_workers=8) as pool:
+        jobs = [pool.submit(write_png, images[number % 2], tmp_path / "sheet.png") for number in range(32)]
+        for job in jobs:
+            job.result()
+    assert [path.name for path in tmp_path.iterdir()] == ["sheet.png"]
+    with Image.open(tmp_path / "sheet.png") as found:
+        assert any(np.array_equal(found, image) for image in images)
+
+
+def test_a_picture_that_cannot_be_written_is_another_error_and_leaves_nothing(tmp_path, monkeypatch):
+    def full(*_):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr("pathlib.Path.replace", full)
+    with pytest.raises(PictureNotWrittenError, match=r"sheet.png cannot be written: No space left on device"):
+        write_png(Image.new("RGB", (4, 4)), tmp_path / "sheet.png")
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_sheet_that_cannot_be_written_leaves_nothing(stage_path, tmp_path):

@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from balloon_usd.preview import PreviewError, Raycaster, quad_surface, render_mesh, render_meshes
+from balloon_usd.preview import Particles, PreviewError, Raycaster, quad_surface, render_mesh, render_meshes
 
 RED = (0.60, 0.012, 0.018)
 BLUE = (0.02, 0.10, 0.55)
@@ -97,4 +97,58 @@ def test_points_that_are_not_finite_are_refused(dog):
     points = dog[0].copy()
     points[7, 1] = np.nan
     with pytest.raises(PreviewError, match="not finite"):
+        render_mesh(points, dog[1], RED, device="cpu")
+
+
+def balls(*centres, radius=0.01):
+    count = len(centres)
+    colors = np.tile(np.float32(BLUE), (count, 1))
+    return Particles(np.float32(centres).reshape(-1, 3), np.full(count, radius, dtype=np.float32), colors)
+
+
+def is_blue(picture):
+    return picture[..., 2].astype(int) > picture[..., 0].astype(int) + 60
+
+
+@pytest.fixture(scope="module")
+def caster(chain):
+    return Raycaster([quad_surface(chain[1])], [RED], device="cpu")
+
+
+def test_particles_are_drawn_as_balls_in_front_of_the_rubber(chain, caster):
+    shot = caster.shoot([chain[0]], "side", (360, 240), balls((0.1, -0.05, 0.0)))
+    rows, columns = np.nonzero(is_blue(shot.picture))
+    assert abs(np.ptp(rows) - np.ptp(columns)) <= 2
+    assert np.ptp(columns) * shot.metres_per_pixel == pytest.approx(0.02, rel=0.2)
+
+
+def test_rubber_hides_the_particles_in_it(chain, caster):
+    plain = caster.shoot([chain[0]], "side", SMALL)
+    hidden = caster.shoot([chain[0]], "side", SMALL, balls((0.1, 0.0, 0.0)))
+    assert np.array_equal(plain.picture, hidden.picture)
+
+
+def test_no_particles_change_nothing(chain, caster):
+    plain = caster.shoot([chain[0]], "side", SMALL)
+    assert np.array_equal(caster.shoot([chain[0]], "side", SMALL, Particles.none()).picture, plain.picture)
+
+
+def test_the_frame_holds_all_particles(chain, caster):
+    near = caster.shoot([chain[0]], "side", SMALL)
+    far = caster.shoot([chain[0]], "side", SMALL, balls((0.9, 0.0, 0.0)))
+    assert far.metres_per_pixel > 1.5 * near.metres_per_pixel
+    assert is_blue(far.picture).any()
+
+
+def test_a_ball_casts_a_shadow(chain, caster):
+    picture = caster.shoot([chain[0]], "side", (360, 240), balls((0.2, -0.1, 0.0), radius=0.02)).picture
+    rows, columns = np.nonzero(is_blue(picture))
+    below = picture[rows.max() + 3].astype(int).sum(axis=1)
+    assert below[int(columns.mean())] < below[-20] - 30
+
+
+def test_points_out_of_all_reach_are_refused(dog):
+    points = dog[0].copy()
+    points[7, 1] = 1e30
+    with pytest.raises(PreviewError, match="farther than 100000 m"):
         render_mesh(points, dog[1], RED, device="cpu")

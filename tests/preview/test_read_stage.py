@@ -26,6 +26,16 @@ def add_cube(stage, path="/toy/cube", points=CUBE):
     return mesh
 
 
+def add_points(stage, path="/toy/air", points=((0, 0, 0), (1, 2, 3)), widths=(0.5,), colors=None):
+    cloud = UsdGeom.Points.Define(stage, path)
+    cloud.CreatePointsAttr([Gf.Vec3f(*point) for point in points])
+    if widths:
+        cloud.CreateWidthsAttr(list(widths))
+    if colors:
+        cloud.CreateDisplayColorPrimvar("vertex").Set([Gf.Vec3f(*color) for color in colors])
+    return cloud
+
+
 def paint(stage, prim, name, color):
     material = UsdShade.Material.Define(stage, f"/toy/{name}")
     shader = UsdShade.Shader.Define(stage, f"/toy/{name}/preview")
@@ -143,3 +153,148 @@ def test_faces_that_name_missing_points_are_refused(save):
     add_cube(stage, points=CUBE[:7])
     with pytest.raises(PreviewError, match="/toy/cube has too few points"):
         read_stage(save(stage)).points(1)
+
+
+def test_particles_are_read_in_metres_with_z_up(save):
+    stage = new_stage("Y", 0.01)
+    add_cube(stage)
+    add_points(stage, colors=((1, 0, 0), (0, 0, 1)))
+    particles = read_stage(save(stage)).particles(1)
+    assert np.allclose(particles.centres, [[0, 0, 0], [0.01, -0.03, 0.02]])
+    assert np.allclose(particles.radii, 0.0025)
+    assert particles.colors.tolist() == [[1, 0, 0], [0, 0, 1]]
+
+
+def test_particles_grow_with_what_they_stand_in(save):
+    stage = new_stage()
+    add_cube(stage)
+    add_points(stage, widths=(0.5, 1.0))
+    UsdGeom.Xformable(stage.GetPrimAtPath("/toy")).AddScaleOp().Set(Gf.Vec3f(3, 3, 3))
+    particles = read_stage(save(stage)).particles(1)
+    assert np.allclose(particles.centres[1], [3, 6, 9])
+    assert np.allclose(particles.radii, [0.75, 1.5])
+
+
+def test_particles_follow_their_time_samples_and_may_come_and_go(save):
+    stage = new_stage()
+    add_cube(stage)
+    cloud = add_points(stage)
+    cloud.GetPointsAttr().Set([], 1)
+    cloud.GetPointsAttr().Set([Gf.Vec3f(4, 0, 0)], 2)
+    scene = read_stage(save(stage))
+    assert len(scene.particles(1).radii) == 0
+    assert scene.particles(2).centres.tolist() == [[4, 0, 0]]
+
+
+def test_particles_without_widths_and_colours_get_some(save):
+    stage = new_stage()
+    add_cube(stage)
+    add_points(stage, widths=())
+    particles = read_stage(save(stage)).particles(1)
+    assert (particles.radii > 0).all()
+    assert particles.radii.max() < 0.1
+    assert particles.colors.shape == (2, 3)
+
+
+def test_hidden_particles_are_not_drawn(save):
+    stage = new_stage()
+    add_cube(stage)
+    add_points(stage).MakeInvisible()
+    add_points(stage, "/toy/hint").CreatePurposeAttr("guide")
+    scene = read_stage(save(stage))
+    assert scene.clouds == ()
+    assert len(scene.particles(1).radii) == 0
+
+
+def test_a_stage_is_read_in_its_own_look_or_the_one_asked_for(springs):
+    own, latex = read_stage(springs), read_stage(springs, "latex")
+    assert (own.look, len(own.clouds), len(own.particles(3).radii)) == ("thesis", 1, 108)
+    assert (latex.look, latex.clouds) == ("latex", ())
+    assert np.allclose(own.meshes[0].colors[0], [0.871, 0.216, 0.005])
+    assert np.allclose(latex.meshes[0].colors[0], [0.8, 0.05, 0.08])
+    assert read_stage(springs).look == "thesis"
+
+
+def test_a_look_that_is_not_there_is_refused_with_those_that_are(springs, save):
+    with pytest.raises(PreviewError, match=r'has no look "wood", only latex, thesis$'):
+        read_stage(springs, "wood")
+    stage = new_stage()
+    add_cube(stage)
+    assert read_stage(save(stage)).look == ""
+    with pytest.raises(PreviewError, match=r'toy.usda has no look "latex", nor any other$'):
+        read_stage(save(stage), "latex")
+
+
+def rate(value):
+    return lambda stage, _: stage.SetTimeCodesPerSecond(value)
+
+
+def counts(*values):
+    return lambda _, cube: cube.GetFaceVertexCountsAttr().Set(list(values))
+
+
+def corners(*values):
+    return lambda _, cube: cube.GetFaceVertexIndicesAttr().Set([*QUADS.ravel().tolist()[:20], *values])
+
+
+def colors(interpolation, count):
+    return lambda _, cube: cube.CreateDisplayColorPrimvar(interpolation).Set([Gf.Vec3f(1, 0, 0)] * count)
+
+
+def subset_of(*faces):
+    def bind(stage, cube):
+        subset = UsdShade.MaterialBindingAPI.Apply(cube.GetPrim()).CreateMaterialBindSubset(
+            "lid", list(faces)
+        )
+        paint(stage, subset.GetPrim(), "green", (0, 1, 0))
+
+    return bind
+
+
+@pytest.mark.parametrize(
+    ("spoil", "words"),
+    [
+        (rate(0), "toy.usda has 0 time codes per second"),
+        (rate(-24), "toy.usda has -24 time codes per second"),
+        (rate(float("nan")), "toy.usda has nan time codes per second"),
+        (lambda stage, _: stage.SetEndTimeCode(float("inf")), "toy.usda has the time codes 0 to inf"),
+        (counts(4, 4, 4, 4, 4, -4), "/toy/cube has a face with -4 corners"),
+        (counts(4, 4, 4, 4, 4, 2, 2), "/toy/cube has a face with 2 corners"),
+        (counts(4, 4), "/toy/cube has 24 corners but its faces need 8"),
+        (corners(1, 1, 1, 1), "/toy/cube has a face with fewer than 3 different corners, number 5"),
+        (corners(1, 3, 1, 3), "/toy/cube has a face with fewer than 3 different corners, number 5"),
+        (corners(1, 3, -1, 2), "/toy/cube has a face with vertex -1"),
+        (colors("vertex", 5), "/toy/cube has 5 colours, but needs 8"),
+        (colors("uniform", 5), "/toy/cube has 5 colours, but needs 6"),
+        (colors("faceVarying", 23), "/toy/cube has 23 colours, but needs 24"),
+        (subset_of(0, 6), "/toy/cube/lid names faces that its mesh has not"),
+    ],
+)
+def test_a_stage_that_is_not_right_is_refused_in_one_line(spoil, words, save):
+    stage = new_stage()
+    spoil(stage, add_cube(stage))
+    with pytest.raises(PreviewError) as caught:
+        read_stage(save(stage))
+    assert str(caught.value).endswith(words)
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"widths": (1.0, 1.0, 1.0)}, "/toy/air has 3 widths for 2 points at time code 1"),
+        ({"colors": ((1, 0, 0),) * 3}, "/toy/air has 3 colours for 2 points at time code 1"),
+    ],
+)
+def test_particles_that_are_not_right_are_refused_in_one_line(given, words, save):
+    stage = new_stage()
+    add_cube(stage)
+    add_points(stage, **given)
+    with pytest.raises(PreviewError, match=words):
+        read_stage(save(stage)).particles(1)
+
+
+def test_an_end_before_the_start_is_no_trouble(save):
+    stage = new_stage()
+    add_cube(stage)
+    stage.SetStartTimeCode(5)
+    assert (read_stage(save(stage)).start, read_stage(save(stage)).end) == (5, 5)

@@ -12,7 +12,7 @@ from balloon_usd.recipe import Recipe, RecipeError
 
 SHIPPED = [
     path.read_text(encoding="utf-8")
-    for path in sorted((Path(__file__).parents[2] / "recipes").glob("*.yaml"))
+    for path in sorted((Path(__file__).parents[2] / "recipes").rglob("*.yaml"))
 ]
 EXAMPLES = settings(deadline=None, max_examples=150)
 
@@ -82,6 +82,9 @@ SNIPPETS = st.sampled_from(
             "ear",
             "rest",
             "bend",
+            "push",
+            "kosaka",
+            "capsule",
             "wait",
             "joints",
             "balloon",
@@ -180,7 +183,20 @@ VALUES = st.recursive(
         st.lists(inner, max_size=4),
         st.dictionaries(
             st.sampled_from(
-                ["bubbles", "lock", "bend", "rest", "wait", "joints", "nose", "size", "tail", "color", "x"]
+                [
+                    "bubbles",
+                    "lock",
+                    "bend",
+                    "rest",
+                    "push",
+                    "wait",
+                    "joints",
+                    "nose",
+                    "size",
+                    "tail",
+                    "color",
+                    "x",
+                ]
             ),
             inner,
             max_size=4,

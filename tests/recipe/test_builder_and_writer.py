@@ -13,9 +13,9 @@ from pydantic import ValidationError
 
 from balloon_usd.recipe import LATEX_COLORS, Balloon, Joint, Recipe, RecipeBuilder, RecipeError, Step
 from balloon_usd.recipe.quantities import METRES, angle_entry, length_entry, metres, radians
-from balloon_usd.recipe.steps import KINDS
+from balloon_usd.recipe.steps import KINDS, PushedBubble
 
-RECIPES = sorted((Path(__file__).parents[2] / "recipes").glob("*.yaml"))
+RECIPES = sorted((Path(__file__).parents[2] / "recipes").rglob("*.yaml"))
 EXAMPLES = settings(deadline=None, max_examples=120)
 
 DOG = """\
@@ -56,6 +56,8 @@ def full() -> RecipeBuilder:
         .lock(joints=["a.start", "d.end"], seconds=2, note="cross over")
         .rest("one_end", balloon="one", seconds=1)
         .bend(a=60, b="0.3 rad", point="forward", seconds=1.5)
+        .push("b", at="1 in", depth=0.012, point="down", balloon="one", seconds=2, note="poke")
+        .push("two_rest", force="500 mN")
         .wait(2, note="look")
         .physics(rubber="gent", softening=False, gravity=9.81)
         .physics(substeps=100)
@@ -84,7 +86,9 @@ def test_the_builder_knows_every_operation_and_manner() -> None:
     assert recipe.steps[3].note == "5"
     assert recipe.steps[5].joints == (Joint("a", "start"), Joint("d", "end"))
     assert recipe.steps[7].bend == {"a": math.radians(60), "b": 0.3}
-    assert recipe.steps[8].wait == 2.0
+    assert recipe.steps[8].push == PushedBubble(bubble="b", at=0.0254, depth=0.012)
+    assert recipe.steps[9].push == PushedBubble(bubble="two_rest", force=0.5)
+    assert recipe.steps[10].wait == 2.0
     assert (recipe.physics.rubber, recipe.physics.softening, recipe.physics.substeps) == ("gent", False, 100)
 
 
@@ -127,13 +131,37 @@ def test_the_builder_refuses_what_a_file_refuses(wrong: RecipeBuilder, message: 
     assert message in str(caught.value)
 
 
-@pytest.mark.parametrize("path", RECIPES, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", RECIPES, ids=lambda path: f"{path.parent.name}/{path.stem}")
 def test_a_shipped_recipe_reads_back_equal_from_its_own_text(path: Path) -> None:
     recipe = Recipe.load(path)
     written = recipe.to_yaml()
     assert Recipe.parse(written) == recipe
     assert Recipe.parse(written).to_yaml() == written
     assert recipe.name == path.stem
+
+
+def test_a_builder_writes_the_constants_of_the_particle_model_in_its_units() -> None:
+    builder = (
+        RecipeBuilder("air", units="mm")
+        .balloon("main", size=260, capsule=0.2)
+        .wait(1)
+        .physics(model="kosaka", kosaka={"ks": 20000.0, "gamma": 0.001, "re": "1 cm"})
+    )
+    recipe = builder.build()
+    assert 'kosaka: {ks: 20000, gamma: 1, re: "1 cm"}' in builder.to_yaml()
+    assert "kosaka: {ks: 20000, gamma: 1, re: 10}" in recipe.to_yaml()
+    assert (recipe.physics.kosaka.gamma, recipe.physics.kosaka.re) == (0.001, 0.01)
+    assert recipe.balloons["main"].capsule == 0.2
+    assert Recipe.parse(recipe.to_yaml()) == recipe
+
+
+@given(force=st.floats(1e-6, 100.0))
+@EXAMPLES
+def test_a_written_force_reads_back_bit_for_bit(force: float) -> None:
+    builder = RecipeBuilder("f").balloon("main", size=260, tail=0.1).push("main_rest", force=force)
+    again = Recipe.parse(builder.build().to_yaml()).steps[0].push
+    assert again is not None
+    assert again.force == force
 
 
 def test_a_recipe_made_of_models_is_checked_and_written_in_metres() -> None:

@@ -7,6 +7,7 @@ import math
 import pytest
 
 from balloon_usd.recipe import LATEX_COLORS, Joint, LockJoints, Recipe
+from balloon_usd.recipe.kosaka import Kosaka
 from balloon_usd.recipe.scalars import plain_scalar
 from balloon_usd.recipe.steps import KINDS, MANNERS
 
@@ -99,6 +100,7 @@ OPERATIONS = {
     "ear": "{x: 1}",
     "rest": "x",
     "bend": "{a: 60}",
+    "push": "{bubble: a, depth: 1}",
     "wait": "1",
 }
 
@@ -217,6 +219,7 @@ def test_the_physics_block_is_read() -> None:
         "burst": "stop",
         "hold": 0.0,
         "mass_scaling": "none",
+        "kosaka": Kosaka().model_dump(),
     }
 
 

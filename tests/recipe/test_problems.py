@@ -103,7 +103,7 @@ ONE_STEP = [
     (
         "{note: x}",
         5,
-        "steps[0]: no operation, expected one of bubbles, lock, loop, fold, ear, rest, bend, wait",
+        "steps[0]: no operation, expected one of bubbles, lock, loop, fold, ear, rest, bend, push, wait",
     ),
 ]
 
@@ -192,7 +192,7 @@ BALLOON = [
         "size: 260, inflated: 5",
         "inflated",
         31,
-        "stands beside tail, expected exactly one of tail, inflated",
+        "stands beside tail, expected exactly one of tail, inflated, capsule",
     ),
     ("size: 260, colour: red", "colour", 29, 'unknown key "colour", did you mean "color"?'),
 ]
@@ -212,7 +212,11 @@ def test_a_wrong_balloon_entry_is_found_at_its_place(
 @pytest.mark.parametrize(
     ("entry", "column", "message"),
     [
-        ("{size: 260}", 3, "balloons.m: does not say how far it is blown up, expected one of tail, inflated"),
+        (
+            "{size: 260}",
+            3,
+            "balloons.m: does not say how far it is blown up, expected one of tail, inflated, capsule",
+        ),
         ("{tail: 1}", 3, "balloons.m.size: is missing, expected the size of the balloon, such as 260"),
         (
             "{size: 260, tail: -1}",
@@ -236,7 +240,7 @@ PHYSICS = [
     ("gravity: -1", "-1 is out of range, expected 0 to 100 m/s2, the nearest is 0"),
     ("friction: 4", "4 is out of range, expected 0 to 3, the nearest is 3"),
     ("friction: .inf", "inf is out of range, expected 0 to 3, the nearest is 0"),
-    ("model: kosaka", 'unknown model "kosaka", expected latex'),
+    ("model: kosak", 'unknown model "kosak", did you mean "kosaka"?'),
     ("burst: never", 'unknown burst "never", expected one of report, stop'),
     ("hold: 61", "61 is out of range, expected 0 to 60 s, the nearest is 60"),
     ("mass_scaling: x", 'unknown mass_scaling "x", expected one of selective, none'),
@@ -306,7 +310,7 @@ def test_missing_keys_are_named_with_an_example() -> None:
         " tail: 10}}",
         "dog.yaml:1:1: steps: is missing, expected a list of steps, each with one of bubbles, lock,"
         " loop, fold,"
-        " ear, rest, bend, wait",
+        " ear, rest, bend, push, wait",
     ]
 
 
@@ -456,7 +460,7 @@ def test_the_ends_of_a_loop_fold_or_ear_are_already_one(kind: str) -> None:
 
 def test_bending_an_unknown_bubble_is_refused() -> None:
     assert messages(HEAD + "  - bend: {neck: 60}\n") == [
-        'dog.yaml:7:18: steps[0].bend.neck: unknown bubble "neck", there is none yet'
+        'dog.yaml:7:18: steps[0].bend.neck: unknown bubble "neck", expected main_rest'
     ]
 
 

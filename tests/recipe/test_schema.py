@@ -11,10 +11,11 @@ from typing import Any, cast
 import pytest
 
 from balloon_usd.recipe import Balloon, Physics, Recipe, RecipeError, Step, recipe_schema
-from balloon_usd.recipe.steps import KINDS
+from balloon_usd.recipe.kosaka import Kosaka
+from balloon_usd.recipe.steps import KINDS, PushedBubble
 from balloon_usd.recipe.yaml_reader import read_yaml
 
-RECIPES = sorted((Path(__file__).parents[2] / "recipes").glob("*.yaml"))
+RECIPES = sorted((Path(__file__).parents[2] / "recipes").rglob("*.yaml"))
 SCHEMA = recipe_schema()
 HEAD = "format: 1\nname: dog\nunits: cm\nballoons:\n  main: {size: 260, tail: 10}\nsteps:\n"
 ABC = "  - bubbles: {a: 10, b: 5, c: 4 in}\n"
@@ -95,7 +96,7 @@ def test_there_are_shipped_recipes() -> None:
     assert len(RECIPES) >= 6
 
 
-@pytest.mark.parametrize("path", RECIPES, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", RECIPES, ids=lambda path: f"{path.parent.name}/{path.stem}")
 def test_the_schema_accepts_a_shipped_recipe(path: Path) -> None:
     assert accepts(SCHEMA, plain(path.read_text(encoding="utf-8")))
 
@@ -105,15 +106,29 @@ EVERYTHING = (
     "balloons:\n  m: {size: '160', color: [0, 0.5, 1], inflated: 30 cm, radius: 5 mm, length: 1 m, thickness: 0.2 mm}\n"
     "steps:\n  - bubbles: {a: 4, b: '4\"', c: 5}\n    balloon: m\n    turns: 2.5\n    seconds: 1\n    note: n\n"
     "  - loop: {d: 8}\n    point: up\n  - fold: {e: 8}\n  - ear: {f: 1.5}\n  - lock: [a, b]\n"
-    "  - lock: {joints: [b.start, c.end]}\n  - rest: g\n  - bend: {g: 60 deg, a: 30}\n  - wait: 1\n"
+    "  - lock: {joints: [b.start, c.end]}\n  - rest: g\n  - bend: {g: 60 deg, a: 30}\n"
+    "  - push: {bubble: a, at: 2, depth: 1 cm}\n  - push: {bubble: g, force: 2 N}\n  - wait: 1\n"
     "physics: {model: latex, rubber: gent, softening: false, gravity: 9.8, friction: 1, substeps: 40, burst: stop,"
     " hold: 1, mass_scaling: none}\n"
 )
 
 
-def test_the_schema_and_the_reader_accept_a_recipe_with_every_key() -> None:
-    assert Recipe.parse(EVERYTHING).steps[-1].kind == "wait"
-    assert accepts(SCHEMA, plain(EVERYTHING))
+AIR = (
+    "format: 1\nname: air\nunits: cm\nballoons: {main: {size: 260, capsule: 20}}\nsteps: [wait: 1]\n"
+    "physics: {model: kosaka, kosaka: {swell: 0.1, natural: 0.5, ks: 1e5, kd: 1, alpha: 1, beta: 1, push: 1, gamma: 0.1,"
+    " re: 1, air_offset: 1, contact_offset: 2 mm, leak_offset: 1, spacing: 0.7, drag: 0, force_limit: 10,"
+    " elongation_limit: 1}}\n"
+)
+
+
+@pytest.mark.parametrize("text", [EVERYTHING, AIR], ids=["latex", "kosaka"])
+def test_the_schema_and_the_reader_accept_a_recipe_with_every_key(text: str) -> None:
+    assert Recipe.parse(text).steps[-1].kind == "wait"
+    assert accepts(SCHEMA, plain(text))
+
+
+def test_these_recipes_try_every_constant_of_the_particle_model() -> None:
+    assert Recipe.parse(AIR).physics.kosaka.model_fields_set == set(Kosaka.model_fields)
 
 
 WRONG = [
@@ -139,6 +154,15 @@ WRONG = [
     HEAD + "  - bubbles: {a: 1}\n    turns: 2.3\n",
     HEAD + "  - loop: {a: 1}\n    point: sideways\n",
     HEAD + "  - wait: 0.1\n",
+    HEAD + ABC + "  - push: {depth: 1}\n",
+    HEAD + ABC + "  - push: {bubble: a, depth: 0}\n",
+    HEAD + ABC + "  - push: {bubble: a, force: 2 kN}\n",
+    HEAD + ABC + "  - push: {bubble: a, force: 101}\n",
+    HEAD + ABC + "  - push: {bubble: a, depth: 1, deep: 2}\n",
+    HEAD + ABC + "physics: {model: springs}\n",
+    HEAD + ABC + "physics: {model: kosaka, kosaka: {ks: 0}}\n",
+    HEAD + ABC + "physics: {model: kosaka, kosaka: {re: 1 yd}}\n",
+    HEAD + ABC + "physics: {model: kosaka, kosaka: {kss: 2}}\n",
     HEAD + ABC + "physics: {rubber: gum}\n",
     HEAD + ABC + "physics: {softening: on}\n",
     HEAD + ABC + "physics: {substeps: 20.5}\n",
@@ -161,6 +185,8 @@ def test_the_schema_and_the_reader_refuse_the_same_slips(text: str) -> None:
         (SCHEMA["$defs"]["Balloon"], Balloon),
         (SCHEMA["$defs"]["Step"], Step),
         (SCHEMA["$defs"]["Physics"], Physics),
+        (SCHEMA["$defs"]["Kosaka"], Kosaka),
+        (SCHEMA["$defs"]["PushedBubble"], PushedBubble),
     ],
 )
 def test_the_schema_describes_every_key_and_forbids_others(found: dict[str, Any], model: type) -> None:

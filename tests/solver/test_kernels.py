@@ -14,8 +14,8 @@ from balloon_usd.balloon.rubber import rubber_named
 from balloon_usd.balloon.sizes import size_named
 from balloon_usd.balloon.tube_mesh import tube_mesh
 from balloon_usd.solver import kernels
-from balloon_usd.solver.body import tube_body
-from balloon_usd.solver.scene import build_scene
+from balloon_usd.solver.latex.body import tube_body
+from balloon_usd.solver.latex.scene import build_scene
 from balloon_usd.solver.settings import SceneSettings
 
 CHANGING = {"dt", "fraction", "frame_seconds", "air", "touch", "grid"}

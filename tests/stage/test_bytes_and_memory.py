@@ -7,6 +7,7 @@ import pytest
 
 from balloon_usd.stage import write_stage
 from balloon_usd.stage.properties import same_bytes
+from tests.stage.capsule import Capsule
 from tests.stage.tubes import frames, sculpture
 
 if TYPE_CHECKING:
@@ -41,6 +42,16 @@ def test_two_runs_give_the_same_bytes(flat: bool, tmp_path: Path, child: Child) 
         assert list(same_bytes(tmp_path / "here", there)) == []
 
 
+@pytest.mark.parametrize("flat", [False, True])
+def test_two_runs_with_air_give_the_same_bytes(flat: bool, tmp_path: Path, child: Child) -> None:
+    code = 'write_stage(Capsule().describe(), Capsule().frames(9), os.environ["OUT"], flat=bool(os.environ["FLAT"]))'
+    write_stage(Capsule().describe(), Capsule().frames(9), tmp_path / "here", flat=flat)
+    process = child(code, OUT=str(tmp_path / "there"), FLAT="1" if flat else "", PYTHONHASHSEED="3")
+    _, errors = process.communicate()
+    assert process.returncode == 0, errors
+    assert list(same_bytes(tmp_path / "here", tmp_path / "there")) == []
+
+
 def test_one_point_that_moves_otherwise_changes_one_file(tmp_path: Path) -> None:
     write_stage(sculpture(), frames(4), tmp_path / "one")
     moved = list(frames(4))
@@ -49,6 +60,28 @@ def test_one_point_that_moves_otherwise_changes_one_file(tmp_path: Path) -> None
     found = [str(finding) for finding in same_bytes(tmp_path / "one", tmp_path / "other")]
     assert len(found) == 1
     assert "draft_sim.usdc" in found[0]
+
+
+BIG_AIR = """
+few = Capsule(grid=(200, 10, 10))
+(frame,) = few.frames(1)
+def moving():
+    for t in range(1, int(os.environ["COUNT"]) + 1):
+        yield replace(frame, time_code=t, air=(frame.air[0] + np.float32(1e-4 * t),), cluster=((frame.cluster[0] + t) % 2,))
+write_stage(few.describe(), moving(), os.environ["OUT"])
+print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024)
+"""
+
+
+def test_memory_does_not_grow_with_frames_of_air(tmp_path: Path, child: Child) -> None:
+    """20 000 particles whose clusters change in every frame: 200 frames are 112 MB."""
+    peaks = []
+    for count in (40, 240):
+        output, errors = child(BIG_AIR, OUT=str(tmp_path / str(count)), COUNT=str(count)).communicate()
+        assert output, errors
+        peaks.append(int(output))
+    assert (tmp_path / "240" / "capsule" / "payload" / "draft_sim.usdc").stat().st_size > 55e6
+    assert peaks[1] - peaks[0] < 8, f"peak resident memory {peaks} MB for 40 and 240 frames"
 
 
 def test_memory_does_not_grow_with_the_frames(tmp_path: Path, child: Child) -> None:

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 MAIN = "/dog/geo/render/main"
+AIR = "/capsule/geo/render/main_air"
 
 
 @pytest.fixture
@@ -80,3 +81,58 @@ def test_a_difference_is_told_with_its_place(
     assert list(differences(copy, other)) == []
     change(copy)
     assert told in "\n".join(differences(copy, other, tolerance=1e-6))
+
+
+@pytest.fixture
+def springs(aired: Path) -> Usd.Stage:
+    """The flat capsule with air."""
+    return Usd.Stage.Open(str(aired / "capsule.usdc"))
+
+
+def changed_particle(stage: Usd.Stage, name: str, time: float, value: object) -> None:
+    attribute = stage.GetPrimAtPath(AIR).GetAttribute(name)
+    rows = np.array(attribute.Get(time))
+    rows[3] = value
+    attribute.Set(rows, time)
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        (lambda s: changed_particle(s, "points", 3, 0.5), "points: values differ at 3.0 by up to"),
+        (lambda s: changed_particle(s, "primvars:cluster", 5, 1), "primvars:cluster: values differ at 5.0"),
+        (
+            lambda s: changed_particle(s, "primvars:displayColor", 5, 0.9),
+            "displayColor: values differ at 5.0",
+        ),
+        (lambda s: UsdGeom.Points.Get(s, AIR).CreateIdsAttr(range(1, 25)), "ids: values differ at DEFAULT"),
+        (lambda s: UsdGeom.Points.Get(s, AIR).CreateWidthsAttr([0.5]), "widths: values differ at DEFAULT"),
+        (
+            lambda s: UsdGeom.Points.Get(s, AIR).SetWidthsInterpolation("vertex"),
+            "interpolation is vertex and constant",
+        ),
+        (lambda s: UsdGeom.Points.Get(s, AIR).MakeInvisible(), "visibility: values differ at DEFAULT"),
+        (
+            lambda s: s.GetAttributeAtPath("/capsule/mtl/wire/texture.inputs:file").Set("./net.png"),
+            "inputs:file: values differ",
+        ),
+    ],
+)
+def test_particles_are_compared_too(
+    change: Callable[[Usd.Stage], object], told: str, springs: Usd.Stage, tmp_path: Path
+) -> None:
+    springs.GetRootLayer().Export(str(tmp_path / "copy.usdc"))
+    copy = Usd.Stage.Open(str(tmp_path / "copy.usdc"))
+    # The copy lies in another folder: the texture's name counts, not its place.
+    assert list(differences(copy, springs)) == []
+    change(copy)
+    assert told in "\n".join(differences(copy, springs, tolerance=1e-6))
+
+
+def test_another_look_is_a_difference(springs: Usd.Stage, aired: Path) -> None:
+    other = Usd.Stage.Open(str(aired / "capsule" / "capsule.usda"))
+    other.SetEditTarget(other.GetSessionLayer())
+    assert list(differences(springs, other)) == []
+    other.GetDefaultPrim().GetVariantSet("look").SetVariantSelection("latex")
+    assert "/capsule/geo/render/main.material:binding: targets differ" in [*differences(springs, other)]
+    other.GetSessionLayer().Clear()

@@ -6,7 +6,8 @@ import pytest
 from pxr import Usd, UsdGeom
 
 from balloon_usd.stage import write_stage
-from balloon_usd.stage.properties import check_stage
+from balloon_usd.stage.properties import check_stage, check_variants
+from tests.stage.capsule import Capsule
 from tests.stage.tubes import frames, sculpture
 
 if TYPE_CHECKING:
@@ -106,3 +107,21 @@ def test_a_detail_whose_samples_are_damaged_goes(tmp_path: Path) -> None:
 def test_flat_and_layered_stand_side_by_side(written: Path) -> None:
     assert (written / "dog.usdc").is_file()
     assert (written / "dog" / "dog.usda").is_file()
+
+
+def test_details_of_a_stage_with_air_stand_side_by_side_though_they_have_other_particles(
+    tmp_path: Path,
+) -> None:
+    for detail, grid in (("full", (8, 3, 3)), ("draft", (6, 2, 2))):
+        capsule = Capsule(grid=grid)
+        written = write_stage(capsule.describe(), capsule.frames(3), tmp_path, detail=detail)
+    assert written.stale == ()
+    assert variants_of(written.files[0]) == (["draft", "full"], "draft")
+    assert check_variants(Usd.Stage.Open(str(written.files[0]))) == []
+
+
+def test_a_detail_without_air_does_not_stay_beside_one_with_air(tmp_path: Path) -> None:
+    write_stage(Capsule().describe(airs=()), Capsule().frames(3), tmp_path, detail="full")
+    written = write_stage(Capsule().describe(), Capsule().frames(3), tmp_path)
+    assert written.stale == ("full",)
+    assert check_variants(Usd.Stage.Open(str(written.files[0]))) == []

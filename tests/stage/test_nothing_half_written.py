@@ -13,6 +13,7 @@ import pytest
 
 from balloon_usd.stage import StageError, StageWriter, write_stage
 from balloon_usd.stage.properties import whole_or_absent
+from tests.stage.capsule import Capsule
 from tests.stage.tubes import Frame, frames, sculpture
 
 if TYPE_CHECKING:
@@ -95,6 +96,25 @@ def test_a_kill_while_replacing_leaves_the_earlier_stage_whole(
     with pytest.raises(RuntimeError, match="no more"):
         write_stage(sculpture(), frames_then(RuntimeError("no more")), tmp_path)
     assert bytes_of(tmp_path) == before
+
+
+def test_a_kill_while_replacing_a_flat_stage_with_air_leaves_the_earlier_one_whole(
+    tmp_path: Path, child: Child
+) -> None:
+    write_stage(Capsule().describe(), Capsule().frames(4), tmp_path, flat=True)
+    before = bytes_of(tmp_path)
+    code = """
+def die(source, target):
+    os.replace(source, target)
+    os.kill(os.getpid(), signal.SIGKILL)
+Path.replace = die
+write_stage(Capsule().describe(), Capsule().frames(9), os.environ["OUT"], flat=True)
+"""
+    process = child(code, OUT=str(tmp_path))
+    process.communicate()
+    assert process.returncode == -signal.SIGKILL
+    assert list(whole_or_absent(tmp_path, "capsule")) == []
+    assert {name: content for name, content in bytes_of(tmp_path).items() if name in before} == before
 
 
 def test_control_c_leaves_nothing(tmp_path: Path, child: Child) -> None:

@@ -12,6 +12,7 @@ from balloon_usd.stage.properties import (
     PROPERTIES,
     Finding,
     check_stage,
+    check_variants,
     flat_equals_composed,
     same_bytes,
     whole_or_absent,
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 MAIN = "/dog/geo/render/main"
+AIR = "/capsule/geo/render/main_air"
 Damage = Callable[[Usd.Stage], object]
 
 
@@ -116,6 +118,38 @@ def cloud(widths: list[float], ids: list[int]) -> Damage:
         air.CreateIdsAttr(ids)
 
     return damage
+
+
+def air(stage: Usd.Stage) -> UsdGeom.Points:
+    return UsdGeom.Points.Get(stage, AIR)
+
+
+def set_air(name: str, time: float | None, change: Callable[[np.ndarray], np.ndarray]) -> Damage:
+    """Change the value of an attribute of the particles at one time code."""
+
+    def damage(stage: Usd.Stage) -> None:
+        changing = air(stage).GetPrim().GetAttribute(name)
+        code = Usd.TimeCode.Default() if time is None else time
+        changing.Set(np.ascontiguousarray(change(np.array(changing.Get(code)))), code)
+
+    return damage
+
+
+def drop_air(name: str) -> Damage:
+    return lambda stage: air(stage).GetPrim().RemoveProperty(name)
+
+
+def without_look(stage: Usd.Stage) -> None:
+    root = stage.GetRootLayer().GetPrimAtPath("/capsule")
+    root.variantSets["look"].RemoveVariant(root.variantSets["look"].variants["latex"])
+
+
+def latex_unbound(stage: Usd.Stage) -> None:
+    looks = stage.GetDefaultPrim().GetVariantSet("look")
+    looks.SetVariantSelection("latex")
+    with looks.GetVariantEditContext():
+        stage.GetPrimAtPath("/capsule/geo/render/main").RemoveProperty("material:binding")
+    looks.SetVariantSelection("thesis")
 
 
 def bind_subset(family: str) -> Damage:
@@ -245,6 +279,38 @@ DAMAGES: list[tuple[int, str, Damage]] = [
 ]
 
 
+AIR_DAMAGES: list[tuple[int, str, Damage]] = [
+    (
+        1,
+        "no texture",
+        lambda s: s.GetAttributeAtPath("/capsule/mtl/wire/texture.inputs:file").Set("./gone.png"),
+    ),
+    (5, "a particle sample missing", lambda s: air(s).GetPointsAttr().ClearAtTime(3)),
+    (5, "extent without particles", set_air("extent", 3.5, lambda e: e)),
+    (5, "clusters between frames", set_air("primvars:cluster", 4.5, lambda c: c)),
+    (5, "colours that blend", lambda s: air(s).GetDisplayColorAttr().ClearAtTime(4)),
+    (10, "a leak outside the hint", set_air("extent", 2, lambda e: e * np.float32(3))),
+    (11, "blinking air", lambda s: air(s).CreateVisibilityAttr().Set("invisible", 2)),
+    (12, "a particle less at one time", set_air("points", 4, lambda p: p[1:])),
+    (12, "no particles", lambda s: air(s).GetPrim().RemoveProperty("points")),
+    (13, "a particle nowhere", set_air("points", 4, with_row(2, np.nan))),
+    (14, "an extent of the centres", set_air("extent", 3, lambda e: e + np.float32([[0.0015], [-0.0015]]))),
+    (17, "ids with samples", set_air("ids", 2, lambda i: i)),
+    (17, "widths with samples", set_air("widths", 2, lambda w: w)),
+    (18, "wrong velocities", lambda s: air(s).CreateVelocitiesAttr().Set([(0, 0, 1)] * 24)),
+    (20, "a colour too few", set_air("primvars:displayColor", 5, lambda c: c[1:])),
+    (20, "a cluster too many", set_air("primvars:cluster", 5, lambda c: np.append(c, c[:1]))),
+    (22, "air without material", lambda s: UsdShade.MaterialBindingAPI(air(s)).UnbindAllBindings()),
+    (23, "two widths for all", set_air("widths", None, lambda w: np.repeat(w, 2))),
+    (23, "an id too few", set_air("ids", None, lambda i: i[1:])),
+    (23, "same ids", set_air("ids", None, lambda i: i // 2)),
+    (23, "flat particles", set_air("widths", None, lambda w: w * 0)),
+    (24, "first frame at rest", lambda s: air(s).GetPointsAttr().Set(air(s).GetPointsAttr().Get(1))),
+    (24, "first clusters at rest", set_air("primvars:cluster", None, lambda c: c * 0)),
+    (25, "no colour", drop_air("primvars:displayColor")),
+]
+
+
 @pytest.mark.parametrize("number", PROPERTIES)
 def test_a_layered_stage_has_the_property(number: int, dog: Usd.Stage) -> None:
     assert list(PROPERTIES[number](dog)) == []
@@ -261,6 +327,64 @@ def test_a_damaged_stage_is_found_out(number: int, what: str, damage: Damage, st
     findings = list(PROPERTIES[number](stage))
     assert findings
     assert {finding.number for finding in findings} == {number}
+
+
+@pytest.fixture
+def springs(aired: Path, tmp_path: Path) -> Usd.Stage:
+    """A copy of the flat capsule with air, to be damaged."""
+    shutil.copy(aired / "wire.png", tmp_path)
+    return Usd.Stage.Open(str(shutil.copy(aired / "capsule.usdc", tmp_path / "copy.usdc")))
+
+
+@pytest.mark.parametrize(
+    ("number", "what", "damage"), AIR_DAMAGES, ids=[f"{n}-{w}" for n, w, _ in AIR_DAMAGES]
+)
+def test_damaged_air_is_found_out(number: int, what: str, damage: Damage, springs: Usd.Stage) -> None:
+    damage(springs)
+    if number == 1:
+        springs.GetRootLayer().Save()
+    findings = list(PROPERTIES[number](springs))
+    assert findings
+    assert {finding.number for finding in findings} == {number}
+
+
+def test_widths_may_be_given_particle_by_particle(springs: Usd.Stage) -> None:
+    widths = air(springs).GetWidthsAttr()
+    widths.Set(list(widths.Get()) * 24)
+    assert [str(finding) for finding in PROPERTIES[23](springs)] == [
+        f"property 23: {AIR}: 24 widths, expected 1"
+    ]
+    air(springs).SetWidthsInterpolation("vertex")
+    assert check_stage(springs) == []
+
+
+@pytest.mark.parametrize(
+    ("damage", "told"),
+    [
+        (without_look, "property 32: there is air, but the looks are ['thesis']"),
+        (latex_unbound, "property 32: latex: property 22: /capsule/geo/render/main: no material"),
+    ],
+    ids=["a look is missing", "a look is broken"],
+)
+def test_what_is_wrong_with_a_look_that_is_not_selected_is_found_out(
+    damage: Damage, told: str, springs: Usd.Stage
+) -> None:
+    damage(springs)
+    assert check_stage(springs) == []
+    assert [str(finding) for finding in check_variants(springs)] == [told]
+
+
+def test_looking_at_the_variants_leaves_the_stage_as_it_is(springs: Usd.Stage) -> None:
+    before = springs.ExportToString()
+    assert check_variants(springs) == []
+    assert springs.ExportToString() == before
+    assert springs.GetDefaultPrim().GetVariantSet("look").GetVariantSelection() == "thesis"
+
+
+def test_a_stage_without_variants_is_checked_once(stage: Usd.Stage) -> None:
+    assert check_variants(stage) == []
+    normals(stage)
+    assert [finding.number for finding in check_variants(stage)] == [32]
 
 
 def test_every_property_has_a_damage_that_shows_it() -> None:

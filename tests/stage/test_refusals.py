@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
-from balloon_usd.stage import MeshDescription, StageError, write_stage
+from balloon_usd.stage import AirDescription, MeshDescription, StageError, write_stage
+from tests.stage.capsule import AirFrame, Capsule
 from tests.stage.tubes import Frame, frames, sculpture, tube_mesh
 
 if TYPE_CHECKING:
@@ -98,6 +99,90 @@ def test_a_bad_frame_ends_the_run_and_leaves_nothing(
         write_stage(sculpture(), spoilt(), tmp_path)
     assert message in str(caught.value)
     assert list(tmp_path.iterdir()) == []
+
+
+def air_not_finite(frame: AirFrame) -> AirFrame:
+    frame.air[0][3, 1] = np.inf
+    return frame
+
+
+def in_bubble(number: int) -> Callable[[AirFrame], AirFrame]:
+    def spoil(frame: AirFrame) -> AirFrame:
+        frame.cluster[0][7] = number
+        return frame
+
+    return spoil
+
+
+@pytest.mark.parametrize(
+    ("spoil", "message"),
+    [
+        (air_not_finite, 'frame 3: particles of "main_air" are not finite'),
+        (in_bubble(2), 'frame 3: a particle of "main_air" is in bubble 2, expected 0 to 1'),
+        (in_bubble(-1), 'frame 3: a particle of "main_air" is in bubble -1, expected 0 to 1'),
+        (
+            lambda f: replace(f, air=(f.air[0][1:],)),
+            'frame 3: particles of "main_air" are float32 (23, 3), expected float32 (24, 3)',
+        ),
+        (
+            lambda f: replace(f, air=(f.air[0].astype(float),)),
+            'frame 3: particles of "main_air" are float64 (24, 3), expected float32 (24, 3)',
+        ),
+        (
+            lambda f: replace(f, cluster=(f.cluster[0][1:],)),
+            'frame 3: clusters of "main_air" are int32 (23,), expected int32 (24,)',
+        ),
+        (
+            lambda f: replace(f, cluster=(f.cluster[0].astype(np.int64),)),
+            'frame 3: clusters of "main_air" are int64 (24,), expected int32 (24,)',
+        ),
+        (
+            lambda f: replace(f, air=()),
+            "frame 3: particles of 0 and clusters of 1 balloons, expected 1",
+        ),
+        (
+            lambda f: replace(f, cluster=f.cluster * 2),
+            "frame 3: particles of 1 and clusters of 2 balloons, expected 1",
+        ),
+    ],
+)
+@pytest.mark.parametrize("flat", [False, True])
+def test_bad_air_ends_the_run_and_leaves_nothing(
+    spoil: Callable[[AirFrame], AirFrame], message: str, flat: bool, tmp_path: Path
+) -> None:
+    spoilt = (spoil(frame) if frame.time_code == 3 else frame for frame in Capsule().frames(5))
+    with pytest.raises(StageError) as caught:
+        write_stage(Capsule().describe(), spoilt, tmp_path, flat=flat)
+    assert str(caught.value) == message
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        (("left air", 8, 0.003), '"left air" cannot name a prim'),
+        (("air", 0, 0.003), 'air "air" has 0 particles'),
+        (("air", 8, 0.0), 'air "air": width is 0.0'),
+        (("air", 8, float("nan")), 'air "air": width is nan'),
+    ],
+)
+def test_air_that_cannot_be_drawn_is_refused(given: tuple[str, int, float], message: str) -> None:
+    with pytest.raises(StageError) as caught:
+        AirDescription(*given)
+    assert message in str(caught.value)
+
+
+def test_air_and_rubber_need_different_names() -> None:
+    with pytest.raises(StageError, match='"capsule": name used twice: main'):
+        Capsule().describe(airs=(AirDescription("main", 24, 0.003),))
+
+
+def test_a_folder_in_the_place_of_the_texture_is_told_before_the_first_frame(tmp_path: Path) -> None:
+    (tmp_path / "wire.png").mkdir()
+    unasked = Capsule().frames(3)
+    with pytest.raises(StageError, match=r"wire.png could not be written: a folder is in the way"):
+        write_stage(Capsule().describe(), unasked, tmp_path, flat=True)
+    assert next(unasked).time_code == 1
 
 
 def test_a_first_time_code_below_one_is_refused(tmp_path: Path) -> None:

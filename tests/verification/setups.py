@@ -15,11 +15,12 @@ from numpy.typing import NDArray
 from balloon_usd.balloon.air import GAS_CONSTANT, ROOM_TEMPERATURE
 from balloon_usd.balloon.rubber import Rubber
 from balloon_usd.balloon.tube_theory import TubeState
-from balloon_usd.solver.body import Body, RingSpec
-from balloon_usd.solver.hands import Hands
-from balloon_usd.solver.scene import Scene, build_scene
+from balloon_usd.solver.body import RingSpec
+from balloon_usd.solver.latex.body import LatexBody
+from balloon_usd.solver.latex.hands import LatexHands
+from balloon_usd.solver.latex.scene import LatexScene, build_scene
+from balloon_usd.solver.latex.stepper import Stepper
 from balloon_usd.solver.settings import SceneSettings
-from balloon_usd.solver.stepper import Stepper
 
 Floats = NDArray[np.float64]
 
@@ -35,7 +36,7 @@ GOSSAMER = 1.0e-4
 
 @dataclass(frozen=True)
 class Mesh:
-    """A mesh of quads with what a `Body` asks for besides."""
+    """A mesh of quads with what a `LatexBody` asks for besides."""
 
     points: Floats
     """(V, 3), m, unstressed."""
@@ -78,7 +79,7 @@ class Rig:
         middles = np.array([mesh.points[f : f + n].mean(axis=0) for f, n in mesh.mesh_rings])
         nearest = np.linalg.norm(mesh.points[:, None] - middles[None], axis=2).argmin(axis=1)
         self.mesh = mesh
-        self.body = Body(
+        self.body = LatexBody(
             points=mesh.points.astype(np.float32),
             rest=mesh.points.astype(np.float64),
             quads=mesh.quads,
@@ -101,7 +102,7 @@ class Rig:
         )
         self.scene = build_scene([self.body], [0], settings, "cpu", 1, 1)
         self.stepper = Stepper(self.scene, substeps, 10.0 * mesh.radius)
-        self.hands = Hands(self.scene)
+        self.hands = LatexHands(self.scene)
         # Chambers exchange no gas, although their rings are wide open.
         self.hands.passage[:] = self.hands.passage_goal[:] = 0.0
 
@@ -183,7 +184,7 @@ class Rig:
         )
 
 
-def momentum_of(scene: Scene) -> tuple[Floats, Floats]:
+def momentum_of(scene: LatexScene) -> tuple[Floats, Floats]:
     """Momentum (kg m/s) and angular momentum about the centre of mass (kg m2/s) of all there is, (3,) each."""
     mass, x, v = (scene.arrays[name].numpy().astype(np.float64) for name in ("mass", "x", "v"))
     mass = mass[:, None]

@@ -1,7 +1,8 @@
-"""Ray casting of shiny, slightly translucent latex."""
+"""Ray casting of shiny, slightly translucent latex, and of balls."""
 
 import warp as wp
 
+from balloon_usd.preview.kernels.balls import Balls, first_ball
 from balloon_usd.preview.kernels.display import encode, tone
 from balloon_usd.preview.kernels.studio import Studio, smooth_step, studio_radiance
 
@@ -21,13 +22,15 @@ SOFT_LAMP = wp.constant(1.5)
 """Radiance at which the lamps are cut off on the floor: a picture of form wants no hard cast shadow."""
 TURNED_AWAY = wp.constant(-0.2)
 """Cosine to the eye below which no pixel can see a vertex."""
+BALL_STRIDE = wp.constant(12)
+"""Every so many directions light a ball, pixel by pixel: it is small."""
 EDGE = wp.constant(0.035)
 """Difference between neighbouring pixels, of a channel 0..1, that shows as a stair step."""
 
 
 @wp.struct
 class Scene:
-    """Triangles of all balloons, with what each vertex and triangle carries."""
+    """Triangles of all balloons, with what each vertex and triangle carries, and balls."""
 
     mesh: wp.uint64
     triangles: wp.array2d[wp.int32]
@@ -38,6 +41,7 @@ class Scene:
     """Fixed unit directions all over the sphere."""
     radiances: wp.array[wp.float32]
     """What the empty studio sends from each direction."""
+    balls: Balls
 
 
 @wp.struct
@@ -129,7 +133,7 @@ def light_floor(scene: Scene, floor: Floor, shade: wp.array2d[wp.vec3]):
             if hit.result:
                 # A lit balloon is no black blocker: some light comes through in its colour.
                 total += 0.30 * radiance * scene.colors[hit.face]
-            else:
+            elif first_ball(scene.balls, origin, direction, FAR).ball < 0:
                 total += radiance * wp.vec3(1.0, 1.0, 1.0)
     shade[row, column] = total / empty
 
@@ -180,6 +184,18 @@ def latex(
 
 
 @wp.func
+def ball_radiance(scene: Scene, studio: Studio, position: wp.vec3, ray: wp.vec3, ball: int) -> wp.vec3:
+    """Return the radiance of a ball seen along a ray: body colour under a reflecting skin."""
+    normal = wp.normalize(position - scene.balls.centres[ball])
+    facing = wp.max(-wp.dot(ray, normal), 0.0)
+    fresnel = FRESNEL_0 + (1.0 - FRESNEL_0) * wp.pow(1.0 - facing, 5.0)
+    light = gathered_light(scene, position + SKIN * normal, normal, BALL_STRIDE)
+    body = wp.cw_mul(scene.balls.colors[ball], EXPOSURE * light + GLOW * wp.vec3(1.0, 1.0, 1.0))
+    mirrored = studio_radiance(studio, ray - 2.0 * wp.dot(ray, normal) * normal)
+    return wp.vec3((1.0 - fresnel) * body + fresnel * mirrored * wp.vec3(1.0, 1.0, 1.0))
+
+
+@wp.func
 def floor_shade(floor: Floor, position: wp.vec3) -> wp.vec3:
     """Return the baked shade at a point of the floor, fading to none at the border."""
     rows = floor.shade.shape[0]
@@ -213,7 +229,11 @@ def seen_through(
     ray = wp.normalize(camera.forward + across * camera.right + height * camera.up)
     radiance = backdrop(across, height)
     hit = wp.mesh_query_ray(scene.mesh, camera.eye, ray, FAR)
-    if hit.result:
+    nearest = first_ball(scene.balls, camera.eye, ray, wp.where(hit.result, hit.t, FAR))
+    if nearest.ball >= 0:
+        position = camera.eye + nearest.distance * ray
+        radiance = tone(ball_radiance(scene, studio, position, ray, nearest.ball))
+    elif hit.result:
         radiance = tone(latex(scene, studio, camera.eye + hit.t * ray, ray, hit.face, hit.u, hit.v))
     elif ray[2] < -1.0e-4:
         distance = (studio.floor - camera.eye[2]) / ray[2]

@@ -23,6 +23,19 @@ def held(mode: int):
     return 0
 
 
+@wp.func
+def lead_load(
+    away: wp.vec3, speed: wp.vec3, stiffness: float, mass: float, limit: float, free: wp.vec3
+) -> wp.vec3:
+    """Return the force (N) of a hand that draws a ring to its goal, not along `free`, and at most `limit`."""
+    load = stiffness * away - wp.sqrt(stiffness * mass) * speed
+    load -= wp.dot(load, free) * free
+    size = wp.length(load)
+    if size > limit:
+        load = load * (limit / size)
+    return load
+
+
 Axes = wp.types.matrix(shape=(3, 2), dtype=float)
 """The two in-plane unit axes of a ring, as columns."""
 
@@ -106,13 +119,8 @@ def move_joints(
     goal = hand_from[j] + fraction * (hand_to[j] - hand_from[j])
     load = wp.vec3(0.0)
     if hand[j] == LEAD:
-        stiffness = hand_stiffness[j]
         speed = w - (hand_to[j] - hand_from[j]) / frame_seconds
-        load = stiffness * (goal - c) - wp.sqrt(stiffness * joint_mass[j]) * speed
-        load -= wp.dot(load, hand_free[j]) * hand_free[j]
-        size = wp.length(load)
-        if size > hand_force[j]:
-            load = load * (hand_force[j] / size)
+        load = lead_load(goal - c, speed, hand_stiffness[j], joint_mass[j], hand_force[j], hand_free[j])
         force += load
     kick = force * (dt / joint_mass[j])
     shift = kick * dt

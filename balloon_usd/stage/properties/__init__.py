@@ -1,7 +1,7 @@
 """What is true of every stage that this package writes, as numbered checks.
 
 Each property is a function that yields a `Finding` for every place where a stage lacks it; the
-first line of its docstring is the property. 26 to 28 and 32 need other programs or several stages.
+first line of its docstring is the property. 26 to 28 need other programs.
 """
 
 from __future__ import annotations
@@ -43,6 +43,7 @@ from balloon_usd.stage.properties.timing import (
     static_topology,
     velocities_true,
 )
+from balloon_usd.stage.properties.variants import every_selection
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -82,10 +83,16 @@ def check_stage(stage: Any) -> list[Finding]:
     return [finding for check in PROPERTIES.values() for finding in check(stage)]
 
 
+def check_variants(stage: Any) -> list[Finding]:
+    """Every finding of one stage under every selection of its variants."""
+    return list(every_selection(stage, check_stage))
+
+
 __all__ = [
     "PROPERTIES",
     "Finding",
     "check_stage",
+    "check_variants",
     "flat_equals_composed",
     "one_sample_per_time_code",
     "opens_whole",

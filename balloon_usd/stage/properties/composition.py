@@ -142,10 +142,11 @@ def no_animated_visibility(stage: Any) -> Iterator[Finding]:
 
 
 def whole_extent(stage: Any) -> NDArray[np.float64]:
-    """Smallest and largest corner (2, 3) of everything visible, over all samples; zeros when empty."""
+    """Smallest and largest corner (2, 3) of everything that some look shows, over all samples, or zeros."""
     root = stage.GetDefaultPrim() or stage.GetPseudoRoot()
     times = {t for a in attributes_of(stage) if a.GetName() == "extent" for t in a.GetTimeSamples()}
-    cache = UsdGeom.BBoxCache(0.0, [UsdGeom.Tokens.default_, UsdGeom.Tokens.render])
+    purposes = [UsdGeom.Tokens.default_, UsdGeom.Tokens.render]
+    cache = UsdGeom.BBoxCache(0.0, purposes, useExtentsHint=False, ignoreVisibility=True)
     corners = []
     for time in sorted(times) or [stage.GetStartTimeCode()]:
         cache.SetTime(time)

@@ -9,7 +9,7 @@ from pxr import UsdGeom, UsdShade
 
 from balloon_usd.stage.geometry import FAMILY
 from balloon_usd.stage.properties.finding import Finding
-from balloon_usd.stage.properties.reading import first_value, meshes_of, prims_of, samples_of
+from balloon_usd.stage.properties.reading import clouds_of, first_value, meshes_of, prims_of, samples_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -20,9 +20,9 @@ SAFE_TYPES = frozenset({"color3f[]", "float2[]", "float3[]", "float[]", "int[]",
 
 def primvars_fit(stage: Any) -> Iterator[Finding]:
     """Property 20: primvar lengths fit their interpolation at every sample; DCC-safe types only."""
-    for mesh in meshes_of(stage):
-        lengths = _lengths(mesh)
-        for primvar in UsdGeom.PrimvarsAPI(mesh).GetAuthoredPrimvars():
+    for shape in (*meshes_of(stage), *clouds_of(stage)):
+        lengths = _lengths(shape) if isinstance(shape, UsdGeom.Mesh) else _cloud_lengths(shape)
+        for primvar in UsdGeom.PrimvarsAPI(shape).GetAuthoredPrimvars():
             path = str(primvar.GetAttr().GetPath())
             if str(primvar.GetTypeName()) not in SAFE_TYPES:
                 yield Finding(20, f"type {primvar.GetTypeName()} gets lost in DCC tools", path)
@@ -51,17 +51,17 @@ def bubbles_partition(stage: Any) -> Iterator[Finding]:
 
 
 def materials_bound(stage: Any) -> Iterator[Finding]:
-    """Property 22: every visible mesh has one material inside the asset, with a preview surface in 0..1."""
+    """Property 22: all that is visible has one material inside the asset, with a preview surface in 0..1."""
     root = stage.GetDefaultPrim()
-    for mesh in meshes_of(stage):
-        path = str(mesh.GetPath())
-        if mesh.ComputeVisibility() == UsdGeom.Tokens.invisible:
+    for shape in (*meshes_of(stage), *clouds_of(stage)):
+        path = str(shape.GetPath())
+        if shape.ComputeVisibility() == UsdGeom.Tokens.invisible:
             continue
-        material, _ = UsdShade.MaterialBindingAPI(mesh).ComputeBoundMaterial()
+        material, _ = UsdShade.MaterialBindingAPI(shape).ComputeBoundMaterial()
         if not material:
             yield Finding(22, "no material", path)
             continue
-        if not mesh.GetPrim().HasAPI(UsdShade.MaterialBindingAPI):
+        if not shape.GetPrim().HasAPI(UsdShade.MaterialBindingAPI):
             yield Finding(22, "MaterialBindingAPI is not applied", path)
         if root and not material.GetPath().HasPrefix(root.GetPath()):
             yield Finding(22, f"material {material.GetPath()} is outside the asset", path)
@@ -70,15 +70,10 @@ def materials_bound(stage: Any) -> Iterator[Finding]:
 
 
 def points_and_nesting(stage: Any) -> Iterator[Finding]:
-    """Property 23: point widths above 0, ids unique; no gprim below a gprim."""
-    for cloud in prims_of(stage, UsdGeom.Points):
-        path = str(cloud.GetPath())
-        for time, widths in samples_of(cloud.GetWidthsAttr()):
-            if (widths <= 0.0).any():
-                yield Finding(23, "widths are not above 0", path, time)
-        for time, ids in samples_of(cloud.GetIdsAttr()):
-            if len(np.unique(ids)) != len(ids):
-                yield Finding(23, "ids are not unique", path, time)
+    """Property 23: point widths above 0, ids unique, as many as needed; no gprim below a gprim."""
+    for cloud in clouds_of(stage):
+        yield from _width_faults(cloud)
+        yield from _id_faults(cloud)
     for gprim in prims_of(stage, UsdGeom.Gprim):
         parent = gprim.GetPrim().GetParent()
         while parent:
@@ -93,6 +88,9 @@ def color_and_sides_authored(stage: Any) -> Iterator[Finding]:
         for attribute in (mesh.GetDisplayColorAttr(), mesh.GetDoubleSidedAttr()):
             if not attribute.HasAuthoredValue():
                 yield Finding(25, f"{attribute.GetName()} is not authored", str(mesh.GetPath()))
+    for cloud in clouds_of(stage):
+        if not cloud.GetDisplayColorAttr().HasAuthoredValue():
+            yield Finding(25, "primvars:displayColor is not authored", str(cloud.GetPath()))
 
 
 def _lengths(mesh: Any) -> dict[str, int]:
@@ -106,6 +104,30 @@ def _lengths(mesh: Any) -> dict[str, int]:
         "vertex": points,
         "faceVarying": int(counts.sum()),
     }
+
+
+def _cloud_lengths(cloud: Any) -> dict[str, int]:
+    """Number of elements of each interpolation."""
+    points = len(first_value(cloud.GetPointsAttr()))
+    return {"constant": 1, "uniform": 1, "varying": points, "vertex": points, "faceVarying": points}
+
+
+def _width_faults(cloud: Any) -> Iterator[Finding]:
+    expected = _cloud_lengths(cloud).get(cloud.GetWidthsInterpolation(), -1)
+    for time, widths in samples_of(cloud.GetWidthsAttr()):
+        if len(widths) != expected:
+            yield Finding(23, f"{len(widths)} widths, expected {expected}", str(cloud.GetPath()), time)
+        if (widths <= 0.0).any():
+            yield Finding(23, "widths are not above 0", str(cloud.GetPath()), time)
+
+
+def _id_faults(cloud: Any) -> Iterator[Finding]:
+    expected = _cloud_lengths(cloud)["vertex"]
+    for time, ids in samples_of(cloud.GetIdsAttr()):
+        if len(ids) != expected:
+            yield Finding(23, f"{len(ids)} ids, expected {expected}", str(cloud.GetPath()), time)
+        if len(np.unique(ids)) != len(ids):
+            yield Finding(23, "ids are not unique", str(cloud.GetPath()), time)
 
 
 def _bound_subset_faults(mesh: Any) -> Iterator[Finding]:

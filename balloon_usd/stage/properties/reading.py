@@ -23,6 +23,11 @@ def meshes_of(stage: Any) -> list[Any]:
     return prims_of(stage, UsdGeom.Mesh)
 
 
+def clouds_of(stage: Any) -> list[Any]:
+    """All points, such as the particles of air."""
+    return prims_of(stage, UsdGeom.Points)
+
+
 def attributes_of(stage: Any) -> Iterator[Any]:
     """All authored attributes of all prims."""
     for prim in stage.TraverseAll():

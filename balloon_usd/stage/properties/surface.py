@@ -1,4 +1,4 @@
-"""Properties 12 to 16: the meshes are whole, closed surfaces at every sample."""
+"""Properties 12 to 16: the meshes are whole, closed surfaces at every sample, the particles all there."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from balloon_usd.stage.pose import extent_of
 from balloon_usd.stage.properties.finding import Finding
 from balloon_usd.stage.properties.reading import (
     attributes_of,
+    clouds_of,
     first_value,
     is_float,
     meshes_of,
@@ -31,7 +32,8 @@ SMALLEST_AREA = 1e-12
 
 
 def topology_valid(stage: Any) -> Iterator[Finding]:
-    """Property 12: valid topology at every sample, constant point count."""
+    """Property 12: valid topology at every sample, constant count of points and of particles."""
+    yield from _particle_faults(stage)
     for mesh in meshes_of(stage):
         path = str(mesh.GetPath())
         counts, indices = _topology(mesh)
@@ -51,6 +53,17 @@ def topology_valid(stage: Any) -> Iterator[Finding]:
             yield Finding(12, "no points", path)
 
 
+def _particle_faults(stage: Any) -> Iterator[Finding]:
+    for cloud in clouds_of(stage):
+        path = str(cloud.GetPath())
+        counts = [(time, len(points)) for time, points in samples_of(cloud.GetPointsAttr())]
+        if not counts or not counts[0][1]:
+            yield Finding(12, "no particles", path)
+        for time, count in counts:
+            if count != counts[0][1]:
+                yield Finding(12, f"{count} particles, {counts[0][1]} before", path, time)
+
+
 def all_finite(stage: Any) -> Iterator[Finding]:
     """Property 13: no NaN or infinity anywhere."""
     for attribute in attributes_of(stage):
@@ -63,17 +76,25 @@ def all_finite(stage: Any) -> Iterator[Finding]:
 
 
 def extents_tight(stage: Any) -> Iterator[Finding]:
-    """Property 14: an extent per sample, enclosing and tight."""
-    for mesh in meshes_of(stage):
-        for time, points in samples_of(mesh.GetPointsAttr()):
+    """Property 14: an extent per sample, enclosing and tight; particles count with their widths."""
+    for shape in (*meshes_of(stage), *clouds_of(stage)):
+        for time, points in samples_of(shape.GetPointsAttr()):
             if not len(points):
                 continue
-            expected = extent_of(points)
-            found = value_at(mesh.GetExtentAttr(), time)
+            radii = _radii(shape, time, len(points))
+            expected = np.stack([extent_of(points - radii)[0], extent_of(points + radii)[1]])
+            found = value_at(shape.GetExtentAttr(), time)
             slack = TIGHT * float(np.ptp(expected))
             if found.shape != (2, 3) or np.abs(found - expected).max() > slack:
                 text = f"extent is {found.tolist()}, expected {expected.tolist()}"
-                yield Finding(14, text, str(mesh.GetPath()), time)
+                yield Finding(14, text, str(shape.GetPath()), time)
+
+
+def _radii(shape: Any, time: float | None, count: int) -> NDArray[np.float32]:
+    """Radius of each point (P, 1), or of all (1, 1); 0 for meshes and where widths do not fit."""
+    widths = value_at(shape.GetWidthsAttr(), time) if isinstance(shape, UsdGeom.Points) else np.zeros(1)
+    fits = len(widths) in {1, count}
+    return np.asarray(0.5 * widths if fits else [0.0], dtype=np.float32)[:, None]
 
 
 def closed_surface(stage: Any) -> Iterator[Finding]:

@@ -9,7 +9,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from balloon_usd.solver.scene import Scene
+    from balloon_usd.solver.latex.scene import LatexScene
 
 BEND_SET = 0.7
 """Share of the bending strain that stays: twisters squeeze the inside of a bend until it keeps (judged by
@@ -17,7 +17,7 @@ eye).
 """
 
 
-def set_bend(scene: Scene, body: int, faces: NDArray[np.int64]) -> None:
+def set_bend(scene: LatexScene, body: int, faces: NDArray[np.int64]) -> None:
     """Make part of the present curve of a bubble its own shape.
 
     The unstressed length of every face along the tube changes by how much more or less than its ring it is

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from balloon_usd.solver.hands import STEP_STIFFNESS
 
 if TYPE_CHECKING:
-    from balloon_usd.solver.scene import Scene
+    from balloon_usd.solver.latex.scene import LatexScene
 
 Floats = NDArray[np.float32]
 
@@ -33,7 +33,7 @@ class StrutLaw:
 class Struts:
     """The pool of struts of a scene."""
 
-    def __init__(self, scene: Scene, law: StrutLaw) -> None:
+    def __init__(self, scene: LatexScene, law: StrutLaw) -> None:
         self.scene = scene
         self.law = law
         self.pairs: dict[tuple[int, int], int] = {}

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 if TYPE_CHECKING:
     from balloon_usd.balloon.rubber import Rubber
-    from balloon_usd.solver.body import Body
+    from balloon_usd.solver.latex.body import LatexBody
 
 Floats = NDArray[np.float64]
 
@@ -41,11 +41,9 @@ class MembraneData:
     """Inertial mass, (V,), kg."""
     true_mass: Floats
     """Mass of the rubber, (V,), kg."""
-    corners: NDArray[np.int32]
-    """The four quad corners (4 q + corner, or -1) that meet at every vertex, (V, 4) int32."""
 
 
-def membrane_data(body: Body, dt: float, atmosphere: float, *, scale_mass: bool) -> MembraneData:
+def membrane_data(body: LatexBody, dt: float, atmosphere: float, *, scale_mass: bool) -> MembraneData:
     """Return the wall's constants for a time step of `dt` seconds.
 
     With `scale_mass` every vertex gets the mass that makes this step stable (selective mass scaling):
@@ -82,7 +80,7 @@ def membrane_data(body: Body, dt: float, atmosphere: float, *, scale_mass: bool)
     for k in range(4):
         np.add.at(mass, body.quads[:, k], 0.25 * inertia * area)
         np.add.at(true_mass, body.quads[:, k], 0.25 * density * area)
-    return MembraneData(to_rest, volume, hourglass, mass, true_mass, corner_table(body.quads, vertices))
+    return MembraneData(to_rest, volume, hourglass, mass, true_mass)
 
 
 def _hourglass(p: Floats, hoop: Floats, axial: Floats, spring: Floats) -> Floats:
@@ -96,24 +94,6 @@ def _hourglass(p: Floats, hoop: Floats, axial: Floats, spring: Floats) -> Floats
     hoop_sign, axial_sign = 0.5 * np.array([-1.0, 1.0, 1.0, -1.0]), 0.5 * np.array([-1.0, -1.0, 1.0, 1.0])
     vector = pattern - parts[:, :1] * hoop_sign - parts[:, 1:] * axial_sign
     return 0.5 * vector * np.sqrt(spring)[:, None]
-
-
-def corner_table(quads: NDArray[np.int32], vertices: int) -> NDArray[np.int32]:
-    """Return for every vertex the corners (4 q + corner) that meet there, (V, 4) int32, else -1.
-
-    Raises:
-        ValueError: more than four quads meet at a vertex.
-    """
-    flat = quads.reshape(-1)
-    order = np.argsort(flat, kind="stable")
-    counts = np.bincount(flat, minlength=vertices)
-    if counts.max() > 4:
-        raise ValueError(f"at most 4 quads may meet at a vertex, {counts.max()} do")
-    starts = np.concatenate([[0], np.cumsum(counts)[:-1]])
-    table = np.full((vertices, 4), -1, dtype=np.int32)
-    place = np.arange(len(flat)) - np.repeat(starts, counts)
-    table[flat[order], place] = order
-    return table
 
 
 def step_viscosity(rubber: Rubber, dt: float, ratio: float) -> float:

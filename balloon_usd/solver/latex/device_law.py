@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import warp as wp
 
 from balloon_usd.solver.kernels.rubber import Law
-from balloon_usd.solver.membrane_data import step_viscosity
+from balloon_usd.solver.latex.membrane_data import step_viscosity
 
 if TYPE_CHECKING:
     from balloon_usd.balloon.rubber import Rubber

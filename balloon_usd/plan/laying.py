@@ -1,0 +1,175 @@
+"""Laying strips: from the balloons and lengths of a recipe to rows of bubbles."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from balloon_usd.balloon.rubber import rubber_named
+from balloon_usd.balloon.sizes import size_named
+from balloon_usd.balloon.tube_theory import maxwell_state
+from balloon_usd.plan.capsule import capsule_bubbles
+from balloon_usd.plan.lengths import at_least, at_most, cm
+from balloon_usd.plan.open_tube import OpenTube, inflated_tube, softened, tail_range
+from balloon_usd.plan.strip import BubbleKind, Made, PlannedBubble, Strip
+from balloon_usd.recipe.names import rest_name
+from balloon_usd.recipe.problem import RecipeError, quoted
+
+if TYPE_CHECKING:
+    from balloon_usd.balloon.rubber import Rubber
+    from balloon_usd.balloon.sizes import BalloonSize
+    from balloon_usd.recipe import Recipe
+    from balloon_usd.recipe.balloons import Balloon
+    from balloon_usd.recipe.problem import Path, Problem
+
+FULL_TOLERANCE = 0.02
+"""An inflated length beyond the full one by this share means full: nominal lengths are rounded."""
+
+
+def lay_strips(recipe: Recipe) -> dict[str, Strip]:
+    """Return the strip of every balloon of a recipe, by name.
+
+    A balloon without a `rest` step ends in a bubble named after it: `main_rest`.
+
+    Raises:
+        RecipeError: a tail, an inflated length or a capsule does not fit a balloon, bubbles do not fit, or
+            the rubber has no bulged phase.
+    """
+    rubber = _rubber(recipe)
+    strips: dict[str, Strip] = {}
+    problems: list[Problem] = []
+    for name, balloon in recipe.balloons.items():
+        try:
+            strips[name] = (
+                _tube(recipe, name, rubber) if balloon.capsule is None else _capsule(recipe, name, rubber)
+            )
+        except RecipeError as error:
+            problems.extend(error.problems)
+    if problems:
+        raise RecipeError(problems)
+    return strips
+
+
+def _rubber(recipe: Recipe) -> Rubber:
+    rubber = rubber_named(recipe.physics.rubber)
+    try:
+        maxwell_state(rubber)
+    except ValueError as error:
+        text = f"{error}, so no balloon can be twisted of it, expected one of ogden, ogden-treloar, gent"
+        raise RecipeError([recipe.problem(("physics", "rubber"), text)]) from None
+    return rubber if recipe.physics.softening else rubber.without_softening()
+
+
+def _size(balloon: Balloon) -> BalloonSize:
+    return size_named(balloon.size).with_overrides(balloon.radius, balloon.length, balloon.thickness)
+
+
+def _capsule(recipe: Recipe, name: str, rubber: Rubber) -> Strip:
+    balloon = recipe.balloons[name]
+    length = balloon.capsule or 0.0
+    size = _size(balloon)
+    full = size.length * maxwell_state(rubber).bulged.b
+    path: Path = ("balloons", name, "capsule")
+    if length > full * (1.0 + FULL_TOLERANCE):
+        raise RecipeError([recipe.problem(path, _beyond_full(length, size, full))])
+    strip = Strip(name, size, rubber, 0.0, (), capsule=True)
+    wide = 2.0 * strip.inflated_radius
+    if length < wide:
+        text = f"{cm(length)} is shorter than a {size.name} is wide, expected at least {at_least(wide)}"
+        raise RecipeError([recipe.problem(path, text)])
+    bubbles = capsule_bubbles(recipe, strip, length, _made(recipe, name), _rest(recipe, name))
+    return replace(strip, bubbles=bubbles)
+
+
+def _tube(recipe: Recipe, name: str, rubber: Rubber) -> Strip:
+    size = _size(recipe.balloons[name])
+    tail = _tail(recipe, name, size, rubber)
+    tube = inflated_tube(size, rubber, tail)
+    bubbles: list[PlannedBubble] = []
+    along, rest_along = 0.0, 0.0
+    for index, kind, bubble, length in _made(recipe, name):
+        shape, left = tube.pinched(length)
+        if not left.blown_up:
+            path: Path = ("steps", index, recipe.steps[index].kind, bubble)
+            raise RecipeError([recipe.problem(path, _misfit(recipe, name, bubble, length, tube))])
+        rest_end = rest_along + shape.rest_length
+        bubbles.append(
+            PlannedBubble(
+                bubble, name, kind, length, along, along + length, rest_along, rest_end, shape.volume, index
+            )
+        )
+        tube, along, rest_along = left, along + length, rest_end
+    bubbles.append(_rest_of_tube(recipe, name, tube, along, rest_along))
+    return Strip(name, size, rubber, tail, tuple(bubbles))
+
+
+def _tail(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> float:
+    balloon: Balloon = recipe.balloons[name]
+    if balloon.inflated is not None:
+        full = size.length * maxwell_state(rubber).bulged.b
+        if balloon.inflated > full * (1.0 + FULL_TOLERANCE):
+            text = _beyond_full(balloon.inflated, size, full)
+            raise RecipeError([recipe.problem(("balloons", name, "inflated"), text)])
+        return max(size.length * (1.0 - balloon.inflated / full), 0.0)
+    tail = balloon.tail or 0.0
+    if tail >= size.length:
+        text = f"a tail of {cm(tail)} leaves nothing of a {size.name}, expected less than {cm(size.length)}"
+        raise RecipeError([recipe.problem(("balloons", name, "tail"), text)])
+    return tail
+
+
+def _beyond_full(length: float, size: BalloonSize, full: float) -> str:
+    return f"{cm(length)} is more than a full {size.name}, expected at most {at_most(full)}"
+
+
+def _made(recipe: Recipe, name: str) -> list[Made]:
+    """What the steps make of one balloon."""
+    kinds: dict[str, BubbleKind] = {"bubbles": "bubble", "loop": "loop", "fold": "fold", "ear": "ear"}
+    return [
+        Made(index, kinds[step.kind], bubble, length)
+        for index, step in enumerate(recipe.steps)
+        if step.kind in kinds and _balloon_of(recipe, step.balloon) == name
+        for bubble, length in step.lengths.items()
+    ]
+
+
+def _rest(recipe: Recipe, name: str) -> tuple[str, int]:
+    """Name of what is left of a balloon, and the step that names it, or the number of steps."""
+    for at, step in enumerate(recipe.steps):
+        if step.rest is not None and _balloon_of(recipe, step.balloon) == name:
+            return step.rest, at
+    taken = {bubble for step in recipe.steps for bubble in (*step.lengths, step.rest or "")}
+    return rest_name(name, taken), len(recipe.steps)
+
+
+def _rest_of_tube(
+    recipe: Recipe, name: str, tube: OpenTube, along: float, rest_along: float
+) -> PlannedBubble:
+    bubble, index = _rest(recipe, name)
+    length = tube.inflated_length
+    return PlannedBubble(
+        name=bubble,
+        balloon=name,
+        kind="rest",
+        length=length,
+        start=along,
+        end=along + length,
+        rest_start=rest_along,
+        rest_end=tube.size.length,
+        volume=tube.volume,
+        step=index,
+    )
+
+
+def _balloon_of(recipe: Recipe, named: str | None) -> str:
+    """The balloon that a step works on: the one it names, else the only one."""
+    return named if named is not None else next(iter(recipe.balloons))
+
+
+def _misfit(recipe: Recipe, name: str, bubble: str, length: float, tube: OpenTube) -> str:
+    text = f"{quoted(bubble)} of {cm(length)} does not fit: {cm(tube.inflated_length)} of {name} is left"
+    room = tail_range(tube.size, softened(tube.rubber), [made.length for made in _made(recipe, name)])
+    if room.most >= 0.0:
+        return f"{text}, expected a tail of at most {at_most(room.most)}"
+    excess = -room.most * maxwell_state(tube.rubber).bulged.b
+    return f"{text}, expected bubbles shorter by {at_least(excess)} in all, or a longer balloon"

@@ -1,0 +1,46 @@
+"""Putting a picture where it was asked for, whole or not at all."""
+
+from __future__ import annotations
+
+import secrets
+from io import BytesIO
+from typing import TYPE_CHECKING
+
+from balloon_usd.preview.error import PictureNotWrittenError, PreviewError
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from PIL import Image
+
+
+def require_place(path: Path) -> None:
+    """Look before anything is drawn whether a file may stand at a path.
+
+    Raises:
+        PreviewError: a folder is in the way, or there is no folder to put it in.
+    """
+    if path.is_dir():
+        raise PreviewError(f"{path} cannot be written: a folder is in the way")
+    if not path.parent.is_dir():
+        raise PreviewError(f"{path} cannot be written: {path.parent} is not a folder")
+
+
+def write_png(image: Image.Image, path: Path) -> Path:
+    """Write a picture beside its final name, then replace that: no half-written one is ever seen.
+
+    Raises:
+        PictureNotWrittenError: the disk is full, or the folder cannot be written.
+    """
+    encoded = BytesIO()
+    image.save(encoded, format="PNG")
+    # A name of its own, since another run may write the same picture.
+    partial = path.with_name(f".{path.name}.{secrets.token_hex(4)}.partial")
+    try:
+        with partial.open("xb") as file:
+            file.write(encoded.getbuffer())
+        partial.replace(path)
+    except OSError as error:
+        partial.unlink(missing_ok=True)
+        raise PictureNotWrittenError(f"{path} cannot be written: {error.strerror or error}") from error
+    return path

@@ -1,0 +1,29 @@
+"""The look of a stage: the variant of its root prim that says what the rubber is drawn as."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from balloon_usd.preview.error import PreviewError
+from balloon_usd.stage.looks import VARIANT_SET
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+
+def select_look(stage: Any, look: str | None, path: str | Path) -> str:
+    """Select a look in the stage's session, None for the stage's own; returns the one selected or "".
+
+    Raises:
+        PreviewError: the stage, which the message calls `path`, has no such look.
+    """
+    root = stage.GetDefaultPrim() or stage.GetPseudoRoot()
+    variants = root.GetVariantSet(VARIANT_SET)
+    names = variants.GetVariantNames()
+    if look is not None:
+        if look not in names:
+            there = f"only {', '.join(names)}" if names else "nor any other"
+            raise PreviewError(f'{path} has no look "{look}", {there}')
+        stage.SetEditTarget(stage.GetSessionLayer())
+        variants.SetVariantSelection(look)
+    return str(variants.GetVariantSelection())

@@ -1,0 +1,53 @@
+"""Which words of a recipe belong to which physical model."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from .outline import balloons_in, outlines_in
+from .problem import Complaint
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from .physics import ModelName
+
+LATEX_ONLY = {
+    "softening": "springs do not soften",
+    "friction": "rubber slides freely on rubber",
+    "burst": "springs do not burst",
+    "mass_scaling": "everything has unit mass",
+}
+"""Keys of the physics that the model kosaka does not know, and why."""
+
+_MODEL: ModelName = "latex"
+"""The model of a recipe that names none."""
+
+
+def model_complaints(data: object) -> Iterator[Complaint]:
+    """Yield what does not belong to the model of a recipe, given as plain data of whatever shape it is."""
+    physics = _physics_in(data)
+    model = physics.get("model", _MODEL)
+    if model == "kosaka":
+        for key in physics:
+            if key in LATEX_ONLY:
+                what = f"makes no sense with model kosaka: {LATEX_ONLY[key]}, expected no such line"
+                yield Complaint(("physics", key), what)
+        for step in outlines_in(data):
+            if "turns" in step.keys:
+                what = "makes no sense with model kosaka: its joints freeze and are not wound"
+                yield Complaint((*step.path, "turns"), f"{what}, expected no turns")
+    elif model == "latex":
+        if "kosaka" in physics:
+            what = "stands beside model latex, which has no such constants, expected model: kosaka"
+            yield Complaint(("physics", "kosaka"), what)
+        for balloon, entry in balloons_in(data).items():
+            if isinstance(entry, dict) and "capsule" in entry:
+                what = "a closed capsule has no knot to blow up from in model latex"
+                expected = "inflated here, or physics: {model: kosaka}"
+                yield Complaint(("balloons", balloon, "capsule"), f"{what}, expected {expected}")
+
+
+def _physics_in(data: object) -> dict[str, Any]:
+    physics = data.get("physics") if isinstance(data, dict) else None
+    return physics if isinstance(physics, dict) else {}

@@ -1,0 +1,43 @@
+"""Fingers that press on the wall from outside: the user's external force (Kosaka 2008, eq. 3.22, f_p)."""
+
+import warp as wp
+
+
+@wp.struct
+class Finger:
+    """One finger on one balloon; `start` and `end` are where its tip is at both ends of the frame."""
+
+    start: wp.vec3
+    """m"""
+    end: wp.vec3
+    """m"""
+    along: wp.vec3
+    """Unit direction in which it presses."""
+    load_start: float
+    """Force at the start of the frame besides what depth asks for, N."""
+    load_end: float
+    """The same at its end, N."""
+    stiff: float
+    """Stiffness per touched vertex behind the tip, in vertex masses per squared time step; 0 for force alone."""
+
+
+@wp.kernel
+def press_fingers(
+    vertex_balloon: wp.array[int],
+    mass: wp.array[float],
+    fingers: wp.array[Finger],
+    finger_share: wp.array[float],
+    dt: float,
+    fraction: float,
+    x: wp.array[wp.vec3],
+    v: wp.array[wp.vec3],
+):
+    """Add to the speed (m/s) of every vertex under a finger what the finger's force gives it in one substep."""
+    i = wp.tid()
+    share = finger_share[i]
+    if share > 0.0:
+        finger = fingers[vertex_balloon[i]]
+        load = share * (finger.load_start + fraction * (finger.load_end - finger.load_start)) * (dt / mass[i])
+        tip = finger.start + fraction * (finger.end - finger.start)
+        behind = wp.max(wp.dot(tip - x[i], finger.along), 0.0)
+        v[i] = v[i] + (load + share * finger.stiff * behind / dt) * finger.along

@@ -1,0 +1,294 @@
+"""Offset regions: where air and rubber push each other, and where leaked air is found (Kosaka 2008, 3.3, 3.4).
+
+Every quad is two triangles: triangle 2 q has its corners 0, 1, 2, and 2 q + 1 its corners 0, 2, 3.
+"""
+
+import warp as wp
+
+from balloon_usd.solver.kernels.springs import Constants
+
+WIDER = wp.constant(0.15)
+"""How far an inner offset region reaches beyond its triangle, in barycentric shares: no gaps where a wall bends
+inwards.
+"""
+WIDER_OUTSIDE = wp.constant(0.3)
+"""The same of the outer region, where the walls of a round balloon leave gaps."""
+UNSEEN = wp.constant(1.0e6)
+"""Distance of a triangle that is not there, m."""
+FLAT = wp.constant(1.0e-14)
+"""Square of twice the area of a triangle without direction (m4)."""
+
+
+@wp.func
+def triangle(quads: wp.array[wp.vec4i], t: int):
+    """Return the three vertices of a triangle."""
+    c = quads[t // 2]
+    if t % 2 == 0:
+        return wp.vec3i(c[0], c[1], c[2])
+    return wp.vec3i(c[0], c[2], c[3])
+
+
+@wp.func
+def plane_normal(a: wp.vec3, b: wp.vec3, c: wp.vec3) -> wp.vec3:
+    """Return the unit normal of a triangle, outward (Kosaka 2008, eq. 3.6)."""
+    return wp.normalize(wp.cross(b - a, c - a))
+
+
+@wp.func
+def plane_distance(v: wp.vec3, a: wp.vec3, normal: wp.vec3) -> float:
+    """Return how far a point is in front of a plane, negative inside (m) (Kosaka 2008, eq. 3.7)."""
+    return wp.dot(v - a, normal)
+
+
+@wp.func
+def onto_plane(v: wp.vec3, a: wp.vec3, normal: wp.vec3):
+    """Return the projection of a point onto a plane (Kosaka 2008, eqs. 3.8 and 3.14)."""
+    return v - plane_distance(v, a, normal) * normal
+
+
+@wp.func
+def shares(v: wp.vec3, a: wp.vec3, b: wp.vec3, c: wp.vec3) -> wp.vec3:
+    """Return u, v, w of a point of a triangle's plane (Kosaka 2008, eq. 3.9)."""
+    e1 = b - a
+    e2 = c - a
+    d = v - a
+    normal = wp.cross(e1, e2)
+    size = wp.max(wp.dot(normal, normal), FLAT)
+    at_b = wp.dot(wp.cross(d, e2), normal) / size
+    at_c = wp.dot(wp.cross(e1, d), normal) / size
+    return wp.vec3(1.0 - at_b - at_c, at_b, at_c)
+
+
+@wp.func
+def least(s: wp.vec3) -> float:
+    """Return the smallest of three shares."""
+    return wp.min(s[0], wp.min(s[1], s[2]))
+
+
+@wp.func
+def angle_at(p: wp.vec3, q: wp.vec3, r: wp.vec3) -> float:
+    """Return the angle (radians) at p between q and r."""
+    d = q - p
+    e = r - p
+    return wp.atan2(wp.length(wp.cross(d, e)), wp.dot(d, e))
+
+
+@wp.func
+def grade(depth: float, beside: float, grading: float) -> float:
+    """Return the share of its push that a particle has at a depth (0 at the wall, 1 at the region's end) and
+    with `beside` as its smallest barycentric share; 1 everywhere is the thesis's.
+
+    Graded, it is the share of its neighbours' repulsion that a particle lacks behind a plane wall when all are
+    evenly spread (eq. 3.4 integrated): such air is at rest up to the wall. Sideways one triangle's share fades
+    into the next one's, so that no push jumps.
+    """
+    left = wp.max(1.0 - depth, 0.0)
+    faded = left * left * left * (1.0 + 3.0 * depth) * wp.clamp(0.5 + 0.5 * beside / WIDER, 0.0, 1.0)
+    return 1.0 - grading * (1.0 - faded)
+
+
+@wp.kernel
+def face_surface(
+    quads: wp.array[wp.vec4i],
+    x: wp.array[wp.vec3],
+    face_normal: wp.array[wp.vec3],
+    face_angles: wp.array[wp.vec3],
+):
+    """Write the outward unit normal (Kosaka 2008, eq. 3.6) and the angles (radians) of every triangle."""
+    t = wp.tid()
+    f = triangle(quads, t)
+    a = x[f[0]]
+    b = x[f[1]]
+    c = x[f[2]]
+    face_normal[t] = plane_normal(a, b, c)
+    first = angle_at(a, b, c)
+    second = angle_at(b, c, a)
+    face_angles[t] = wp.vec3(first, second, wp.pi - first - second)
+
+
+@wp.kernel
+def press_faces(
+    quads: wp.array[wp.vec4i],
+    quad_balloon: wp.array[int],
+    quad_cluster: wp.array[int],
+    constants: wp.array[Constants],
+    face_air_count: wp.array[int],
+    face_air: wp.array2d[int],
+    air_cluster: wp.array[int],
+    x: wp.array[wp.vec3],
+    face_normal: wp.array[wp.vec3],
+    air: wp.array[wp.vec3],
+    face_push: wp.array[wp.vec3],
+    face_hits: wp.array[float],
+):
+    """Write how much air pushes on the three vertices of every triangle along its normal, in units of the
+    push (Kosaka 2008, eqs. 3.7 to 3.10), and add up how many particles do.
+    """
+    t = wp.tid()
+    f = triangle(quads, t)
+    normal = face_normal[t]
+    a = x[f[0]]
+    law = constants[quad_balloon[t // 2]]
+    total = wp.vec3(0.0)
+    count = float(0.0)
+    for k in range(face_air_count[t]):
+        p = face_air[t, k]
+        if air_cluster[p] == quad_cluster[t // 2]:
+            d = plane_distance(air[p], a, normal)
+            if d < 0.0 and d > -law.air_offset:
+                s = shares(onto_plane(air[p], a, normal), a, x[f[1]], x[f[2]])
+                beside = least(s)
+                if beside > -WIDER:
+                    push = grade(-d / law.air_offset, beside, law.grading)
+                    total += push * s
+                    count += push
+    face_push[t] = total
+    face_hits[t] = face_hits[t] + count
+
+
+@wp.func
+def vertex_push(
+    i: int,
+    corners: wp.array[wp.vec4i],
+    face_normal: wp.array[wp.vec3],
+    face_angles: wp.array[wp.vec3],
+    face_push: wp.array[wp.vec3],
+) -> wp.vec3:
+    """Return the angle-weighted mean R_p of what its triangles push a vertex with (Kosaka 2008, eq. 3.11)."""
+    slots = corners[i]
+    total = wp.vec3(0.0)
+    turn = float(0.0)
+    for k in range(4):
+        if slots[k] >= 0:
+            first = 2 * (slots[k] // 4)
+            at = slots[k] % 4
+            if at != 3:
+                total += face_angles[first][at] * face_push[first][at] * face_normal[first]
+                turn += face_angles[first][at]
+            if at != 1:
+                other = wp.max(at - 1, 0)
+                total += face_angles[first + 1][other] * face_push[first + 1][other] * face_normal[first + 1]
+                turn += face_angles[first + 1][other]
+    return wp.vec3(total / wp.max(turn, FLAT))
+
+
+@wp.kernel
+def press_vertices(
+    corners: wp.array[wp.vec4i],
+    vertex_balloon: wp.array[int],
+    constants: wp.array[Constants],
+    face_normal: wp.array[wp.vec3],
+    face_angles: wp.array[wp.vec3],
+    face_push: wp.array[wp.vec3],
+    air_pull: wp.array[wp.vec3],
+):
+    """Write the push R_p (m/s2) of the air on every vertex (Kosaka 2008, eq. 3.11)."""
+    i = wp.tid()
+    push = constants[vertex_balloon[i]].push
+    air_pull[i] = push * vertex_push(i, corners, face_normal, face_angles, face_push)
+
+
+@wp.kernel
+def press_air(
+    quads: wp.array[wp.vec4i],
+    quad_cluster: wp.array[int],
+    air_balloon: wp.array[int],
+    constants: wp.array[Constants],
+    air_face_count: wp.array[int],
+    air_faces: wp.array2d[int],
+    air_cluster: wp.array[int],
+    x: wp.array[wp.vec3],
+    face_normal: wp.array[wp.vec3],
+    air: wp.array[wp.vec3],
+    air_speed: wp.array[wp.vec3],
+    wall_push: wp.array[wp.vec3],
+    alone: wp.array[int],
+    repairs: wp.array[int],
+):
+    """Write the push D_a (m/s2) of the rubber on every particle (Kosaka 2008, eqs. 3.12 and 3.17) and bring
+    leaked ones back, their speed reset (eqs. 3.13 and 3.18).
+
+    A particle has leaked when of all triangles in whose regions it is the nearest is in its back.
+    """
+    p = wp.tid()
+    law = constants[air_balloon[p]]
+    here = air[p]
+    total = wp.vec3(0.0)
+    nearest = float(UNSEEN)
+    out = wp.vec3(0.0)
+    outside = int(0)
+    for k in range(air_face_count[p]):
+        t = air_faces[p, k]
+        if quad_cluster[t // 2] == air_cluster[p]:
+            f = triangle(quads, t)
+            normal = face_normal[t]
+            a = x[f[0]]
+            d = plane_distance(here, a, normal)
+            if d > -law.air_offset and d < law.leak_offset:
+                beside = least(shares(onto_plane(here, a, normal), a, x[f[1]], x[f[2]]))
+                if beside > wp.where(d < 0.0, -WIDER, -WIDER_OUTSIDE):
+                    if d < 0.0:
+                        total -= (law.beta * grade(-d / law.air_offset, beside, law.grading)) * normal
+                    if wp.abs(d) < nearest:
+                        nearest = wp.abs(d)
+                        out = normal
+                        outside = wp.where(d > 0.0, 1, 0)
+    if outside == 1:
+        air[p] = here - law.gamma * out
+        air_speed[p] = wp.vec3(0.0)
+        repairs[p] = repairs[p] + 1
+    alone[p] = wp.where(nearest == UNSEEN, 1, 0)
+    wall_push[p] = total
+
+
+@wp.func
+def solid_angle(p: wp.vec3, a: wp.vec3, b: wp.vec3, c: wp.vec3) -> float:
+    """Return half the solid angle of a triangle seen from a point (Van Oosterom & Strackee 1983)."""
+    u = a - p
+    v = b - p
+    w = c - p
+    lu = wp.length(u)
+    lv = wp.length(v)
+    lw = wp.length(w)
+    below = lu * lv * lw + wp.dot(u, v) * lw + wp.dot(v, w) * lu + wp.dot(w, u) * lv
+    return wp.atan2(wp.dot(u, wp.cross(v, w)), below)
+
+
+@wp.kernel
+def find_lost_air(
+    quads: wp.array[wp.vec4i],
+    quad_cluster: wp.array[int],
+    air_balloon: wp.array[int],
+    constants: wp.array[Constants],
+    air_cluster: wp.array[int],
+    alone: wp.array[int],
+    x: wp.array[wp.vec3],
+    air: wp.array[wp.vec3],
+    air_speed: wp.array[wp.vec3],
+    repairs: wp.array[int],
+):
+    """Bring particles that have leaked beyond every offset region back to the nearest face of their bubble.
+
+    Of those that lie in no region, it is the winding number of the bubble's wall that tells inside from outside.
+    """
+    p = wp.tid()
+    if alone[p] == 0:
+        return
+    here = air[p]
+    turns = float(0.0)
+    nearest = float(UNSEEN)
+    face = int(-1)
+    for t in range(2 * quads.shape[0]):
+        if quad_cluster[t // 2] == air_cluster[p]:
+            f = triangle(quads, t)
+            turns += solid_angle(here, x[f[0]], x[f[1]], x[f[2]])
+            far = wp.length_sq((x[f[0]] + x[f[1]] + x[f[2]]) / 3.0 - here)
+            if far < nearest:
+                nearest = far
+                face = t
+    if turns < wp.pi and face >= 0:
+        f = triangle(quads, face)
+        normal = plane_normal(x[f[0]], x[f[1]], x[f[2]])
+        air[p] = (x[f[0]] + x[f[1]] + x[f[2]]) / 3.0 - constants[air_balloon[p]].gamma * normal
+        air_speed[p] = wp.vec3(0.0)
+        repairs[p] = repairs[p] + 1

@@ -1,0 +1,68 @@
+"""Air as particles that repel each other (Kosaka 2008, 3.2)."""
+
+import warp as wp
+
+from balloon_usd.solver.kernels.drift import Drift, drift_at
+from balloon_usd.solver.kernels.springs import Constants
+
+NEAREST = wp.constant(1.0e-6)
+"""Distance below which two particles count as this far apart (m): the weight has a pole."""
+
+
+@wp.func
+def weight(r: float, re: float) -> float:
+    """Return the weight of a particle at a distance r, within its reach re (Kosaka 2008, eq. 3.3)."""
+    w = float(0.0)
+    if r <= re:
+        w = re / wp.max(r, NEAREST) - 1.0
+    return w
+
+
+@wp.func
+def repulsion(ri: wp.vec3, rj: wp.vec3, alpha: float, re: float) -> wp.vec3:
+    """Return the force (m/s2) of particle j on particle i (Kosaka 2008, eq. 3.4)."""
+    d = rj - ri
+    return wp.vec3(-alpha * weight(wp.length(d), re) * d)
+
+
+@wp.kernel
+def repel_air(
+    air_balloon: wp.array[int],
+    constants: wp.array[Constants],
+    neighbour_count: wp.array[int],
+    neighbours: wp.array2d[int],
+    air: wp.array[wp.vec3],
+    air_push: wp.array[wp.vec3],
+):
+    """Write the repulsion C_a (m/s2) of every particle by its neighbours (Kosaka 2008, eq. 3.16)."""
+    a = wp.tid()
+    law = constants[air_balloon[a]]
+    here = air[a]
+    total = wp.vec3(0.0)
+    for k in range(neighbour_count[a]):
+        total += repulsion(here, air[neighbours[a, k]], law.alpha, law.re)
+    air_push[a] = total
+
+
+@wp.kernel
+def move_air(
+    air_balloon: wp.array[int],
+    constants: wp.array[Constants],
+    air_cluster: wp.array[int],
+    dt: float,
+    drifts: wp.array[Drift],
+    air_push: wp.array[wp.vec3],
+    wall_push: wp.array[wp.vec3],
+    air: wp.array[wp.vec3],
+    air_speed: wp.array[wp.vec3],
+):
+    """Move every particle by symplectic Euler (Kosaka 2008, eqs. 3.20 and 3.21), its speed limited."""
+    a = wp.tid()
+    law = constants[air_balloon[a]]
+    against = air_speed[a] - drift_at(drifts[air_cluster[a]], air[a])
+    u = air_speed[a] + (air_push[a] + wall_push[a] - law.drag * against) * dt
+    size = wp.length(u)
+    if size > law.air_speed:
+        u = u * (law.air_speed / size)
+    air[a] = air[a] + u * dt
+    air_speed[a] = u

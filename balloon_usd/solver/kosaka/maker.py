@@ -1,0 +1,48 @@
+"""The maker of the thesis's model: rings are drawn together by force and stay where they freeze."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from balloon_usd.plan.choreography import Move, Pinch
+from balloon_usd.plan.closing import smooth
+from balloon_usd.solver.kosaka.memory import set_bend
+from balloon_usd.solver.maker import Maker
+
+if TYPE_CHECKING:
+    from balloon_usd.solver.kosaka.scene import KosakaScene
+
+Floats = NDArray[np.float32]
+
+CLOSED_EARLY = 0.75
+"""Share of a pinch's time in which the ring closes; in the rest it comes to coincide."""
+
+
+class KosakaMaker(Maker):
+    """Performs one plan on its balloons in a scene of the thesis's model."""
+
+    scene: KosakaScene
+
+    def _perform(
+        self, k: int, move: Move, frame: tuple[float, float], share: float, fresh: bool, middle: Floats
+    ) -> None:
+        if isinstance(move, Pinch):
+            self._pinch(k, move, share, fresh, middle)
+        else:
+            super()._perform(k, move, frame, share, fresh, middle)
+
+    def _pinch(self, k: int, move: Pinch, share: float, fresh: bool, middle: Floats) -> None:
+        joint = self._ring[move.ring]
+        if fresh:
+            self._began[k] = np.array([self._ring_width(joint)])
+            self.hands.clasp(joint, middle)
+            self.hands.radius[joint] = self._began[k][0]
+        wide, neck = float(self._began[k][0]), float(self.hands.neck[joint])
+        self.hands.close(joint, neck + (wide - neck) * (1.0 - smooth(share / CLOSED_EARLY)))
+
+    def _keep_bend(self, bubble: str) -> None:
+        body, faces = self._faces(bubble)
+        set_bend(self.scene, body, faces)

@@ -1,0 +1,164 @@
+"""The thesis's model of some plans: bodies, makers and stepper in one flat state."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from balloon_usd.balloon.tube_theory import maxwell_state
+from balloon_usd.solver.body import body_ranges, places_beside
+from balloon_usd.solver.frame import Frame
+from balloon_usd.solver.hands import Hands
+from balloon_usd.solver.kosaka.body import KosakaBody, kosaka_body
+from balloon_usd.solver.kosaka.clusters import Clusters
+from balloon_usd.solver.kosaka.maker import KosakaMaker
+from balloon_usd.solver.kosaka.parameters import RUBBER_DRAG
+from balloon_usd.solver.kosaka.scene import AIR_FACES, KosakaScene, kosaka_scene
+from balloon_usd.solver.kosaka.stepper import KosakaStepper
+from balloon_usd.solver.settings import SceneSettings
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from balloon_usd.balloon.tube_mesh import BalloonMesh
+    from balloon_usd.plan import Plan
+
+LOOKED_AT = ("x", "stretch", "volume", "most_near", "air", "face_hits")
+"""Arrays of which frames are made."""
+
+
+LEADING = 0.1
+"""Force of a hand that leads a bubble, as a share of the largest external force."""
+LOST_EVERY = 12
+"""Frames between two searches for air that no offset region sees."""
+ROOM_TO_GROW = 1.25
+"""Largest size of a quad, in its size at the start, up to which the searches are sure to find it."""
+
+
+class KosakaModel:
+    """Sculptures of springs and air particles."""
+
+    def __init__(
+        self,
+        plans: Sequence[Plan],
+        meshes: Sequence[Sequence[BalloonMesh]],
+        fps: float,
+        substeps: int,
+        device: str,
+    ) -> None:
+        self._bodies = body_ranges([len(m) for m in meshes])
+        dt = 1.0 / (fps * substeps)
+        bodies = [body for plan, m in zip(plans, meshes, strict=True) for body in _bodies(plan, m, dt)]
+        worlds = [world for world, run in enumerate(self._bodies) for _ in run]
+        settings = SceneSettings(
+            dt=dt,
+            gravity=plans[0].recipe.physics.gravity,
+            drag=RUBBER_DRAG,
+            contact_offset=min(b.parameters.contact_offset for b in bodies),
+        )
+        self.scene = kosaka_scene(bodies, worlds, settings, device)
+        self.substeps = substeps
+        half = _quad_half(bodies)
+        self.stepper = KosakaStepper(self.scene, substeps, 2.0 * half, half)
+        self.hands = _hands(self.scene)
+        self.hands.touch(range(len(bodies)))
+        self.clusters = Clusters(self.scene)
+        self.makers = [
+            KosakaMaker(plan, self.scene, self.hands, run.start)
+            for plan, run in zip(plans, self._bodies, strict=True)
+        ]
+        self._seen: dict[str, NDArray[Any]] = {}
+        self._frames = 0
+
+    def advance(self, begin: float, end: float) -> None:
+        """Let the makers act and the physics run from `begin` to `end` (s)."""
+        middle = self.scene.ring_middle.numpy()
+        for maker in self.makers:
+            maker.act(begin, end, middle)
+        self.hands.upload()
+        self.stepper.advance(contact=bool(self.hands.touching.any()), fingers=self.hands.pressing)
+        self.hands.arrived()
+        self.clusters.part()
+        self._frames += 1
+        if self._frames % LOST_EVERY == 0:
+            self.stepper.find_lost()
+
+    def look(self) -> None:
+        """Fetch the present state, from which frames are made."""
+        self.stepper.look()
+        self._seen = {name: self.scene.arrays[name].numpy() for name in LOOKED_AT}
+
+    def frame(self, world: int, time_code: int) -> Frame:
+        """Return what was looked at as a frame of one sculpture."""
+        s, seen, run = self.scene, self._seen, self._bodies[world]
+        walls = [slice(s.vertex_start[b], s.vertex_start[b + 1]) for b in run]
+        airs = [slice(s.air_start[b], s.air_start[b + 1]) for b in run]
+        bubbles = np.concatenate([s.bubbles_of(b) for b in run])
+        return Frame(
+            time_code,
+            tuple(seen["x"][span].copy() for span in walls),
+            tuple(seen["stretch"][span].copy() for span in walls),
+            self._pressures()[bubbles],
+            seen["volume"][bubbles],
+            self.makers[world].doing,
+            tuple(seen["air"][span].copy() for span in airs),
+            tuple(np.searchsorted(bubbles, self.clusters.of_air[span]).astype(np.int32) for span in airs),
+        )
+
+    def failure(self, world: int, time_code: int) -> str | None:
+        """Return what is wrong with a sculpture in a way that its frame does not show, or None."""
+        near = int(self._seen["most_near"][world])
+        if near <= AIR_FACES:
+            return None
+        return f"{near} air particles and faces meet but there is room for {AIR_FACES}: space them wider"
+
+    def give_up(self, world: int) -> None:
+        """Leave a sculpture alone whose run has failed."""
+        self.hands.give_up(self._bodies[world])
+
+    def _pressures(self) -> NDArray[np.float32]:
+        """Gauge pressure (Pa) of every segment from the particles that pushed on it during the frame."""
+        s = self.scene
+        hits = self._seen["face_hits"].reshape(-1, 2).sum(axis=1) / self.substeps
+        x = self._seen["x"][s.quads.numpy()]
+        area = 0.5 * np.linalg.norm(np.cross(x[:, 2] - x[:, 0], x[:, 3] - x[:, 1]), axis=1)
+        run = s.quad_cluster.numpy()
+        counts = np.bincount(run, weights=hits, minlength=len(s.segment_quad))
+        areas = np.bincount(run, weights=area, minlength=len(s.segment_quad))
+        first = np.zeros(len(s.segment_quad), dtype=int)
+        first[s.quad_segment.numpy()] = run
+        body = np.searchsorted(s.segment_start, np.arange(len(first)), side="right") - 1
+        push = np.array([b.vertex_mass * b.push / 6.0 for b in s.bodies])
+        return np.asarray(push[body] * (counts / np.maximum(areas, 1e-9))[first], dtype=np.float32)
+
+
+def _hands(scene: KosakaScene) -> Hands:
+    """Hands as strong as the external forces of the model may be (Kosaka 2008, 3.1)."""
+    hands = Hands(scene, lead_stiffness=math.inf)
+    limits = np.repeat([b.parameters.force_limit for b in scene.bodies], [len(b.rings) for b in scene.bodies])
+    hands.force[:] = LEADING * limits * scene.joint_mass.numpy()
+    hands.upload()
+    return hands
+
+
+def _bodies(plan: Plan, meshes: Sequence[BalloonMesh], dt: float) -> list[KosakaBody]:
+    """Return the balloons of a plan, side by side."""
+    bodies = []
+    places = places_beside(len(meshes))
+    for strip, mesh, place in zip(plan.strips.values(), meshes, places, strict=True):
+        scale = strip.size.thickness / strip.size.radius
+        pressure = maxwell_state(strip.rubber).p_star * scale
+        body = kosaka_body(strip, plan.table, mesh, plan.recipe.physics.kosaka, pressure, dt)
+        body.points[:, 1] += place
+        body.air[:, 1] += place
+        bodies.append(body)
+    return bodies
+
+
+def _quad_half(bodies: Sequence[KosakaBody]) -> float:
+    """Largest distance of a quad's corner from its middle, m, with room to grow."""
+    corners = [b.points[b.quads] - b.points[b.quads].mean(axis=1, keepdims=True) for b in bodies]
+    return ROOM_TO_GROW * max(float(np.linalg.norm(c, axis=2).max()) for c in corners)

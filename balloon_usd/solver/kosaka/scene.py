@@ -1,0 +1,143 @@
+"""The flat state of the thesis's model: nets of springs and particles of air added to the meshes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+import warp as wp
+
+from balloon_usd.solver.kernels.drift import Drift
+from balloon_usd.solver.kernels.springs import Constants
+from balloon_usd.solver.kosaka.parameters import MARGIN, SEARCH_EVERY
+from balloon_usd.solver.scene import Ints, Scene, lay_meshes
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from balloon_usd.solver.flatten import Arrays
+    from balloon_usd.solver.kosaka.body import KosakaBody
+    from balloon_usd.solver.settings import SceneSettings
+
+NEIGHBOURS = 192
+"""Room for the neighbours of one particle."""
+FACE_AIR = 128
+"""Room for the particles that one triangle may meet."""
+WATCHED = 2.0
+"""Distance within which walls are watched between two searches, in thicknesses of the contact region."""
+AIR_FACES = 512
+"""Room for the triangles that one particle may meet."""
+
+
+@dataclass
+class KosakaScene(Scene):
+    """Balloons of springs and particles on one device."""
+
+    bodies: tuple[KosakaBody, ...]
+    margin: float = 0.0
+    """Distance that lists of neighbours look ahead, m."""
+
+    @property
+    def air_start(self) -> Ints:
+        """First particle of every body, (B + 1,)."""
+        return np.concatenate([[0], np.cumsum([len(b.air) for b in self.bodies])])
+
+
+def kosaka_scene(
+    bodies: Sequence[KosakaBody], worlds: Sequence[int], settings: SceneSettings, device: str
+) -> KosakaScene:
+    """Put bodies on a device; bodies of different `worlds` never touch."""
+    scene = KosakaScene.of(bodies, worlds, settings, device)
+    scene.margin = MARGIN * min(b.parameters.re for b in bodies)
+    mass = np.concatenate([np.full(len(b.points), b.vertex_mass) for b in bodies]).astype(np.float32)
+    lay_meshes(scene, {"mass": mass}, sum(len(b.rings) for b in bodies))
+    scene.touch.margin = WATCHED * settings.contact_offset
+    host: Arrays = {}
+    _net_arrays(scene, host)
+    _air_arrays(scene, host)
+    scene.put(host)
+    constants = [_constants(b, scene.margin, settings.dt) for b in bodies]
+    scene.arrays["constants"] = wp.array(constants, dtype=Constants, device=device)
+    _scratch_arrays(scene)
+    return scene
+
+
+def _net_arrays(scene: KosakaScene, host: Arrays) -> None:
+    starts = scene.vertex_start
+    host["spring_ends"] = np.concatenate(
+        [np.where(b.net.ends >= 0, b.net.ends + starts[k], -1) for k, b in enumerate(scene.bodies)]
+    ).astype(np.int32)
+    host["natural"] = np.concatenate([b.net.natural for b in scene.bodies]).astype(np.float32)
+    host["joint_neck"] = np.array(
+        [b.neck_radius for b in scene.bodies for _ in b.rings] or [1.0], dtype=np.float32
+    )
+    host["frozen"] = np.array([r.closed for b in scene.bodies for r in b.rings] or [False], dtype=np.int32)
+
+
+def _air_arrays(scene: KosakaScene, host: Arrays) -> None:
+    bodies = scene.bodies
+    counts = [len(b.air) for b in bodies]
+    first = [int(scene.segment_start[k]) + b.spare_segments for k, b in enumerate(bodies)]
+    host["air"] = np.concatenate([b.air for b in bodies]).astype(np.float32)
+    host["air_balloon"] = np.repeat(np.arange(len(bodies)), counts).astype(np.int32)
+    host["air_world"] = np.asarray(scene.worlds, dtype=np.int32)[host["air_balloon"]]
+    host["air_cluster"] = np.repeat(first, counts).astype(np.int32)
+    segment = scene.quad_segment.numpy()
+    # One run of bubbles until a ring freezes; the knot's own segments stay by themselves.
+    host["quad_cluster"] = np.minimum(segment, np.asarray(first)[scene.quad_balloon.numpy()]).astype(np.int32)
+
+
+def _constants(body: KosakaBody, margin: float, dt: float) -> Constants:
+    constants, law = Constants(), body.parameters
+    for name in (
+        "ks",
+        "kd",
+        "alpha",
+        "beta",
+        "gamma",
+        "re",
+        "air_offset",
+        "contact_offset",
+        "leak_offset",
+        "calming",
+        "grading",
+        "drag",
+        "force_limit",
+        "elongation_limit",
+    ):
+        setattr(constants, name, getattr(law, name))
+    constants.push = body.push
+    # Lists only mind relative motion: air that a bubble carries along may be fast, so this is no strict bound.
+    constants.air_speed = 2.0 * margin / (SEARCH_EVERY * dt)
+    return constants
+
+
+def _scratch_arrays(scene: KosakaScene) -> None:
+    vertices, quads = int(scene.vertex_start[-1]), int(scene.quad_start[-1])
+    particles, worlds = int(scene.air_start[-1]), max(scene.worlds) + 1
+    for name, count in (
+        ("spring_pull", vertices),
+        ("air_pull", vertices),
+        ("face_normal", 2 * quads),
+        ("face_angles", 2 * quads),
+        ("face_push", 2 * quads),
+        ("air_speed", particles),
+        ("air_push", particles),
+        ("wall_push", particles),
+    ):
+        scene.zeros(name, count, wp.vec3)
+    scene.zeros("drifts", int(scene.segment_start[-1]), Drift)
+    scene.zeros("face_hits", 2 * quads, float)
+    for name, shape in (
+        ("neighbour_count", particles),
+        ("face_air_count", 2 * quads),
+        ("air_face_count", particles),
+        ("alone", particles),
+        ("repairs", particles),
+        ("most_near", worlds),
+    ):
+        scene.zeros(name, shape, int)
+    scene.zeros("neighbours", (particles, NEIGHBOURS), int)
+    scene.zeros("face_air", (2 * quads, FACE_AIR), int)
+    scene.zeros("air_faces", (particles, AIR_FACES), int)

@@ -1,0 +1,155 @@
+"""A balloon of the latex model: mesh, rubber, rings that can be held or closed, and chambers between them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from balloon_usd.balloon.bubble_shape import neck_rubber
+from balloon_usd.balloon.sizes import BalloonSize
+from balloon_usd.balloon.tube_theory import maxwell_state
+from balloon_usd.plan.open_tube import softened
+from balloon_usd.solver.body import NECK_RADIUS, Body, RingSpec
+
+if TYPE_CHECKING:
+    from balloon_usd.balloon.rubber import Rubber
+    from balloon_usd.balloon.tube_mesh import BalloonMesh
+
+
+@dataclass(frozen=True, kw_only=True)
+class LatexBody(Body):
+    """A balloon with its wall of rubber and its chambers of gas."""
+
+    rest: NDArray[np.float64]
+    """Unstressed vertex positions, (V, 3) float64, m."""
+    thickness: NDArray[np.float64]
+    """Unstressed wall thickness of every quad, (Q,) float64, m."""
+    rubber: Rubber
+    """Law of the wall."""
+    worked: NDArray[np.float64]
+    """Energy to which every quad was stretched before, (Q,) float64, J/m3: up to there it is soft."""
+    gauge: NDArray[np.float64]
+    """Gauge pressure of every chamber at the start, (S,) float64, Pa."""
+    vented: tuple[int, ...]
+    """Chambers open to the air: they keep their gauge pressure."""
+    inlet: int
+    """Chamber that the pump blows into."""
+
+
+LIP_THICKNESS = 5.0
+"""Wall of the rolled lip, in wall thicknesses."""
+LIP_PRESSURE = 0.7
+"""Pressure that stands for the stiffness of the rolled lip, in pressures of the knot: it keeps the lip's
+shape.
+"""
+SEED_LENGTH = 4.0
+"""Length behind the knot that artists stretch beforehand, in R0: it is softer, so the bulge starts there."""
+SEED_THINNING = 0.12
+"""Share by which the wall is thinner there instead if the rubber does not soften."""
+TIP_THICKENING = 0.5
+"""Wall is thicker by this share at the tip, where the former was dipped deepest."""
+TIP_LENGTH = 1.0
+"""Length over which that thickening fades, in R0."""
+START_TAPER = 1.6
+"""Slope at which the flat tube widens beside the knot at the start (m per m)."""
+
+
+def tube_body(
+    mesh: BalloonMesh,
+    rubber: Rubber,
+    radius: float,
+    thickness: float,
+    joints: tuple[float, ...],
+    guides: tuple[float, ...],
+    knot_pressure: float,
+) -> LatexBody:
+    """Return the body of a twisting balloon: lip, knot bead, and a chamber between every two joints.
+
+    `joints`, `guides`: unstressed distances from the knot, m; guides are rings that hands lead but never
+    close.
+    `knot_pressure`: gauge pressure sealed into the knot bead, Pa.
+    """
+    n = mesh.around
+    bead = int(np.searchsorted(mesh.ring_along, -1e-9))
+    lip = 3
+    marks = [(lip, True, True), (bead, True, True)]
+    marks += [(mesh.ring_at(s), True, False) for s in joints]
+    marks += [(mesh.ring_at(s), False, False) for s in guides]
+    marks.sort()
+    rings = tuple(RingSpec(int(mesh.ring_start[r]), n, parts, closed) for r, parts, closed in marks)
+    m = (n // 4) ** 2
+    borders = [m + r * n for r, parts, _ in marks if parts]
+    ends = np.array([*borders, len(mesh.quads)], dtype=np.int32)
+    gauge = np.zeros(len(ends))
+    gauge[0], gauge[1] = LIP_PRESSURE * knot_pressure, knot_pressure
+    middle = mesh.along[mesh.quads].mean(axis=1)
+    seed = _seed(middle / (SEED_LENGTH * radius))
+    wall = thickness * (1.0 + TIP_THICKENING * np.exp((middle - mesh.along.max()) / (TIP_LENGTH * radius)))
+    if rubber.softening is None:
+        wall *= 1.0 - SEED_THINNING * seed
+    wall[: borders[0]] *= LIP_THICKNESS
+    neck = NECK_RADIUS * radius
+    bulged = maxwell_state(rubber).bulged
+    place = _without_necks(mesh, rubber, radius, joints, neck * math.cos(math.pi / n))
+    ring_of = np.abs(mesh.along[:, None] - mesh.ring_along[None, :]).argmin(axis=1).astype(np.int32)
+    return LatexBody(
+        points=_tapered(mesh, place, [mesh.ring_along[lip], mesh.ring_along[bead]], neck),
+        rest=np.column_stack([place, mesh.points[:, 1:].astype(np.float64)]),
+        quads=mesh.quads,
+        thickness=wall,
+        rubber=rubber,
+        worked=seed * float(rubber.energy(bulged.a, bulged.b)),
+        radius=radius,
+        along=mesh.along,
+        mesh_rings=tuple((int(f), n) for f in mesh.ring_start),
+        vertex_ring=ring_of,
+        rings=rings,
+        segment_ends=ends,
+        gauge=gauge,
+        vented=(0,),
+        inlet=2,
+        neck_radius=neck,
+        spare_rings=1,
+        spare_segments=2,
+    )
+
+
+def _seed(place: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Share of the seed, 1 behind the knot and fading over as much again; `place`: in seed lengths."""
+    return np.where(place > 0.0, np.clip(2.0 - place, 0.0, 1.0), 0.0)
+
+
+def _without_necks(
+    mesh: BalloonMesh, rubber: Rubber, radius: float, joints: tuple[float, ...], neck: float
+) -> NDArray[np.float64]:
+    """Unstressed place of every vertex along the tube, (V,) m, without the rubber bunched in necks.
+
+    The mesh ends at the surface of a neck, whose radius is `neck` (m). The rubber inside it, left in the
+    bubbles, would swell a short one by a third.
+    """
+    x = mesh.points[:, 0].astype(np.float64)
+    size = BalloonSize("tube", radius, float(x.max()), radius)
+    marks = np.array([0.0, *joints, x.max()])
+    lengths = np.diff(marks)
+    hidden = np.array([neck_rubber(size, softened(rubber), float(s), neck) for s in lengths])
+    ends = np.full(len(lengths), 2.0)
+    ends[-1] = 1.0
+    moved = np.concatenate([[0.0], np.cumsum(lengths - ends * hidden)])
+    return np.where(x > 0.0, np.interp(x, marks, moved), x)
+
+
+def _tapered(
+    mesh: BalloonMesh, place: NDArray[np.float64], closed: list[float], neck: float
+) -> NDArray[np.float32]:
+    """Vertex positions with the tube drawn in at the rings that are closed from the start."""
+    points = mesh.points.copy()
+    points[:, 0] = place
+    for s in closed:
+        radius = np.maximum(np.linalg.norm(points[:, 1:], axis=1), 1e-9)
+        wanted = neck + START_TAPER * np.abs(mesh.along - s)
+        points[:, 1:] *= np.minimum(1.0, wanted / radius)[:, None]
+    return points

@@ -1,0 +1,144 @@
+"""The maker of the latex model: blows up, pinches, twists, and lets the friction of welds hold the pose."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from balloon_usd.balloon.bubble_shape import tail_volume_per_rest_length, tube_volume_per_rest_length
+from balloon_usd.balloon.tube_theory import maxwell_state, pressure_maximum
+from balloon_usd.plan.choreography import Inflate, LetGo, Move, Pinch, Spin
+from balloon_usd.plan.closing import smooth
+from balloon_usd.solver.latex.friction import friction_pairs
+from balloon_usd.solver.latex.memory import set_bend
+from balloon_usd.solver.maker import ALONG, Maker
+
+if TYPE_CHECKING:
+    from balloon_usd.plan import Plan
+    from balloon_usd.solver.latex.hands import LatexHands
+    from balloon_usd.solver.latex.scene import LatexScene
+    from balloon_usd.solver.latex.struts import Struts
+
+Floats = NDArray[np.float32]
+
+PUMP_RESERVE = 1.15
+"""Pressure of the pump over the pressure at which the flat tube gives way."""
+PUMP_TIME = 0.985
+"""Share of the time given to inflating in which the pump has done its work."""
+PUMP_RAMP = 0.2
+"""Share of that time in which the pump starts, and stops."""
+TAIL_STIFFNESS = 200.0
+"""Stiffness of the hand that leads the flat tail while the balloon is blown up, N/m: soft, it only steers."""
+SPIN_CLEAR = 1e-6
+"""What lies farther than this beyond a joint turns with the balloon, m."""
+SOFTENING_SECONDS = 0.1
+"""Time in which stretched rubber softens, s: longer than the waves that hands send through a heavy mesh."""
+
+
+class LatexMaker(Maker):
+    """Performs one plan on its balloons in a scene of the latex model."""
+
+    scene: LatexScene
+    hands: LatexHands
+
+    def __init__(
+        self, plan: Plan, scene: LatexScene, hands: LatexHands, struts: Struts, first_body: int
+    ) -> None:
+        super().__init__(plan, scene, hands, first_body)
+        self.struts = struts
+        self.inflated = -1
+        """Frame at whose end the last balloon has its gas."""
+
+    def act(self, begin: float, end: float, middle: Floats) -> None:
+        """Set the hands' goals for the frame from `begin` to `end` (s), given where all rings are (J, 3),
+        m.
+        """
+        for body in self.body.values():
+            self.hands.stop_turning(body)
+        super().act(begin, end, middle)
+
+    def _perform(
+        self, k: int, move: Move, frame: tuple[float, float], share: float, fresh: bool, middle: Floats
+    ) -> None:
+        if isinstance(move, Inflate):
+            self._inflate(move, share, fresh, middle)
+        elif isinstance(move, Pinch):
+            self._pinch(k, move, share, fresh, middle)
+        elif isinstance(move, Spin):
+            self._spin(move, *frame, middle)
+        else:
+            super()._perform(k, move, frame, share, fresh, middle)
+            if isinstance(move, LetGo) and fresh:
+                self.struts.hold(friction_pairs(self.plan, self.hands, self._ring), middle)
+
+    def _inflate(self, move: Inflate, share: float, fresh: bool, middle: Floats) -> None:
+        b = self.body[move.balloon]
+        if fresh:
+            strip, budget = self.plan.strips[move.balloon], self.plan.budgets[move.balloon]
+            scale = strip.size.thickness / strip.size.radius
+            n = self.scene.bodies[b].rings[0].around
+            # The polygon holds more than the circle that it is drawn about.
+            self.hands.pump_goal[b] = budget.gas_amount * n * math.tan(math.pi / n) / math.pi
+            self.hands.pump_limit[b] = PUMP_RESERVE * pressure_maximum(strip.rubber).p_star * scale
+            self.hands.grip(int(self.scene.joint_start[b]) + 1, middle)
+            self.hands.set_drag(b, 0.0)
+            # What the mesh's artificial inertia adds to the stretch behind the front must not soften it.
+            self.hands.set_softening(b, 0.0)
+        # The pump starts and stops gently: the balloon is pushed along by its own front.
+        gentle = min(1.0, share / PUMP_RAMP, (1.0 - share) / PUMP_RAMP)
+        flow = self.hands.pump_goal[b] / (PUMP_TIME * (1.0 - PUMP_RAMP) * move.seconds)
+        self.hands.pump_flow[b] = flow * max(gentle, 0.0)
+        self._lead_tail(move.balloon, float(self.hands.pump_flow[b]), fresh, middle)
+        if share >= 1.0:
+            self.hands.set_drag(b, self.scene.settings.drag)
+            self.hands.set_softening(b, self.scene.settings.dt / SOFTENING_SECONDS)
+            self.inflated = self._frame
+
+    def _lead_tail(self, balloon: str, flow: float, fresh: bool, middle: Floats) -> None:
+        """Keep the flat tail straight and as fast as the front that a flow of gas (mol/s) drives along."""
+        strip = self.plan.strips[balloon]
+        tip = self._ring[self.plan.table.guides(strip.bubbles[-1].name)[-1]]
+        if fresh:
+            self.hands.lead(tip, middle)
+            self.hands.stiffness[tip] = TAIL_STIFFNESS
+        state = maxwell_state(strip.rubber)
+        gained = tube_volume_per_rest_length(strip.size, strip.rubber) - tail_volume_per_rest_length(
+            strip.size, strip.rubber
+        )
+        pressure = self.scene.settings.atmosphere + self.plan.budgets[balloon].pressure
+        rest_speed = flow * float(self.scene.air.molar_energy) / (pressure * gained)
+        forward = np.array(ALONG, dtype=np.float32)
+        axial = float((middle[tip] - self.hands.goal[tip]) @ forward)
+        self.hands.start[tip] = self.hands.goal[tip] + forward * axial
+        step = rest_speed * (state.bulged.b - state.thin.b) / self.plan.recipe.fps
+        self.hands.goal[tip] = self.hands.start[tip] + forward * step
+        if flow == 0.0:
+            self.hands.free[tip] = ALONG
+
+    def _pinch(self, k: int, move: Pinch, share: float, fresh: bool, middle: Floats) -> None:
+        joint = self._ring[move.ring]
+        if fresh:
+            wide = self._ring_width(joint)
+            self._began[k] = np.array([wide])
+            self.hands.clasp(joint, middle)
+            self.hands.split_gas(joint)
+            self.hands.radius[joint] = wide
+            self.hands.passage[joint] = math.pi * wide**2
+        self._steady(move.ring, middle)
+        wide, neck = float(self._began[k][0]), float(self.hands.neck[joint])
+        radius = neck + (wide - neck) * (1.0 - smooth(share))
+        self.hands.squeeze(joint, radius, math.pi * (radius**2 - neck**2))
+
+    def _spin(self, move: Spin, begin: float, end: float, middle: Floats) -> None:
+        ring = self.plan.table.rings[move.ring]
+        self._steady(move.ring, middle)
+        inside = max(0.0, min(end, move.end) - max(begin, move.start))
+        rate = 2.0 * math.pi * move.turns / move.seconds * inside / (end - begin)
+        self.hands.turn(self.body[ring.balloon], self._ring[move.ring], ring.along + SPIN_CLEAR, rate)
+
+    def _keep_bend(self, bubble: str) -> None:
+        body, faces = self._faces(bubble)
+        set_bend(self.scene, body, faces)

@@ -1,0 +1,138 @@
+"""The latex model of some plans: bodies, makers and stepper in one flat state."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from balloon_usd.balloon.tube_theory import maxwell_state
+from balloon_usd.plan.meshing import joint_places
+from balloon_usd.solver.body import body_ranges, places_beside
+from balloon_usd.solver.frame import Frame
+from balloon_usd.solver.latex.body import LatexBody, tube_body
+from balloon_usd.solver.latex.hands import LatexHands
+from balloon_usd.solver.latex.maker import LatexMaker
+from balloon_usd.solver.latex.scene import build_scene
+from balloon_usd.solver.latex.stepper import Stepper
+from balloon_usd.solver.latex.struts import StrutLaw, Struts
+from balloon_usd.solver.settings import SceneSettings
+from balloon_usd.solver.watch import crowded
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from balloon_usd.balloon.tube_mesh import BalloonMesh
+    from balloon_usd.plan import Plan, Strip
+
+SEALED_KNOT = 0.7
+"""Pressure in the knot bead, in Maxwell pressures of its balloon."""
+STRUTS_PER_JOINT = 12
+"""Room for struts, per joint of the scene."""
+SHORT_OF_GAS = 0.98
+"""Share of the wanted gas below which inflating counts as failed."""
+LOOKED_AT = ("x", "stretch", "pressure", "volume", "most_hits", "amount")
+"""Arrays of which frames are made."""
+
+
+class LatexModel:
+    """Sculptures of hyperelastic rubber and real gas."""
+
+    def __init__(
+        self,
+        plans: Sequence[Plan],
+        meshes: Sequence[Sequence[BalloonMesh]],
+        fps: float,
+        substeps: int,
+        device: str,
+    ) -> None:
+        self._bodies = body_ranges([len(m) for m in meshes])
+        bodies = [body for plan, m in zip(plans, meshes, strict=True) for body in _bodies(plan, m)]
+        worlds = [world for world, run in enumerate(self._bodies) for _ in run]
+        physics = plans[0].recipe.physics
+        settings = SceneSettings(
+            dt=1.0 / (fps * substeps),
+            gravity=physics.gravity,
+            friction=physics.friction,
+            scale_mass=physics.mass_scaling == "selective",
+        )
+        rings = sum(len(b.rings) for b in bodies)
+        self.scene = build_scene(bodies, worlds, settings, device, rings, STRUTS_PER_JOINT * rings)
+        self.stepper = Stepper(self.scene, substeps, _reach(bodies, settings))
+        self.hands = LatexHands(self.scene)
+        struts = Struts(self.scene, StrutLaw())
+        self.makers = [
+            LatexMaker(plan, self.scene, self.hands, struts, run.start)
+            for plan, run in zip(plans, self._bodies, strict=True)
+        ]
+        self._seen: dict[str, np.ndarray] = {}
+
+    def advance(self, begin: float, end: float) -> None:
+        """Let the makers act and the physics run from `begin` to `end` (s)."""
+        middle = self.scene.ring_middle.numpy()
+        for maker in self.makers:
+            maker.act(begin, end, middle)
+        self.hands.upload()
+        self.stepper.advance(contact=bool(self.hands.touching.any()), fingers=self.hands.pressing)
+        self.hands.arrived()
+
+    def look(self) -> None:
+        """Fetch the present state, from which frames are made."""
+        self.stepper.stretch()
+        self._seen = {name: self.scene.arrays[name].numpy() for name in LOOKED_AT}
+
+    def frame(self, world: int, time_code: int) -> Frame:
+        """Return what was looked at as a frame of one sculpture."""
+        s, seen = self.scene, self._seen
+        spans = [slice(s.vertex_start[b], s.vertex_start[b + 1]) for b in self._bodies[world]]
+        bubbles = np.concatenate([s.bubbles_of(b) for b in self._bodies[world]])
+        return Frame(
+            time_code,
+            tuple(seen["x"][span].copy() for span in spans),
+            tuple(seen["stretch"][span].copy() for span in spans),
+            seen["pressure"][bubbles],
+            seen["volume"][bubbles],
+            self.makers[world].doing,
+        )
+
+    def failure(self, world: int, time_code: int) -> str | None:
+        """Return what is wrong with a sculpture in a way that its frame does not show, or None."""
+        return crowded(int(self._seen["most_hits"][world])) or self._short_of_gas(world, time_code)
+
+    def give_up(self, world: int) -> None:
+        """Leave a sculpture alone whose run has failed."""
+        self.hands.give_up(self._bodies[world])
+
+    def _short_of_gas(self, world: int, time_code: int) -> str | None:
+        """Tell when inflating has ended without the gas that the plan asks for."""
+        if self.makers[world].inflated != time_code - 1:
+            return None
+        for b in self._bodies[world]:
+            got = float(self._seen["amount"][self.scene.bubbles_of(b)].sum())
+            if got < SHORT_OF_GAS * self.hands.pump_goal[b]:
+                share = got / self.hands.pump_goal[b]
+                return f"the pump brought only {share:.0%} of the gas: give it more seconds"
+        return None
+
+
+def _bodies(plan: Plan, meshes: Sequence[BalloonMesh]) -> list[LatexBody]:
+    """Return the balloons of a plan, side by side."""
+    bodies = [_body(plan, strip, mesh) for strip, mesh in zip(plan.strips.values(), meshes, strict=True)]
+    for body, place in zip(bodies, places_beside(len(bodies)), strict=True):
+        body.points[:, 1] += place
+    return bodies
+
+
+def _body(plan: Plan, strip: Strip, mesh: BalloonMesh) -> LatexBody:
+    pressure = SEALED_KNOT * maxwell_state(strip.rubber).p_star * strip.size.thickness / strip.size.radius
+    guides = tuple(r.along for r in plan.table.rings if r.balloon == strip.balloon and not r.joint)
+    return tube_body(
+        mesh, strip.rubber, strip.size.radius, strip.size.thickness, joint_places(strip), guides, pressure
+    )
+
+
+def _reach(bodies: Sequence[LatexBody], settings: SceneSettings) -> float:
+    """Cell size of the contact search, m: the bulged size of a quad and the contact offset."""
+    widest = max(2.0 * math.pi * b.radius / b.rings[0].around for b in bodies)
+    return 5.0 * widest + 2.0 * settings.contact_offset

@@ -1,0 +1,116 @@
+"""The flat state of the latex model: walls of rubber and chambers of gas added to the meshes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+import warp as wp
+
+from balloon_usd.balloon.air import AIR_DENSITY, GAS_CONSTANT, ROOM_TEMPERATURE
+from balloon_usd.solver.kernels.gas import Air
+from balloon_usd.solver.kernels.joints import Axes
+from balloon_usd.solver.kernels.motion import Spin
+from balloon_usd.solver.kernels.rubber import Law
+from balloon_usd.solver.latex.device_law import device_law
+from balloon_usd.solver.latex.membrane_data import membrane_data
+from balloon_usd.solver.scene import Scene, lay_meshes
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from balloon_usd.solver.flatten import Arrays
+    from balloon_usd.solver.latex.body import LatexBody
+    from balloon_usd.solver.settings import SceneSettings
+
+DISCHARGE = 0.6
+"""Discharge coefficient of a sharp orifice."""
+EQUALISE = 0.9
+"""Largest share of a pressure difference that may even out in one substep, between rigid walls: stable."""
+STRUT_SLOTS = 24
+"""Struts that may end at one joint."""
+
+
+@dataclass
+class LatexScene(Scene):
+    """Balloons of the latex model on one device."""
+
+    bodies: tuple[LatexBody, ...]
+    air: Air = field(default_factory=Air)
+
+
+def build_scene(
+    bodies: Sequence[LatexBody],
+    worlds: Sequence[int],
+    settings: SceneSettings,
+    device: str,
+    weld_count: int,
+    strut_count: int,
+) -> LatexScene:
+    """Put bodies on a device.
+
+    `worlds`: sculpture of every body; bodies of different sculptures never touch. `weld_count`,
+    `strut_count`: room for welds and struts.
+    """
+    scene = LatexScene.of(bodies, worlds, settings, device)
+    data = [
+        membrane_data(b, settings.dt, settings.atmosphere, scale_mass=settings.scale_mass) for b in bodies
+    ]
+    host: Arrays = {
+        name: np.concatenate([getattr(d, field) for d in data]).astype(np.float32)
+        for name, field in (
+            ("to_rest", "to_rest"),
+            ("hourglass", "hourglass"),
+            ("rubber_volume", "rubber_volume"),
+            ("mass", "mass"),
+            ("weight", "true_mass"),
+        )
+    }
+    lay_meshes(scene, host, weld_count)
+    host = {"quad_law": scene.quad_balloon.numpy()}
+    _gas_arrays(scene, host)
+    scene.put(host)
+    _state_arrays(scene, strut_count)
+    scene.air.atmosphere = settings.atmosphere
+    scene.air.molar_energy = wp.float64(GAS_CONSTANT * ROOM_TEMPERATURE)
+    scene.air.density = AIR_DENSITY
+    scene.air.discharge = DISCHARGE
+    scene.air.equalise = EQUALISE
+    return scene
+
+
+def _gas_arrays(scene: LatexScene, host: Arrays) -> None:
+    """Chambers of every balloon, its inlet, and the pressures at the start."""
+    host["balloon_segment"] = scene.segment_start[:-1].astype(np.int32)
+    host["balloon_segment_end"] = scene.segment_start[1:].astype(np.int32)
+    host["inlet"] = (scene.segment_start[:-1] + [b.inlet for b in scene.bodies]).astype(np.int32)
+    host["start_gauge"] = np.concatenate([b.gauge for b in scene.bodies]).astype(np.float32)
+
+
+def _state_arrays(scene: LatexScene, strut_count: int) -> None:
+    """Make the state and scratch arrays of walls, gas, joints and struts, at rest."""
+    a = scene.arrays
+    quads, segments = int(scene.quad_start[-1]), int(scene.segment_start[-1])
+    joints, balloons = len(a["joint_first"]), len(scene.bodies)
+    worked = np.concatenate([b.worked for b in scene.bodies]).astype(np.float32)
+    a["peak_energy"] = wp.array(worked, dtype=float, device=scene.device)
+    a["softening_rate"] = wp.full(balloons, 1.0, dtype=float, device=scene.device)
+    scene.zeros("pressure", segments, float)
+    scene.zeros("amount", segments, wp.float64)
+    scene.zeros("corner_force", (quads, 4), wp.vec3)
+    for name in ("open_from", "open_to"):
+        scene.zeros(name, joints, float)
+    scene.zeros("ring_axes", joints, Axes)
+    scene.zeros("joint_struts", (joints, STRUT_SLOTS), int)
+    scene.zeros("spin", balloons, Spin)
+    scene.zeros("pump_flow", balloons, float)
+    scene.zeros("pump_limit", balloons, float)
+    scene.zeros("pump_goal", balloons, wp.float64)
+    struts = max(1, strut_count)
+    a["strut_joint"] = wp.full(struts, wp.vec2i(-1, -1), dtype=wp.vec2i, device=scene.device)
+    for name in ("strut_stiffness", "strut_damping", "strut_yield", "strut_length"):
+        scene.zeros(name, struts, float)
+    scene.zeros("strut_force", struts, wp.vec3)
+    laws = [device_law(b.rubber, scene.settings.dt) for b in scene.bodies]
+    a["laws"] = wp.array(laws, dtype=Law, device=scene.device)

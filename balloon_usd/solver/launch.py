@@ -1,0 +1,56 @@
+"""Launching kernels by the names of their arguments."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import warp as wp
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from balloon_usd.solver.scene import Scene
+
+VOLUME_BLOCK = 64
+"""Threads that sum one segment on a GPU."""
+
+
+class Launcher:
+    """Launches kernels on a scene: each argument's name is an array or a value of the scene, or one that
+    changes from launch to launch.
+    """
+
+    def __init__(self, scene: Scene, values: dict[str, Any]) -> None:
+        self.scene = scene
+        self.values = values
+        self._graphs: dict[tuple[bool, ...], Any] = {}
+
+    def launch(self, kernel: Any, dim: int | tuple[int, ...], **changing: Any) -> None:
+        """Launch a kernel over `dim` threads."""
+        wp.launch(kernel, dim=dim, inputs=self._inputs(kernel, changing), device=self.scene.device)
+
+    def launch_tiled(self, kernel: Any, blocks: int, **changing: Any) -> None:
+        """Launch a kernel over blocks of threads that work together."""
+        wp.launch_tiled(
+            kernel,
+            dim=[blocks],
+            inputs=self._inputs(kernel, changing),
+            block_dim=VOLUME_BLOCK,
+            device=self.scene.device,
+        )
+
+    def replay(self, key: tuple[bool, ...], record: Callable[[], None]) -> None:
+        """Launch what was recorded under a key; record it the first time."""
+        if key not in self._graphs:
+            device = self.scene.device
+            wp.capture_begin(device=device, force_module_load=True)
+            try:
+                record()
+            finally:
+                graph = wp.capture_end(device=device)
+            self._graphs[key] = graph
+        wp.capture_launch(self._graphs[key])
+
+    def _inputs(self, kernel: Any, changing: dict[str, Any]) -> list[Any]:
+        values, arrays = self.values | changing, self.scene.arrays
+        return [values[a.label] if a.label in values else arrays[a.label] for a in kernel.adj.args]

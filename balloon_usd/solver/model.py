@@ -1,0 +1,45 @@
+"""What a simulation asks of a model of rubber and air."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Protocol
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from balloon_usd.balloon.tube_mesh import BalloonMesh
+    from balloon_usd.plan import Plan
+    from balloon_usd.solver.frame import Frame
+
+
+class Model(Protocol):
+    """Sculptures of one physical model in one flat state, advanced together."""
+
+    def advance(self, begin: float, end: float) -> None:
+        """Let the makers act and the physics run from `begin` to `end` (s)."""
+
+    def look(self) -> None:
+        """Fetch the present state, from which frames are made."""
+
+    def frame(self, world: int, time_code: int) -> Frame:
+        """Return what was looked at as a frame of one sculpture."""
+
+    def failure(self, world: int, time_code: int) -> str | None:
+        """Return what is wrong with a sculpture in a way that its frame does not show, or None."""
+
+    def give_up(self, world: int) -> None:
+        """Leave a sculpture alone whose run has failed."""
+
+
+class ModelMaker(Protocol):
+    """Puts plans into a new flat state of a model."""
+
+    def __call__(
+        self,
+        plans: Sequence[Plan],
+        meshes: Sequence[Sequence[BalloonMesh]],
+        fps: float,
+        substeps: int,
+        device: str,
+    ) -> Model:
+        """Return the model, ready for its first frame."""

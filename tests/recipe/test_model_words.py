@@ -1,0 +1,194 @@
+"""The words of the particle model and of pushing: what they mean, and what does not go together."""
+
+from __future__ import annotations
+
+import pytest
+
+from balloon_usd.recipe import Recipe, RecipeError
+
+HEAD = "format: 1\nname: dog\nunits: cm\n"
+CAPSULE = HEAD + "balloons:\n  main: {size: 260, capsule: 20}\nsteps:\n"
+TUBE = HEAD + "balloons:\n  main: {size: 260, tail: 10}\nsteps:\n"
+KOSAKA = "physics:\n  model: kosaka\n"
+AB = "  - bubbles: {a: 5, b: 5}\n"
+
+
+def messages(text: str) -> list[str]:
+    with pytest.raises(RecipeError) as caught:
+        Recipe.parse(text, file="dog.yaml")
+    return str(caught.value).splitlines()
+
+
+def push_of(written: str):
+    return Recipe.parse(f"{TUBE}{AB}  - push: {written}\n").steps[1].push
+
+
+def test_the_particle_model_is_read_with_its_constants_in_si_units() -> None:
+    text = f"{CAPSULE}  - wait: 1\n{KOSAKA}  kosaka: {{ks: 2e4, gamma: 0.1, re: 1, contact_offset: 2 mm}}\n"
+    physics = Recipe.parse(text).physics
+    assert physics.model == "kosaka"
+    assert (physics.kosaka.ks, physics.kosaka.kd, physics.kosaka.swell) == (2e4, None, 0.03)
+    assert physics.kosaka.gamma == pytest.approx(0.001)
+    assert (physics.kosaka.re, physics.kosaka.contact_offset) == (0.01, 0.002)
+
+
+def test_a_capsule_is_a_balloon_without_knot_and_tail() -> None:
+    balloon = Recipe.parse(f"{CAPSULE}  - wait: 1\n{KOSAKA}").balloons["main"]
+    assert (balloon.capsule, balloon.tail, balloon.inflated) == (0.2, None, None)
+
+
+def test_a_push_has_a_place_and_a_depth_or_a_force() -> None:
+    push = push_of("{bubble: a, at: 3, depth: 12 mm}")
+    assert (push.bubble, push.at, push.depth, push.force) == ("a", 0.03, 0.012, None)
+
+
+@pytest.mark.parametrize(
+    ("written", "newton"), [("2", 2.0), ("0.5", 0.5), ("2 N", 2.0), ("500 mN", 0.5), ("'2N'", 2.0)]
+)
+def test_forces_are_newtons_unless_they_say_millinewtons(written: str, newton: float) -> None:
+    assert push_of(f"{{bubble: a, force: {written}}}").force == newton
+
+
+PUSHES = [
+    ("{bubble: a}", "push: does not say how deep or how hard, expected one of depth, force"),
+    (
+        "{bubble: a, depth: 1, force: 2}",
+        "push.force: stands beside depth, expected exactly one of depth, force",
+    ),
+    ("{depth: 1}", "push.bubble: is missing, expected the bubble that is pushed"),
+    ("{bubble: c, depth: 1}", 'push.bubble: unknown bubble "c", expected one of a, b, main_rest'),
+    ("{bubble: main_rset, depth: 1}", 'push.bubble: unknown bubble "main_rset", did you mean "main_rest"?'),
+    ("{bubble: a, dept: 1, depth: 1}", 'push.dept: unknown key "dept", did you mean "depth"?'),
+    ("{bubble: a, depth: 0}", "push.depth: 0 is out of range, expected more than 0 and at most 5 m"),
+    ("{bubble: a, at: -1, depth: 1}", "push.at: -1 cm is out of range, expected more than 0 and at most 5 m"),
+    ("{bubble: a, force: 2 kg}", 'push.force: unknown force unit "kg", expected one of N, mN'),
+    (
+        "{bubble: a, force: 200}",
+        "push.force: 200 N is out of range, expected more than 0 and at most 100 N",
+    ),
+    ("{bubble: a, force: hard}", 'push.force: "hard" is no force, expected 2 or "2 N"'),
+    ("3", "push: 3 does not fit, expected entries such as key: value"),
+]
+
+
+@pytest.mark.parametrize(("written", "message"), PUSHES)
+def test_a_wrong_push_gives_one_message_at_its_line(written: str, message: str) -> None:
+    (found,) = messages(f"{TUBE}{AB}  - push: {written}\n")
+    assert found.startswith("dog.yaml:8:")
+    assert found.partition(" ")[2] == f"steps[1].{message}"
+
+
+def test_turns_make_no_sense_beside_a_push() -> None:
+    (found,) = messages(f"{TUBE}{AB}  - push: {{bubble: a, depth: 1}}\n    turns: 2\n")
+    assert found.endswith(
+        "steps[1].turns: makes no sense with push, expected one of balloon, point, seconds, note"
+    )
+
+
+def test_the_rest_that_no_step_names_can_be_pushed_and_bent() -> None:
+    steps = Recipe.parse(
+        f"{TUBE}{AB}  - push: {{bubble: main_rest, depth: 1}}\n  - bend: {{main_rest: 30}}\n"
+    ).steps
+    assert [step.kind for step in steps] == ["bubbles", "push", "bend"]
+
+
+def test_a_recipe_may_make_nothing_at_all() -> None:
+    assert Recipe.parse(f"{TUBE}  - wait: 1\n  - bend: {{main_rest: 30}}\n").steps[1].kind == "bend"
+
+
+def test_the_unnamed_rest_exists_when_nothing_more_is_made_of_its_balloon() -> None:
+    (found,) = messages(f"{TUBE}  - push: {{bubble: main_rest, depth: 1}}\n{AB}")
+    assert found == (
+        'dog.yaml:7:20: steps[0].push.bubble: bubble "main_rest" does not exist yet, steps[1] makes more of "main":'
+        " expected this step after that one"
+    )
+
+
+def test_a_rest_with_a_name_has_no_other() -> None:
+    (found,) = messages(f"{TUBE}  - rest: tail\n  - push: {{bubble: main_rest, depth: 1}}\n")
+    assert 'unknown bubble "main_rest", expected tail' in found
+
+
+def test_a_push_stays_on_the_balloon_that_it_names() -> None:
+    two = TUBE.replace("steps:", "  other: {size: 160, tail: 5}\nsteps:")
+    (found,) = messages(f"{two}  - push: {{bubble: other_rest, depth: 1}}\n    balloon: main\n")
+    assert 'bubble "other_rest" is on balloon "other", expected no other balloon named' in found
+
+
+@pytest.mark.parametrize(
+    ("line", "reason"),
+    [
+        ("softening: true", "springs do not soften"),
+        ("friction: 0.8", "rubber slides freely on rubber"),
+        ("burst: stop", "springs do not burst"),
+        ("mass_scaling: none", "everything has unit mass"),
+    ],
+)
+def test_what_only_latex_knows_is_refused_beside_the_particle_model(line: str, reason: str) -> None:
+    key = line.partition(":")[0]
+    assert messages(f"{CAPSULE}  - wait: 1\n{KOSAKA}  {line}\n") == [
+        f"dog.yaml:10:{len(key) + 5}: physics.{key}: makes no sense with model kosaka: {reason}, expected no such line"
+    ]
+
+
+def test_turns_are_refused_with_the_particle_model() -> None:
+    assert messages(f"{CAPSULE}{AB}    turns: 3\n{KOSAKA}") == [
+        "dog.yaml:8:12: steps[0].turns: makes no sense with model kosaka: its joints freeze and are not wound,"
+        " expected no turns"
+    ]
+
+
+@pytest.mark.parametrize("model", ["", "  model: latex\n"])
+def test_constants_of_the_particle_model_are_refused_with_latex(model: str) -> None:
+    (found,) = messages(f"{TUBE}{AB}physics:\n{model}  kosaka: {{ks: 2e4}}\n")
+    assert found.endswith(
+        "physics.kosaka: stands beside model latex, which has no such constants, expected model: kosaka"
+    )
+
+
+def test_a_capsule_is_refused_with_latex() -> None:
+    assert messages(f"{CAPSULE}  - wait: 1\n") == [
+        "dog.yaml:5:30: balloons.main.capsule: a closed capsule has no knot to blow up from in model latex,"
+        " expected inflated here, or physics: {model: kosaka}"
+    ]
+
+
+def test_a_capsule_stands_alone() -> None:
+    text = CAPSULE.replace("capsule: 20", "inflated: 20, capsule: 20") + "  - wait: 1\n" + KOSAKA
+    (found,) = messages(text)
+    assert found.endswith("capsule: stands beside inflated, expected exactly one of tail, inflated, capsule")
+
+
+@pytest.mark.parametrize("entry", ["length: 30", "thickness: 0.2 mm"])
+def test_a_capsule_has_no_dimensions_of_a_flat_tube(entry: str) -> None:
+    text = CAPSULE.replace("capsule: 20", f"capsule: 20, {entry}") + "  - wait: 1\n" + KOSAKA
+    (found,) = messages(text)
+    assert found.endswith("makes no sense with capsule, which is no flat tube, expected no such entry")
+
+
+CONSTANTS = [
+    ("swell: 0", "0 is out of range, expected 0.001 to 0.5, the nearest is 0.001"),
+    ("natural: 1.1", "1.1 is out of range, expected 0.05 to 1, the nearest is 1"),
+    ("ks: 0", "0 is out of range, expected 1 to 1e+09 1/s2, the nearest is 1"),
+    ("kd: .nan", "nan is out of range, expected 0 to 1e+06 1/s, the nearest is 0"),
+    ("gamma: 20", "20 cm is out of range, expected more than 0 and at most 10 cm"),
+    ("spacing: 0.01", "0.1 mm is out of range, expected at least 1 mm and at most 10 cm"),
+    ("air_ofset: 1", 'unknown key "air_ofset", did you mean "air_offset"?'),
+]
+
+
+@pytest.mark.parametrize(("entry", "message"), CONSTANTS)
+def test_a_wrong_constant_is_found_at_its_value(entry: str, message: str) -> None:
+    (found,) = messages(f"{CAPSULE}  - wait: 1\n{KOSAKA}  kosaka: {{{entry}}}\n")
+    assert found.startswith("dog.yaml:10:")
+    assert found.endswith(f": physics.kosaka.{entry.partition(':')[0]}: {message}")
+
+
+def test_names_that_cannot_be_printed_are_escaped_in_every_message() -> None:
+    (found,) = [
+        line
+        for line in messages(f"{TUBE}  - bubbles: {{\u0378a: 5, b: 5, c: 5}}\n  - lock: [b, d]\n")
+        if "lock" in line
+    ]
+    assert found.isprintable()
+    assert "\\u0378a" in found

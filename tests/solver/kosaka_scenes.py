@@ -1,0 +1,67 @@
+"""A small balloon of the `kosaka` model with three bubbles, and air put into it at random."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+
+from balloon_usd.balloon.capsule_mesh import capsule_mesh
+from balloon_usd.balloon.tube_mesh import BalloonMesh
+from balloon_usd.plan import Plan, plan
+from balloon_usd.recipe import Recipe
+from balloon_usd.solver.kosaka.model import KosakaModel
+from balloon_usd.solver.kosaka.scene import KosakaScene
+
+AROUND = 16
+RECIPE = """
+format: 1
+name: small
+units: cm
+balloons:
+  main: {size: 260, capsule: 12}
+steps:
+  - bubbles: {first: 4, second: 3}
+  - rest: third
+physics: {model: kosaka}
+"""
+
+
+@cache
+def small_plan() -> tuple[Plan, BalloonMesh]:
+    """The plan of a capsule of 12 cm, and a coarse mesh of it."""
+    figure = plan(Recipe.parse(RECIPE))
+    (strip,) = figure.strips.values()
+    ends = tuple(bubble.rest_end for bubble in strip.bubbles)
+    return figure, capsule_mesh(ends[-1], strip.inflated_radius, AROUND, ends)
+
+
+def small_model(device: str, copies: int = 1) -> KosakaModel:
+    """A model of one or several small balloons, each a sculpture of its own."""
+    figure, mesh = small_plan()
+    return KosakaModel([figure] * copies, [[mesh]] * copies, 24.0, 20, device)
+
+
+def scatter(scene: KosakaScene, seed: int, beyond: float = 0.0) -> np.ndarray:
+    """Dent the first balloon and put its air anywhere within it, or as far `beyond` its wall (m); return the air."""
+    random = np.random.default_rng(seed)
+    mesh = small_plan()[1]
+    x, air = scene.x.numpy(), scene.air.numpy()
+    x[: len(mesh.points)] = mesh.points + random.normal(0.0, 5e-4, mesh.points.shape)
+    count = int(scene.air_start[1])
+    air[:count] = within(random, count, beyond)
+    scene.x.assign(x)
+    scene.air.assign(air)
+    return air
+
+
+def within(random: np.random.Generator, count: int, beyond: float = 0.0) -> np.ndarray:
+    """Points (count, 3) evenly spread in the small balloon, or as far `beyond` its wall (m)."""
+    mesh = small_plan()[1]
+    radius = float(np.abs(mesh.points[:, 1]).max())
+    low, high = mesh.points.min(axis=0) - beyond, mesh.points.max(axis=0) + beyond
+    points = random.uniform(low, high, (8 * count, 3))
+    axis = np.zeros_like(points)
+    axis[:, 0] = np.clip(points[:, 0], radius, mesh.points[:, 0].max() - radius)
+    kept = points[np.linalg.norm(points - axis, axis=1) < radius + beyond]
+    return kept[:count]
