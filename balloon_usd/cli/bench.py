@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from balloon_usd.plan import Plan
 
 MOST_COPIES = 65_536
+MODELS = ("latex", "kosaka")
 
 CLASSIC_DOG = """\
 format: 1
@@ -37,14 +38,35 @@ steps:
 """
 """What is measured; it stays the same from version to version, whatever the shipped recipes become."""
 
+EXPERIMENT = """\
+format: 1
+name: experiment
+units: cm
+balloons:
+  main: {{size: 260, capsule: {length:g}}}
+steps:
+  - wait: 60
+physics: {{model: kosaka}}
+"""
+"""The thesis's capsule of springs and air particles (Kosaka 2008, 4.1), and longer ones."""
+LENGTHS = (20.0, 40.0, 80.0, 150.0)
+"""Lengths of capsules that are measured, cm: the thesis's up to a whole 260."""
+KOSAKA_FRAMES = 97
+"""Frames of a capsule that are measured unless others are asked for: 4 s."""
+
 
 @dataclass(frozen=True)
 class Timing:
     """One measurement."""
 
+    name: str
     copies: int
     vertices: int
     """Of all copies."""
+    particles: int
+    """Of all copies; 0 where the air is no particles."""
+    substeps: int
+    """In one frame."""
     setup: float
     """From the plan to the first frame, with compiling on a first run (s)."""
     frames: int
@@ -58,8 +80,15 @@ class Timing:
         """Frames of all copies per second."""
         return self.copies * self.frames / self.seconds
 
+    @property
+    def cost(self) -> float:
+        """Time for one vertex or particle in one substep (ns)."""
+        points = (self.vertices + self.particles) * self.frames * self.substeps
+        return 1e9 * self.seconds / points
+
 
 @click.command(epilog=EXIT_CODES_HELP)
+@click.option("--model", type=click.Choice(MODELS), default="latex", show_default=True)
 @click.option("--detail", type=click.Choice(DETAILS), default="draft", show_default=True)
 @click.option(
     "--copies",
@@ -70,40 +99,72 @@ class Timing:
     help="Sculptures that advance together; give it several times to compare.",
 )
 @click.option(
-    "--frames", type=click.IntRange(2), help="Stop after so many frames. Default: the whole animation."
+    "--frames", type=click.IntRange(2), help="Stop after so many frames. Default: a whole animation."
 )
 @device_option
-def bench(detail: str, copies: tuple[int, ...], frames: int | None, device: str) -> None:
-    """Measure the solver on the classic dog, without writing anything."""
+def bench(model: str, detail: str, copies: tuple[int, ...], frames: int | None, device: str) -> None:
+    """Measure the solver without writing anything.
+
+    Of the latex model the classic dog, of the kosaka model the capsule of the thesis's experiment and longer
+    ones, up to a whole 260.
+    """
     used = start_device(device)
+    what = "classic dog" if model == "latex" else "capsules"
+    click.echo(f"{what}, {model}, {detail} on {used}")
+    columns = ("copies", "vertices", "particles", "substeps", "set-up s", "frames", "frames/s", "real time")
+    click.echo(
+        f"{what[:-1] if model == 'kosaka' else '':>10}" + "".join(f"{c:>11}" for c in columns) + "    ns each"
+    )
+    for name, plan in _cases(model):
+        most = frames or (KOSAKA_FRAMES if model == "kosaka" else None)
+        for count in copies:
+            click.echo(_row(_measure(name, plan, count, detail, used, most)))
+
+
+def _row(timing: Timing) -> str:
+    return (
+        f"{timing.name:>10}{timing.copies:>11}{timing.vertices:>11}{timing.particles:>11}{timing.substeps:>11}"
+        f"{timing.setup:>11.2f}{timing.frames:>11}{timing.rate:>11.1f}{timing.rate / timing.fps:>10.2f}x"
+        f"{timing.cost:>11.1f}"
+    )
+
+
+def _cases(model: str) -> list[tuple[str, Plan]]:
+    """Plans that are measured, with their names."""
     from balloon_usd.plan import plan  # noqa: PLC0415
     from balloon_usd.recipe import Recipe  # noqa: PLC0415
 
-    dog = plan(Recipe.parse(CLASSIC_DOG, "classic dog"))
-    click.echo(f"classic dog, {detail} on {used}")
-    click.echo(
-        f"{'copies':>7} {'vertices':>9} {'set-up s':>9} {'frames':>7} {'frames/s':>9} {'real time':>10}"
-    )
-    for count in copies:
-        timing = _measure(dog, count, detail, used, frames)
-        click.echo(
-            f"{timing.copies:>7} {timing.vertices:>9} {timing.setup:>9.2f} {timing.frames:>7} "
-            f"{timing.rate:>9.1f} {timing.rate / timing.fps:>9.2f}x"
-        )
+    if model == "latex":
+        return [("dog", plan(Recipe.parse(CLASSIC_DOG, "classic dog")))]
+    return [
+        (f"{length:g} cm", plan(Recipe.parse(EXPERIMENT.format(length=length), "capsule")))
+        for length in LENGTHS
+    ]
 
 
-def _measure(dog: Plan, copies: int, detail: str, device: str, most: int | None) -> Timing:
+def _measure(name: str, plan: Plan, copies: int, detail: str, device: str, most: int | None) -> Timing:
     """Simulate copies of a plan and time what comes after the first frame."""
     from balloon_usd.solver.simulation import simulate_many  # noqa: PLC0415
 
     begin = time.perf_counter()
-    simulation = simulate_many([dog] * copies, detail=detail, device=device)
+    simulation = simulate_many([plan] * copies, detail=detail, device=device)
     frames = simulation.frames()
-    next(frames)
+    (first, *_) = next(frames)
     ready = time.perf_counter()
     count = min(most or simulation.frame_counts[0], simulation.frame_counts[0])
     for _ in range(count - 1):
         next(frames)
     seconds = time.perf_counter() - ready
     vertices = sum(len(mesh.points) for meshes in simulation.meshes for mesh in meshes)
-    return Timing(copies, vertices, ready - begin, count - 1, seconds, dog.recipe.fps)
+    particles = copies * sum(len(air) for air in getattr(first, "air", ()))
+    return Timing(
+        name,
+        copies,
+        vertices,
+        particles,
+        simulation.substeps,
+        ready - begin,
+        count - 1,
+        seconds,
+        plan.recipe.fps,
+    )

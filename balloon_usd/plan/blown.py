@@ -55,8 +55,8 @@ def blown_shape(strip: Strip) -> BlownShape:
     wide = strip.size.radius * state.bulged.a
     last = strip.bubbles[-1]
     if strip.capsule:
-        ends = np.array([0.0, last.rest_end])
-        return BlownShape(ends, ends, last.rest_end, wide, 0.0, 0.0)
+        ends = np.array([0.0, strip.capsule_length])
+        return BlownShape(ends, ends, strip.capsule_length, wide, 0.0, 0.0)
     flat = [strip.bubbles[0].rest_start, *(b.rest_end for b in strip.bubbles[:-1])]
     place = [strip.bubbles[0].start, *(b.end for b in strip.bubbles[:-1])]
     front = last.rest_start + last.length / state.bulged.b

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import math
+from itertools import accumulate
 from typing import TYPE_CHECKING
 
 from balloon_usd.plan.lengths import at_least, at_most, cm
+from balloon_usd.plan.necks import bubble_length, wall_length
 from balloon_usd.plan.strip import Made, PlannedBubble
 from balloon_usd.recipe.problem import RecipeError, quoted
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from balloon_usd.plan.strip import Strip
     from balloon_usd.recipe import Recipe
@@ -18,20 +20,8 @@ if TYPE_CHECKING:
 
 SHORTEST = 0.58
 """Length of the shortest bubble and of the shortest rest, in radii: 1.5 cm of a 260, a few rows of faces."""
-
-
-NECK_EXCESS = 0.5 * math.pi - 1.0
-"""Wall that a neck takes beyond the bubble's length, in radii of its round end: a quarter circle instead of a
-straight wall.
-"""
-
-
-def wall_length(length: float, radius: float, necks: int) -> float:
-    """Return the length (m) of wall that a bubble of a length (m) takes from a tube of a radius (m).
-
-    `necks`: how many of its ends are drawn together.
-    """
-    return length + necks * NECK_EXCESS * min(radius, 0.5 * length)
+ROUND_OFF = 1e-8
+"""Length that may lack without being missed, m."""
 
 
 def capsule_bubbles(
@@ -45,40 +35,70 @@ def capsule_bubbles(
         RecipeError: a bubble is too short, or the bubbles leave no rest.
     """
     radius = strip.inflated_radius
-    least = SHORTEST * radius
-    walls = [wall_length(entry.length, radius, 1 if k == 0 else 2) for k, entry in enumerate(made)]
-    rest_wall = wall_length(least, radius, min(len(made), 1))
-    needed = sum(walls) + rest_wall
-    problems: list[Problem] = []
-    bubbles: list[PlannedBubble] = []
-    along, wall_along = 0.0, 0.0
-    for entry, wall in zip(made, walls, strict=True):
-        path: Path = ("steps", entry.step, recipe.steps[entry.step].kind, entry.bubble)
-        if entry.length < least:
-            text = f"{cm(entry.length)} is too short for a bubble of a {strip.size.name} capsule"
-            problems.append(recipe.problem(path, f"{text}, expected at least {at_least(least)}"))
-        if wall_along + wall + rest_wall > length:
-            text = _misfit(entry, strip.balloon, length - wall_along, rest_wall)
-            problems.append(recipe.problem(path, f"{text}, or a capsule of at least {at_least(needed)}"))
-            break
-        end, wall_end = along + entry.length, wall_along + wall
-        bubbles.append(_bubble(strip, length, entry, (along, end), (wall_along, wall_end)))
-        along, wall_along = end, wall_end
+    least, necks = SHORTEST * radius, min(len(made), 1)
+    walls = [wall_length(max(b.length, least), radius, _necks(k)) for k, b in enumerate(made)]
+    needed = [*walls, wall_length(least, radius, necks)]
+    problems = [*_too_short(recipe, strip, made, least), *_misfits(recipe, strip, length, made, needed)]
     if problems:
         raise RecipeError(problems)
-    left = length - wall_along - (NECK_EXCESS * radius if made else 0.0)
-    rest_length = max(left, least)
-    entry = Made(rest[1], "rest", rest[0], rest_length)
-    return (*bubbles, _bubble(strip, length, entry, (along, along + rest_length), (wall_along, length)))
-
-
-def _misfit(entry: Made, balloon: str, left: float, least: float) -> str:
-    text = f"{quoted(entry.bubble)} of {cm(entry.length)} does not fit: {cm(left)} of {balloon} is left"
-    text += f", of which its rest needs {at_least(least)}"
-    room = left - least
-    return (
-        f"{text}, expected at most {at_most(room)}" if room >= least else f"{text}, expected shorter bubbles"
+    rest_length = bubble_length(length - sum(walls), radius, necks)
+    entries = [*made, Made(rest[1], "rest", rest[0], rest_length)]
+    along = [0.0, *accumulate(entry.length for entry in entries)]
+    wall_along = [0.0, *accumulate(walls), length]
+    return tuple(
+        _bubble(strip, length, entry, (along[k], along[k + 1]), (wall_along[k], wall_along[k + 1]))
+        for k, entry in enumerate(entries)
     )
+
+
+def _necks(k: int) -> int:
+    """Ends of a made bubble that are drawn together: the first one begins at the capsule's own round end."""
+    return 1 if k == 0 else 2
+
+
+def _too_short(recipe: Recipe, strip: Strip, made: Sequence[Made], least: float) -> Iterator[Problem]:
+    for entry in made:
+        if entry.length < least:
+            text = f"{cm(entry.length)} is too short for a bubble of a {strip.size.name} capsule"
+            yield recipe.problem(_place(recipe, entry), f"{text}, expected at least {at_least(least)}")
+
+
+def _misfits(
+    recipe: Recipe, strip: Strip, length: float, made: Sequence[Made], walls: Sequence[float]
+) -> Iterator[Problem]:
+    """The first bubble after which a capsule of a length (m) has no wall left for a rest.
+
+    `walls`: wall (m) that every bubble takes, and last that of the shortest rest.
+    """
+    ends = list(accumulate(walls))
+    for k, entry in enumerate(made):
+        if ends[k] + walls[-1] > length + ROUND_OFF:
+            left, after = length - ends[k] + walls[k], ends[-1] - ends[k]
+            most = bubble_length(left - after, strip.inflated_radius, _necks(k))
+            necks = "neck" if k == 0 else "necks"
+            text = (
+                f"{quoted(entry.bubble)} of {cm(entry.length)} does not fit: with its {necks} it takes "
+                f"{cm(walls[k])}, {cm(left)} of {strip.balloon} is left and what follows needs "
+                f"{at_least(after)}, expected {_remedy(strip, most, length, ends[-1])}"
+            )
+            yield recipe.problem(_place(recipe, entry), text)
+            return
+
+
+def _remedy(strip: Strip, most: float, length: float, needed: float) -> str:
+    """What to do about a bubble that has room for `most`, in a capsule of a length where one is needed, m."""
+    # What is written is rounded down to a millimetre.
+    if most >= SHORTEST * strip.inflated_radius + 1e-3:
+        remedy = f"at most {at_most(most)}"
+    else:
+        remedy = f"bubbles shorter by {at_least(needed - length)} in all"
+    if needed <= strip.full_length:
+        remedy += f", or a capsule of at least {at_least(needed)}"
+    return remedy
+
+
+def _place(recipe: Recipe, entry: Made) -> Path:
+    return ("steps", entry.step, recipe.steps[entry.step].kind, entry.bubble)
 
 
 def _bubble(
@@ -89,7 +109,7 @@ def _bubble(
         name=entry.bubble,
         balloon=strip.balloon,
         kind=entry.kind,
-        length=place[1] - place[0],
+        length=entry.length,
         start=place[0],
         end=place[1],
         rest_start=wall[0],

@@ -1,4 +1,4 @@
-"""The plan as a drawing: every tube to scale with its marks, inflated and flat, and the sculpture graph."""
+"""The plan as a drawing: every balloon to scale, finished and before the twists, and the sculpture graph."""
 
 from __future__ import annotations
 
@@ -23,11 +23,10 @@ MARGIN = 40.0
 _HEAD = 44.0
 _ABOVE_TUBE = 84.0
 _BELOW_TUBE = 96.0
-_BELOW_CAPSULE = 52.0
 _STYLE = (
     "text{font:11px sans-serif;fill:#333}.name{text-anchor:middle}.head{font-size:16px;font-weight:bold}"
     ".mark{stroke:#333;stroke-width:0.6}.bubble{stroke:#333;stroke-width:0.8;fill-opacity:0.8}"
-    ".flat{fill:#e8e2d8;stroke:#333;stroke-width:0.6}.empty{fill:#fff;stroke:#333;stroke-width:0.6}"
+    ".flat,.capsule{fill:#e8e2d8;stroke:#333;stroke-width:0.6}.empty{fill:#fff;stroke:#333;stroke-width:0.6}"
     ".edge{fill:none;stroke-width:9;stroke-linecap:round;stroke-opacity:0.55}"
     ".joint{fill:#333}.merged{fill:#fff;stroke:#333;stroke-width:2}"
 )
@@ -41,8 +40,8 @@ def plan_svg(plan: Plan) -> str:
     for name, strip in plan.strips.items():
         body += _strip_shapes(strip, colors[name], top)
         top += _strip_height(strip)
-        flat = 0.0 if strip.capsule else strip.size.length
-        width = max(width, SCALE * max(strip.bubbles[-1].end, flat))
+        before = strip.capsule_length if strip.capsule else strip.size.length
+        width = max(width, SCALE * max(strip.bubbles[-1].end, before))
     body += graph_shapes(plan.graph, colors, (MARGIN, top))
     width, height = width + 2.0 * MARGIN, top + HEIGHT + MARGIN
     size = f'width="{width:.0f}" height="{height:.0f}" viewBox="0 0 {width:.0f} {height:.0f}"'
@@ -55,19 +54,19 @@ def _thickness(strip: Strip) -> float:
 
 
 def _strip_height(strip: Strip) -> float:
-    return _ABOVE_TUBE + _thickness(strip) + (_BELOW_CAPSULE if strip.capsule else _BELOW_TUBE)
+    return _ABOVE_TUBE + _thickness(strip) + _BELOW_TUBE + (_thickness(strip) if strip.capsule else 0.0)
 
 
 def _strip_shapes(strip: Strip, color: str, top: float) -> Iterator[str]:
     thick = _thickness(strip)
     middle = top + _ABOVE_TUBE + 0.5 * thick
-    filling = f"capsule of {cm(strip.bubbles[-1].end)}" if strip.capsule else f"leave {cm(strip.tail)} flat"
+    filling = f"capsule of {cm(strip.capsule_length)}" if strip.capsule else f"leave {cm(strip.tail)} flat"
     yield svg.text(f"{strip.balloon}: {strip.size.name}, {filling}", (MARGIN, top + 12.0))
     for bubble in strip.bubbles:
         yield from _bubble_shapes(bubble, color, middle, thick)
     yield from _ruler(strip.bubbles[-1].end, middle + 0.5 * thick + 10.0)
-    if not strip.capsule:
-        yield from _flat_shapes(strip, middle + 0.5 * thick + 44.0)
+    before = _capsule_shapes if strip.capsule else _flat_shapes
+    yield from before(strip, middle + 0.5 * thick + 44.0)
 
 
 def _bubble_shapes(bubble: PlannedBubble, color: str, middle: float, thick: float) -> Iterator[str]:
@@ -93,6 +92,17 @@ def _flat_shapes(strip: Strip, top: float) -> Iterator[str]:
     inflated = (strip.size.length - strip.tail) * SCALE
     yield svg.rectangle((MARGIN, top), inflated, height, "flat")
     yield svg.rectangle((MARGIN + inflated, top), strip.tail * SCALE, height, "empty")
+    yield from _marks(strip, top, height)
+
+
+def _capsule_shapes(strip: Strip, top: float) -> Iterator[str]:
+    height = _thickness(strip)
+    yield svg.rectangle((MARGIN, top), strip.capsule_length * SCALE, height, "capsule", rx=0.5 * height)
+    yield from _marks(strip, top, height)
+
+
+def _marks(strip: Strip, top: float, height: float) -> Iterator[str]:
+    """Where the joints are made."""
     for bubble in strip.bubbles[:-1]:
         x = MARGIN + bubble.rest_end * SCALE
         yield svg.line((x, top - 4.0), (x, top + height + 4.0))

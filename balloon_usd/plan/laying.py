@@ -67,15 +67,13 @@ def _size(balloon: Balloon) -> BalloonSize:
 def _capsule(recipe: Recipe, name: str, rubber: Rubber) -> Strip:
     balloon = recipe.balloons[name]
     length = balloon.capsule or 0.0
-    size = _size(balloon)
-    full = size.length * maxwell_state(rubber).bulged.b
+    strip = Strip(name, _size(balloon), rubber, 0.0, (), capsule=True)
     path: Path = ("balloons", name, "capsule")
-    if length > full * (1.0 + FULL_TOLERANCE):
-        raise RecipeError([recipe.problem(path, _beyond_full(length, size, full))])
-    strip = Strip(name, size, rubber, 0.0, (), capsule=True)
+    if length > strip.full_length * (1.0 + FULL_TOLERANCE):
+        raise RecipeError([recipe.problem(path, _beyond_full(length, strip.size, strip.full_length))])
     wide = 2.0 * strip.inflated_radius
     if length < wide:
-        text = f"{cm(length)} is shorter than a {size.name} is wide, expected at least {at_least(wide)}"
+        text = f"{cm(length)} is shorter than a {strip.size.name} is wide, expected at least {at_least(wide)}"
         raise RecipeError([recipe.problem(path, text)])
     bubbles = capsule_bubbles(recipe, strip, length, _made(recipe, name), _rest(recipe, name))
     return replace(strip, bubbles=bubbles)

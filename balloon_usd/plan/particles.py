@@ -27,7 +27,7 @@ FROM_WALL = 0.5
 
 
 def experiment_spacing(radius: float) -> float:
-    """Return the distance (m) of the experiment's particles once they fill their capsule, for a radius (m)."""
+    """Return how far apart (m) the experiment's particles are once spread, for a capsule's radius (m)."""
     scale = radius / EXPERIMENT_RADIUS
     straight = EXPERIMENT_LENGTH - 2.0 * EXPERIMENT_RADIUS
     volume = np.pi * EXPERIMENT_RADIUS**2 * (straight + 4.0 / 3.0 * EXPERIMENT_RADIUS)

@@ -53,16 +53,20 @@ def _strip_lines(strip: Strip) -> Iterator[str]:
 
 def _capsule_lines(strip: Strip) -> Iterator[str]:
     width = max(len("bubble"), *(len(bubble.name) for bubble in strip.bubbles))
-    length, wide = strip.bubbles[-1].end, 2.0 * strip.inflated_radius
+    length, wide = strip.capsule_length, 2.0 * strip.inflated_radius
     volume = sum(bubble.volume for bubble in strip.bubbles)
     yield f"balloon {strip.balloon}: capsule of a {strip.size.name}, {cm(length)} long, {cm(wide)} wide"
-    yield f"  {'bubble':{width}}  kind    length    from      to     air"
+    yield f"  {'bubble':{width}}  kind    length    from      to     of capsule     air"
     for bubble in strip.bubbles:
         yield (
-            f"  {bubble.name:{width}}  {bubble.kind:6}{bubble.length * 100:5.1f} cm  "
-            f"{bubble.start * 100:6.1f}  {bubble.end * 100:6.1f}  {bubble.volume * 1e6:4.0f} mL"
+            f"  {bubble.name:{width}}  {bubble.kind:6}"
+            f"{bubble.length * 100:5.1f} cm  {bubble.start * 100:6.1f}  {bubble.end * 100:6.1f}  "
+            f"{bubble.rest_start * 100:5.1f} to {bubble.rest_end * 100:5.1f}  {bubble.volume * 1e6:4.0f} mL"
         )
     yield f"  starts blown up: {volume * 1e3:.2f} L"
+    if len(strip.bubbles) > 1:
+        end = strip.bubbles[-1].end
+        yield f"  its necks take {cm(length - end)}: twisted it is {cm(end)} long"
 
 
 def _budget_lines(plan: Plan, budget: Budget) -> Iterator[str]:
@@ -153,7 +157,7 @@ def _balloon_json(strip: Strip, budget: Budget | None) -> dict[str, Any]:
         "softening": strip.rubber.softening is not None,
         "capsule": strip.capsule,
         "tail": strip.tail,
-        "inflated_length": strip.bubbles[-1].end if budget is None else budget.inflated_length,
+        "inflated_length": strip.capsule_length if budget is None else budget.inflated_length,
         "bubbles": [asdict(bubble) for bubble in strip.bubbles],
         "budget": None if budget is None else _budget_json(budget),
     }

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from balloon_usd.balloon.bubble_shape import pinch_length
 from balloon_usd.balloon.tube_theory import maxwell_state
+from balloon_usd.plan.necks import wall_place
 from balloon_usd.plan.open_tube import softened
 
 if TYPE_CHECKING:
@@ -37,21 +38,21 @@ class PlannedBubble:
     length: float
     """Inflated length, m."""
     start: float
-    """Start along the inflated strip, m."""
+    """Start along the finished strip, m."""
     end: float
-    """End along the inflated strip, m."""
+    """End along the finished strip, m."""
     rest_start: float
-    """Start along the flat tube, m."""
+    """Start along the flat tube, or along a capsule before it is twisted, m."""
     rest_end: float
-    """End along the flat tube, m; of the last bubble the tip, so its flat tail is included."""
+    """End along the same, m; of the last bubble the tip, so its flat tail is included."""
     volume: float
-    """Gas, m3, at the pressure at which it is twisted off."""
+    """Gas, m3, at the pressure at which it is twisted off; in a capsule what its wall holds before."""
     step: int
     """Index of the step that makes it; of an unnamed rest, the number of steps."""
 
     @property
     def rest_length(self) -> float:
-        """Unstressed length of its rubber, m."""
+        """Length of its rubber, m: unstressed, or in a capsule before it is twisted."""
         return self.rest_end - self.rest_start
 
 
@@ -69,23 +70,39 @@ class Strip:
     bubbles: tuple[PlannedBubble, ...]
     """From the knot to the tip; the last one owns all remaining rubber."""
     capsule: bool = False
-    """Whether it is a closed capsule: it has no flat phase, so flat places are the inflated ones."""
+    """Whether it is a closed capsule: it has no flat phase, and what is flat of a tube is, of a capsule, its
+    wall before it is twisted.
+    """
 
     @property
     def inflated_radius(self) -> float:
         """Radius of the blown-up tube or capsule, m."""
         return self.size.radius * maxwell_state(self.rubber).bulged.a
 
+    @property
+    def full_length(self) -> float:
+        """Length of a balloon of this kind that is blown up without tail, m."""
+        return self.size.length * maxwell_state(self.rubber).bulged.b
+
+    @property
+    def capsule_length(self) -> float:
+        """Length of a capsule before it is twisted, m."""
+        return self.bubbles[-1].rest_end
+
     def bubble_at(self, along: float) -> PlannedBubble:
         """Return the bubble that owns the rubber at an unstressed distance from the knot (m)."""
         return next((bubble for bubble in self.bubbles if along <= bubble.rest_end), self.bubbles[-1])
 
     def rest_place(self, bubble: PlannedBubble, at: float) -> float:
-        """Return the unstressed distance from the knot (m) of a place at some inflated distance (m) from a
-        bubble's start.
+        """Return the unstressed distance from the knot (m) of a place at some distance (m) from a bubble's
+        start.
         """
+        last = bubble is self.bubbles[-1]
+        if self.capsule:
+            necks = (bubble is not self.bubbles[0], not last)
+            return bubble.rest_start + wall_place(at, bubble.length, self.inflated_radius, necks)
         taken = bubble.rest_length
-        if bubble is self.bubbles[-1] and not self.capsule:
+        if last:
             # One end of it is rounded; what it does not fill is flat tail.
             tube = bubble.length + 0.5 * pinch_length(self.size, softened(self.rubber))
             taken = min(taken, tube / maxwell_state(self.rubber).bulged.b)

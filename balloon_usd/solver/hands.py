@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -54,6 +54,7 @@ class Hands:
         """Share of a finger's force that every vertex takes."""
         self.pressing = False
         """Whether any finger is on a wall."""
+        self._sent: dict[str, NDArray[Any]] = {}
         self.welds: list[tuple[int, ...]] = []
 
     def grip(self, joint: int, middle: Floats) -> None:
@@ -134,7 +135,6 @@ class Hands:
 
     def upload(self) -> None:
         """Send the goals of the coming frame to the device; its starts are where the last frame ended."""
-        s = self.scene
         for name, values in (
             ("hand", self.mode),
             ("hand_from", self.start),
@@ -145,7 +145,13 @@ class Hands:
             ("radius_from", self.radius),
             ("radius_to", self.radius_goal),
         ):
-            s.arrays[name].assign(values)
+            self._send(name, values)
+
+    def _send(self, name: str, values: NDArray[Any]) -> None:
+        """Send an array to the device if it has changed."""
+        if name not in self._sent or not np.array_equal(self._sent[name], values):
+            self._sent[name] = values.copy()
+            self.scene.arrays[name].assign(values)
 
     def arrived(self) -> None:
         """Make this frame's goals the next frame's starts."""

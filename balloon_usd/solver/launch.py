@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import warp as wp
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Hashable
 
     from balloon_usd.solver.scene import Scene
 
@@ -23,23 +23,23 @@ class Launcher:
     def __init__(self, scene: Scene, values: dict[str, Any]) -> None:
         self.scene = scene
         self.values = values
-        self._graphs: dict[tuple[bool, ...], Any] = {}
+        self._graphs: dict[Hashable, Any] = {}
 
     def launch(self, kernel: Any, dim: int | tuple[int, ...], **changing: Any) -> None:
         """Launch a kernel over `dim` threads."""
         wp.launch(kernel, dim=dim, inputs=self._inputs(kernel, changing), device=self.scene.device)
 
-    def launch_tiled(self, kernel: Any, blocks: int, **changing: Any) -> None:
-        """Launch a kernel over blocks of threads that work together."""
+    def launch_tiled(self, kernel: Any, blocks: int, *, lanes: int = VOLUME_BLOCK, **changing: Any) -> None:
+        """Launch a kernel over blocks of threads that work together: so many `lanes` on a GPU, one on the CPU."""
         wp.launch_tiled(
             kernel,
             dim=[blocks],
             inputs=self._inputs(kernel, changing),
-            block_dim=VOLUME_BLOCK,
+            block_dim=lanes,
             device=self.scene.device,
         )
 
-    def replay(self, key: tuple[bool, ...], record: Callable[[], None]) -> None:
+    def replay(self, key: Hashable, record: Callable[[], None]) -> None:
         """Launch what was recorded under a key; record it the first time."""
         if key not in self._graphs:
             device = self.scene.device

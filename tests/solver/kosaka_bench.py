@@ -10,6 +10,7 @@ import warp as wp
 
 from balloon_usd.balloon.capsule_mesh import capsule_mesh
 from balloon_usd.solver.corners import corner_table
+from balloon_usd.solver.kernels.drift import Drift
 from balloon_usd.solver.kernels.offsets import WIDER, WIDER_OUTSIDE
 from balloon_usd.solver.kernels.springs import Constants
 from balloon_usd.solver.kosaka.net import edges_of, net_of
@@ -19,6 +20,8 @@ DEVICES = ["cpu", *(device.alias for device in wp.get_cuda_devices())]
 """Where kernels can run on this machine."""
 
 LENGTH, RADIUS, AROUND = 0.08, 0.0255, 12
+CLUSTERS = 8
+"""More than the highest number of a cluster."""
 UNCLEAR = 1e-6
 """How near to the border of an offset region float32 does not know the side: in m, and ten times it in shares."""
 
@@ -68,19 +71,44 @@ def laws(**changes: float) -> list[Constants]:
     return made
 
 
+def drifts() -> list[Drift]:
+    """How every cluster of a sample drifts."""
+    made = []
+    for k in range(CLUSTERS):
+        drift = Drift()
+        for name, value in drift_of(k).items():
+            setattr(drift, name, wp.vec3(*value))
+        made.append(drift)
+    return made
+
+
+def drift_of(cluster: int) -> dict[str, np.ndarray]:
+    """Where a cluster starts and ends, and how fast."""
+    random = np.random.default_rng(cluster)
+    start, start_speed, end_speed = single(random.uniform(-0.01, 0.01, (3, 3)))
+    end = single(start + [0.05, 0.01, 0.0])
+    return {"start": start, "end": end, "start_speed": 50.0 * start_speed, "end_speed": 50.0 * end_speed}
+
+
 def by_balloon(name: str, balloon) -> np.ndarray:
     """A constant of everything whose balloon this is, as float32 has it."""
     return np.array([law[name] for law in LAWS], dtype=np.float32).astype(float)[balloon]
 
 
 def launch(kernel: Any, device: str, dim: int, **values: Any) -> dict[str, np.ndarray]:
-    """Run a kernel on copies of host arrays; return all its arrays as they are afterwards."""
+    """Run a kernel on copies of host arrays; return all its arrays as they are afterwards.
+
+    Arrays that are not given are full of zeros: what the thesis does not have is switched off.
+    """
+    rows = max(len(value) for value in values.values() if isinstance(value, (list, np.ndarray)))
     given, arrays = [], {}
     for argument in kernel.adj.args:
-        value = values[argument.label]
+        value, kind = values.get(argument.label), argument.type
         if isinstance(value, (list, np.ndarray)):
-            value = wp.array(value, dtype=argument.type.dtype, device=device)
-            arrays[argument.label] = value
+            arrays[argument.label] = value = wp.array(value, dtype=kind.dtype, device=device)
+        elif value is None:
+            shape = (rows, 2)[: kind.ndim]
+            arrays[argument.label] = value = wp.zeros(shape, dtype=kind.dtype, device=device)
         given.append(value)
     wp.launch(kernel, dim=dim, inputs=given, device=device)
     return {name: array.numpy() for name, array in arrays.items()}

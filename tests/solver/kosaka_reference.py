@@ -234,10 +234,17 @@ def lacking(depth) -> Floats:
     return (1.0 - depth) ** 3 * (1.0 + 3.0 * depth)
 
 
-def viscous_sum(a: int, air, speed, others, viscosity, re) -> Floats:
-    """What evens out the speed of one particle with its neighbours', (3,)."""
-    nearness = np.maximum(1.0 - length(air[others] - air[a]) / re, 0.0)
-    return (viscosity * nearness[:, None] * (speed[others] - speed[a])).sum(axis=0)
+def drift(x, start, end, start_speed, end_speed) -> Floats:
+    """How places of a bubble drift: as its ends do, and evenly from one to the other between them."""
+    axis = end - start
+    along = np.clip(dot(x - start, axis) / dot(axis, axis), 0.0, 1.0)[..., None]
+    return (1.0 - along) * start_speed + along * end_speed
+
+
+def stopped(v, normal, inside) -> Floats:
+    """The speed of every vertex, without what would carry it further into the wall that it was put onto."""
+    inward = np.minimum(dot(v, normal), 0.0)[..., None] * normal
+    return np.where(inside[..., None], v - inward, v)
 
 
 def calming_sum(edges, x, v, calming) -> Floats:

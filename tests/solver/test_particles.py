@@ -7,10 +7,21 @@ import pytest
 
 from balloon_usd.solver.kernels.particles import NEAREST, move_air, repel_air
 from tests.solver import kosaka_reference as thesis
-from tests.solver.kosaka_bench import DEVICES, Sample, by_balloon, laws, launch, leftover, off, sample
+from tests.solver.kosaka_bench import (
+    DEVICES,
+    Sample,
+    by_balloon,
+    drift_of,
+    drifts,
+    laws,
+    launch,
+    leftover,
+    off,
+    sample,
+)
 
 DT = 1e-3
-VISCOSITY = 20.0
+DRAG = 30.0
 
 
 @pytest.fixture(scope="module")
@@ -33,9 +44,9 @@ def listed(others: list[np.ndarray]):
     return np.array([len(row) for row in others], dtype=np.int32), table
 
 
-def repelled(s: Sample, device: str, **law: float):
+def repelled(s: Sample, device: str):
     count, neighbours = listed(in_clusters(s))
-    host = s.host(**law) | {
+    host = s.host() | {
         "neighbour_count": count,
         "neighbours": neighbours,
         "air_push": np.zeros_like(s.air),
@@ -55,7 +66,6 @@ def few(device: str, places, **law: float):
         neighbour_count=count,
         neighbours=neighbours,
         air=np.array(places, dtype=float),
-        air_speed=np.zeros((len(places), 3)),
         air_push=np.zeros((len(places), 3)),
     )["air_push"]
 
@@ -77,18 +87,6 @@ def test_particles_repel_each_other_as_in_the_thesis(device, air):
 @pytest.mark.parametrize("device", DEVICES)
 def test_repulsion_does_not_move_the_air_as_a_whole(device, air):
     assert leftover(repelled(air, device)) < 1e-6
-
-
-@pytest.mark.parametrize("device", DEVICES)
-def test_viscosity_evens_out_the_speeds_of_neighbours(device, air):
-    re = by_balloon("re", air.air_balloon)
-    wanted = [
-        thesis.viscous_sum(a, air.air, air.air_speed, row, VISCOSITY, re[a])
-        for a, row in enumerate(in_clusters(air))
-    ]
-    added = repelled(air, device, alpha=0.0, viscosity=VISCOSITY)
-    assert off(added, np.array(wanted)) < 1e-5
-    assert leftover(added) < 1e-6
 
 
 @pytest.mark.parametrize("device", DEVICES)
@@ -126,6 +124,15 @@ def test_air_moves_by_symplectic_euler(device, air):
     u = thesis.next_air_speed(air.air_speed, push.astype(float), wall.astype(float), DT)
     assert off(after["air_speed"], u) < 1e-5
     assert off(after["air"], thesis.next_air(air.air, u, DT)) < 1e-6
+
+
+@pytest.mark.parametrize("device", DEVICES)
+def test_drag_slows_air_down_to_the_drift_of_its_bubble(device, air):
+    s, none = air, np.zeros_like(air.air)
+    drift = np.array([thesis.drift(x, **drift_of(k)) for x, k in zip(s.air, s.air_cluster, strict=True)])
+    host = s.host(drag=DRAG) | {"dt": DT, "drifts": drifts(), "air_push": none, "wall_push": none}
+    after = launch(move_air, device, len(s.air), **host)["air_speed"]
+    assert off(after, s.air_speed - DRAG * (s.air_speed - drift) * DT) < 1e-5
 
 
 @pytest.mark.parametrize("device", DEVICES)

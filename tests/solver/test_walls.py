@@ -11,9 +11,11 @@ from tests.solver import kosaka_reference as thesis
 from tests.solver.kosaka_bench import DEVICES, laws, launch, off, single
 
 THICKNESS = 0.002
+UNCLEAR = 1e-7
+"""How near to a border float32 does not know the side, m."""
 
 
-def part(device: str, x, quads, normal, target):
+def part(device: str, x, quads, normal, target, v=None):
     return launch(
         part_walls,
         device,
@@ -24,8 +26,9 @@ def part(device: str, x, quads, normal, target):
         target=np.asarray(target, dtype=np.int32),
         normal=np.asarray(normal, dtype=float),
         x=x,
+        v=np.zeros((len(x), 3)) if v is None else v,
         x_next=np.zeros((len(x), 3)),
-    )["x_next"]
+    )
 
 
 def above(device: str, place, facing):
@@ -34,7 +37,7 @@ def above(device: str, place, facing):
     x = np.array([*wall, place], dtype=float)
     normal = np.array([(0.0, 0.0, 1.0)] * 4 + [facing])
     target = [(-1, -1)] * 4 + [(0, -1)]
-    after = part(device, x, [(0, 1, 2, 3)], normal, target)
+    after = part(device, x, [(0, 1, 2, 3)], normal, target)["x_next"]
     assert np.array_equal(after[:4], x[:4].astype(np.float32))
     return after[4]
 
@@ -56,10 +59,12 @@ def many(seed: int):
     return x, quads, normal, target
 
 
-def parted(x, quads, normal, target):
-    """Where the thesis puts every vertex, and how clear it is: one triangle of its wall after the other."""
+def parted(x, quads, normal, target, v):
+    """Where the thesis puts every vertex, one triangle of its wall after the other, what is left of its speed,
+    and how far it is from being judged otherwise (m).
+    """
     triangles = thesis.triangles_of(quads)
-    p, clear = x.copy(), np.full(len(x), np.inf)
+    p, u, clear = x.copy(), v.copy(), np.full(len(x), np.inf)
     loose = np.flatnonzero(target[:, 0] >= 0)
     for half in range(2):
         a, b, c = np.moveaxis(x[triangles[2 * target[loose, 0] + half]], 1, 0)
@@ -71,19 +76,33 @@ def parted(x, quads, normal, target):
         border = np.min(np.abs([d, d + THICKNESS, 0.01 * over, against]), axis=0)
         clear[loose] = np.minimum(clear[loose], border)
         p[loose] = thesis.wall_checked(p[loose], a, n, inside)
-    return p, clear
+        u[loose] = thesis.stopped(u[loose], n, inside)
+    return p, u, clear
 
 
 @pytest.mark.parametrize("device", DEVICES)
 def test_walls_part_as_in_the_thesis(device):
     x, quads, normal, target = many(seed=34)
-    wanted, clear = parted(x, quads, normal, target)
-    known = clear > 1e-7
+    wanted, _, clear = parted(x, quads, normal, target, np.zeros_like(x))
+    known = clear > UNCLEAR
     moved = known & (wanted != x).any(axis=1)
     assert moved.sum() > 50
-    after = part(device, x, quads, normal, target)
-    assert off((after - x)[known], (wanted - x)[known]) < 1e-5
+    after = part(device, x, quads, normal, target)["x_next"]
+    assert off((after - x)[moved], (wanted - x)[moved]) < 1e-5
     assert np.array_equal(after[known & ~moved], x[known & ~moved].astype(np.float32))
+
+
+@pytest.mark.parametrize("device", DEVICES)
+def test_a_vertex_put_onto_a_wall_does_not_go_on_into_it(device):
+    x, quads, normal, target = many(seed=37)
+    v = single(np.random.default_rng(38).normal(0.0, 0.3, x.shape))
+    _, wanted, clear = parted(x, quads, normal, target, v)
+    known = clear > UNCLEAR
+    slower = known & (wanted != v).any(axis=1)
+    assert slower.sum() > 25
+    after = part(device, x, quads, normal, target, v)["v"]
+    assert off((after - v)[slower], (wanted - v)[slower]) < 1e-5
+    assert np.array_equal(after[known & ~slower], v[known & ~slower].astype(np.float32))
 
 
 @pytest.mark.parametrize("device", DEVICES)

@@ -1,4 +1,4 @@
-"""The verification table: what was measured against theory, printed at the end of a run."""
+"""The verification tables: what was measured against theory, and two models side by side, printed at the end of a run."""
 
 from __future__ import annotations
 
@@ -10,6 +10,10 @@ import pytest
 README = Path(__file__).parents[2] / "README.md"
 BEGIN, END = "<!-- verification table -->", "<!-- end of verification table -->"
 TABLE = pytest.StashKey[list["Row"]]()
+NOTES = pytest.StashKey[list[str]]()
+MODELS_BEGIN, MODELS_END = "<!-- table of both models -->", "<!-- end of table of both models -->"
+MODELS_HEAD = ("what", "theory", "`latex`", "`kosaka`")
+MODELS = pytest.StashKey[list[tuple[str, ...]]]()
 
 
 @dataclass(frozen=True)
@@ -40,31 +44,61 @@ def pytest_addoption(parser):
 def verify(request):
     """Hold a measured value against theory at a relative tolerance (absolute where theory says 0)."""
 
-    def check(case, quantity, measured, theory, tolerance):
+    def check(case, quantity, measured, theory, tolerance, told=""):
         row = Row(case, quantity, float(theory), float(measured), tolerance)
         request.config.stash.setdefault(TABLE, []).append(row)
         assert row.error <= tolerance, (
-            f"{case} {quantity}: error {row.error:.2e}, {measured} against {theory}"
+            f"{case} {quantity}: error {row.error:.2e}, {measured} against {theory}\n{told}"
         )
 
     return check
 
 
+@pytest.fixture
+def note(request):
+    """Tell at the end of a run what was measured where theory has no number."""
+
+    def tell(case, text):
+        request.config.stash.setdefault(NOTES, []).append(f"{case:5} {text}")
+
+    return tell
+
+
+@pytest.fixture
+def side_by_side(request):
+    """Write one line of the table of both models: what theory says, and what each model does."""
+
+    def line(what, theory, latex, kosaka):
+        request.config.stash.setdefault(MODELS, []).append((what, theory, latex, kosaka))
+
+    return line
+
+
 def pytest_terminal_summary(terminalreporter, config):
-    rows = config.stash.get(TABLE, [])
-    if rows:
+    rows, notes, models = (config.stash.get(key, []) for key in (TABLE, NOTES, MODELS))
+    if rows or notes:
         terminalreporter.section("verification")
+    if rows:
         terminalreporter.line(
             f"{'case':5} {'quantity':52} {'theory':>12} {'measured':>12} {'error':>10} {'tol.':>10}"
         )
-        for row in rows:
-            terminalreporter.line(str(row))
-    if rows and config.getoption("--update-table", default=False):
-        write_table(rows)
+    for line in (*rows, *notes):
+        terminalreporter.line(str(line))
+    if models:
+        terminalreporter.section("both models")
+    for cells in models:
+        terminalreporter.line("  ".join(f"{cell:28}" for cell in cells))
+    if config.getoption("--update-table", default=False):
+        if rows:
+            write_between(BEGIN, END, verification_lines(rows))
+        if models:
+            rule = "|---" * len(MODELS_HEAD) + "|"
+            head, *lines = (f"| {' | '.join(cells)} |" for cells in (MODELS_HEAD, *models))
+            write_between(MODELS_BEGIN, MODELS_END, [head, rule, *lines])
 
 
-def write_table(rows):
-    """Put the line of every case that is nearest to its tolerance into the README."""
+def verification_lines(rows):
+    """Lines of a table with the row of every case that is nearest to its tolerance."""
     worst = {}
     for row in rows:
         if (
@@ -81,6 +115,11 @@ def write_table(rows):
         numbers = f"{row.theory:.6g} | {row.measured:.6g} | {row.error:.1e} | {row.tolerance:.0e}"
         count = sum(other.case == case for other in rows)
         lines.append(f"| {case} ({count}) | {row.quantity} | {numbers} |")
+    return lines
+
+
+def write_between(begin, end, lines):
+    """Put lines between two marks of the README."""
     text = README.read_text(encoding="utf-8")
-    before, after = text.split(BEGIN)[0], text.split(END)[1]
-    README.write_text(before + BEGIN + "\n\n" + "\n".join(lines) + "\n\n" + END + after, encoding="utf-8")
+    before, after = text.split(begin)[0], text.split(end)[1]
+    README.write_text(before + begin + "\n\n" + "\n".join(lines) + "\n\n" + end + after, encoding="utf-8")

@@ -46,10 +46,8 @@ def cluster_drift(
         if air_cluster[a] == s:
             total += air_speed[a]
             count += 1.0
-    x = wp.tile_sum(wp.tile(total[0]))
-    y = wp.tile_sum(wp.tile(total[1]))
-    z = wp.tile_sum(wp.tile(total[2]))
-    n = wp.tile_sum(wp.tile(count))
+    speeds = wp.tile_sum(wp.tile(total, preserve_type=True))[0]
+    counts = wp.tile_sum(wp.tile(count))[0]
     if lane == 0:
         last = int(s)
         while end_joint[last] >= 0 and frozen[wp.max(end_joint[last], 0)] == 0:
@@ -57,7 +55,7 @@ def cluster_drift(
         first_joint = start_joint[s]
         last_joint = end_joint[last]
         drift = Drift()
-        mean = wp.vec3(x[0], y[0], z[0]) / wp.max(n[0], 1.0)
+        mean = speeds / wp.max(counts, 1.0)
         drift.start_speed = mean
         drift.end_speed = mean
         if last_joint >= 0:

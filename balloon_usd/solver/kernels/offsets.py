@@ -31,7 +31,7 @@ def triangle(quads: wp.array[wp.vec4i], t: int):
 @wp.func
 def plane_normal(a: wp.vec3, b: wp.vec3, c: wp.vec3) -> wp.vec3:
     """Return the unit normal of a triangle, outward (Kosaka 2008, eq. 3.6)."""
-    return wp.normalize(wp.cross(b - a, c - a))
+    return wp.vec3(wp.normalize(wp.cross(b - a, c - a)))
 
 
 @wp.func
@@ -106,13 +106,29 @@ def face_surface(
     face_angles[t] = wp.vec3(first, second, wp.pi - first - second)
 
 
+@wp.func
+def push_shares(p: wp.vec3, normal: wp.vec3, a: wp.vec3, b: wp.vec3, c: wp.vec3, law: Constants) -> wp.vec4:
+    """Return how much a particle pushes on the three vertices of a triangle along its normal, in units of the
+    push (Kosaka 2008, eqs. 3.7 to 3.10), and after them all of it.
+    """
+    push = wp.vec4(0.0)
+    d = plane_distance(p, a, normal)
+    if d < 0.0 and d > -law.air_offset:
+        s = shares(onto_plane(p, a, normal), a, b, c)
+        beside = least(s)
+        if beside > -WIDER:
+            g = grade(-d / law.air_offset, beside, law.grading)
+            push = wp.vec4(g * s[0], g * s[1], g * s[2], g)
+    return push
+
+
 @wp.kernel
 def press_faces(
     quads: wp.array[wp.vec4i],
     quad_balloon: wp.array[int],
     quad_cluster: wp.array[int],
     constants: wp.array[Constants],
-    face_air_count: wp.array[int],
+    face_air_count: wp.array2d[int],
     face_air: wp.array2d[int],
     air_cluster: wp.array[int],
     x: wp.array[wp.vec3],
@@ -121,29 +137,31 @@ def press_faces(
     face_push: wp.array[wp.vec3],
     face_hits: wp.array[float],
 ):
-    """Write how much air pushes on the three vertices of every triangle along its normal, in units of the
+    """Write how much all air pushes on the three vertices of every triangle along its normal, in units of the
     push (Kosaka 2008, eqs. 3.7 to 3.10), and add up how many particles do.
     """
-    t = wp.tid()
-    f = triangle(quads, t)
-    normal = face_normal[t]
-    a = x[f[0]]
-    law = constants[quad_balloon[t // 2]]
-    total = wp.vec3(0.0)
-    count = float(0.0)
-    for k in range(face_air_count[t]):
-        p = face_air[t, k]
-        if air_cluster[p] == quad_cluster[t // 2]:
-            d = plane_distance(air[p], a, normal)
-            if d < 0.0 and d > -law.air_offset:
-                s = shares(onto_plane(air[p], a, normal), a, x[f[1]], x[f[2]])
-                beside = least(s)
-                if beside > -WIDER:
-                    push = grade(-d / law.air_offset, beside, law.grading)
-                    total += push * s
-                    count += push
-    face_push[t] = total
-    face_hits[t] = face_hits[t] + count
+    q, lane = wp.tid()
+    c = quads[q]
+    x0 = x[c[0]]
+    x1 = x[c[1]]
+    x2 = x[c[2]]
+    x3 = x[c[3]]
+    law = constants[quad_balloon[q]]
+    first = wp.vec4(0.0)
+    second = wp.vec4(0.0)
+    begin = lane * (face_air.shape[1] // wp.block_dim())
+    for k in range(begin, begin + face_air_count[q, lane]):
+        p = face_air[q, k]
+        if air_cluster[p] == quad_cluster[q]:
+            first += push_shares(air[p], face_normal[2 * q], x0, x1, x2, law)
+            second += push_shares(air[p], face_normal[2 * q + 1], x0, x2, x3, law)
+    f = wp.tile_sum(wp.tile(first, preserve_type=True))[0]
+    s = wp.tile_sum(wp.tile(second, preserve_type=True))[0]
+    if lane == 0:
+        face_push[2 * q] = wp.vec3(f[0], f[1], f[2])
+        face_push[2 * q + 1] = wp.vec3(s[0], s[1], s[2])
+        face_hits[2 * q] = face_hits[2 * q] + f[3]
+        face_hits[2 * q + 1] = face_hits[2 * q + 1] + s[3]
 
 
 @wp.func
@@ -194,7 +212,7 @@ def press_air(
     quad_cluster: wp.array[int],
     air_balloon: wp.array[int],
     constants: wp.array[Constants],
-    air_face_count: wp.array[int],
+    air_face_count: wp.array2d[int],
     air_faces: wp.array2d[int],
     air_cluster: wp.array[int],
     x: wp.array[wp.vec3],
@@ -210,14 +228,14 @@ def press_air(
 
     A particle has leaked when of all triangles in whose regions it is the nearest is in its back.
     """
-    p = wp.tid()
+    p, lane = wp.tid()
     law = constants[air_balloon[p]]
     here = air[p]
     total = wp.vec3(0.0)
     nearest = float(UNSEEN)
-    out = wp.vec3(0.0)
-    outside = int(0)
-    for k in range(air_face_count[p]):
+    face = int(-1)
+    begin = lane * (air_faces.shape[1] // wp.block_dim())
+    for k in range(begin, begin + air_face_count[p, lane]):
         t = air_faces[p, k]
         if quad_cluster[t // 2] == air_cluster[p]:
             f = triangle(quads, t)
@@ -231,64 +249,75 @@ def press_air(
                         total -= (law.beta * grade(-d / law.air_offset, beside, law.grading)) * normal
                     if wp.abs(d) < nearest:
                         nearest = wp.abs(d)
-                        out = normal
-                        outside = wp.where(d > 0.0, 1, 0)
-    if outside == 1:
-        air[p] = here - law.gamma * out
-        air_speed[p] = wp.vec3(0.0)
-        repairs[p] = repairs[p] + 1
-    alone[p] = wp.where(nearest == UNSEEN, 1, 0)
-    wall_push[p] = total
-
-
-@wp.func
-def solid_angle(p: wp.vec3, a: wp.vec3, b: wp.vec3, c: wp.vec3) -> float:
-    """Return half the solid angle of a triangle seen from a point (Van Oosterom & Strackee 1983)."""
-    u = a - p
-    v = b - p
-    w = c - p
-    lu = wp.length(u)
-    lv = wp.length(v)
-    lw = wp.length(w)
-    below = lu * lv * lw + wp.dot(u, v) * lw + wp.dot(v, w) * lu + wp.dot(w, u) * lv
-    return wp.atan2(wp.dot(u, wp.cross(v, w)), below)
+                        face = wp.where(d > 0.0, t, -1)
+    # Every lane must read a block's sum: it is no place for branches.
+    push = wp.tile_sum(wp.tile(total, preserve_type=True))[0]
+    least_far = wp.tile_min(wp.tile(nearest))[0]
+    # Where two are as near, the first lane decides.
+    chosen = wp.tile_min(wp.tile(wp.where(nearest == least_far, lane, wp.block_dim())))[0]
+    if lane == chosen:
+        wall_push[p] = push
+        alone[p] = wp.where(least_far == UNSEEN, 1, 0)
+        if face >= 0:
+            air[p] = here - law.gamma * face_normal[face]
+            air_speed[p] = wp.vec3(0.0)
+            repairs[p] = repairs[p] + 1
 
 
 @wp.kernel
 def find_lost_air(
-    quads: wp.array[wp.vec4i],
-    quad_cluster: wp.array[int],
+    walls: wp.uint64,
+    farthest: float,
     air_balloon: wp.array[int],
     constants: wp.array[Constants],
-    air_cluster: wp.array[int],
     alone: wp.array[int],
-    x: wp.array[wp.vec3],
     air: wp.array[wp.vec3],
     air_speed: wp.array[wp.vec3],
     repairs: wp.array[int],
 ):
-    """Bring particles that have leaked beyond every offset region back to the nearest face of their bubble.
+    """Bring particles that have leaked beyond every offset region back behind the nearest wall.
 
-    Of those that lie in no region, it is the winding number of the bubble's wall that tells inside from outside.
+    `walls`: mesh of all triangles. Of the particles that lie in no region, the winding number of the walls tells
+    those inside from those outside. `farthest`: distance (m) up to which walls are looked for.
     """
     p = wp.tid()
     if alone[p] == 0:
         return
-    here = air[p]
-    turns = float(0.0)
-    nearest = float(UNSEEN)
-    face = int(-1)
-    for t in range(2 * quads.shape[0]):
-        if quad_cluster[t // 2] == air_cluster[p]:
-            f = triangle(quads, t)
-            turns += solid_angle(here, x[f[0]], x[f[1]], x[f[2]])
-            far = wp.length_sq((x[f[0]] + x[f[1]] + x[f[2]]) / 3.0 - here)
-            if far < nearest:
-                nearest = far
-                face = t
-    if turns < wp.pi and face >= 0:
-        f = triangle(quads, face)
-        normal = plane_normal(x[f[0]], x[f[1]], x[f[2]])
-        air[p] = (x[f[0]] + x[f[1]] + x[f[2]]) / 3.0 - constants[air_balloon[p]].gamma * normal
+    hit = wp.mesh_query_point_sign_winding_number(walls, air[p], farthest)
+    if hit.result and hit.sign > 0.0:
+        wall = wp.mesh_eval_position(walls, hit.face, hit.u, hit.v)
+        air[p] = wall - constants[air_balloon[p]].gamma * wp.mesh_eval_face_normal(walls, hit.face)
         air_speed[p] = wp.vec3(0.0)
         repairs[p] = repairs[p] + 1
+
+
+@wp.kernel
+def cluster_pressures(
+    quads: wp.array[wp.vec4i],
+    quad_balloon: wp.array[int],
+    quad_cluster: wp.array[int],
+    pressure_per_hit: wp.array[float],
+    substeps: float,
+    x: wp.array[wp.vec3],
+    face_hits: wp.array[float],
+    cluster_pressure: wp.array[float],
+):
+    """Write the gauge pressure (Pa) of every cluster from what pushed on its wall during a frame.
+
+    `pressure_per_hit`: Pa that one particle per wall area (1/m2) stands for, of every balloon.
+    """
+    s, lane = wp.tid()
+    hits = float(0.0)
+    area = float(0.0)
+    unit = float(0.0)
+    for q in range(lane, quads.shape[0], wp.block_dim()):
+        if quad_cluster[q] == s:
+            c = quads[q]
+            hits += face_hits[2 * q] + face_hits[2 * q + 1]
+            area += 0.5 * wp.length(wp.cross(x[c[2]] - x[c[0]], x[c[3]] - x[c[1]]))
+            unit = wp.max(unit, pressure_per_hit[quad_balloon[q]])
+    all_hits = wp.tile_sum(wp.tile(hits))[0]
+    all_area = wp.tile_sum(wp.tile(area))[0]
+    pressure = wp.tile_max(wp.tile(unit))[0]
+    if lane == 0:
+        cluster_pressure[s] = pressure * all_hits / (substeps * wp.max(all_area, FLAT))

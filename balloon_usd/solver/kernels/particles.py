@@ -29,19 +29,22 @@ def repulsion(ri: wp.vec3, rj: wp.vec3, alpha: float, re: float) -> wp.vec3:
 def repel_air(
     air_balloon: wp.array[int],
     constants: wp.array[Constants],
-    neighbour_count: wp.array[int],
+    neighbour_count: wp.array2d[int],
     neighbours: wp.array2d[int],
     air: wp.array[wp.vec3],
     air_push: wp.array[wp.vec3],
 ):
     """Write the repulsion C_a (m/s2) of every particle by its neighbours (Kosaka 2008, eq. 3.16)."""
-    a = wp.tid()
+    a, lane = wp.tid()
     law = constants[air_balloon[a]]
     here = air[a]
     total = wp.vec3(0.0)
-    for k in range(neighbour_count[a]):
+    begin = lane * (neighbours.shape[1] // wp.block_dim())
+    for k in range(begin, begin + neighbour_count[a, lane]):
         total += repulsion(here, air[neighbours[a, k]], law.alpha, law.re)
-    air_push[a] = total
+    push = wp.tile_sum(wp.tile(total, preserve_type=True))[0]
+    if lane == 0:
+        air_push[a] = push
 
 
 @wp.kernel

@@ -16,8 +16,9 @@ from balloon_usd.solver.kosaka.body import KosakaBody, kosaka_body
 from balloon_usd.solver.kosaka.clusters import Clusters
 from balloon_usd.solver.kosaka.maker import KosakaMaker
 from balloon_usd.solver.kosaka.parameters import RUBBER_DRAG
-from balloon_usd.solver.kosaka.scene import AIR_FACES, KosakaScene, kosaka_scene
+from balloon_usd.solver.kosaka.scene import KosakaScene, kosaka_scene
 from balloon_usd.solver.kosaka.stepper import KosakaStepper
+from balloon_usd.solver.mirror import Mirror
 from balloon_usd.solver.settings import SceneSettings
 
 if TYPE_CHECKING:
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
 
-LOOKED_AT = ("x", "stretch", "volume", "most_near", "air", "face_hits")
+LOOKED_AT = ("x", "stretch", "volume", "cluster_pressure", "most_near", "air", "ring_middle")
 """Arrays of which frames are made."""
 
 
@@ -60,9 +61,8 @@ class KosakaModel:
             contact_offset=min(b.parameters.contact_offset for b in bodies),
         )
         self.scene = kosaka_scene(bodies, worlds, settings, device)
-        self.substeps = substeps
-        half = _quad_half(bodies)
-        self.stepper = KosakaStepper(self.scene, substeps, 2.0 * half, half)
+        self._mirror = Mirror(self.scene, LOOKED_AT)
+        self.stepper = KosakaStepper(self.scene, substeps, _quad_half(bodies), self._mirror)
         self.hands = _hands(self.scene)
         self.hands.touch(range(len(bodies)))
         self.clusters = Clusters(self.scene)
@@ -75,13 +75,13 @@ class KosakaModel:
 
     def advance(self, begin: float, end: float) -> None:
         """Let the makers act and the physics run from `begin` to `end` (s)."""
-        middle = self.scene.ring_middle.numpy()
+        middle = self._seen["ring_middle"].copy()
         for maker in self.makers:
             maker.act(begin, end, middle)
         self.hands.upload()
         self.stepper.advance(contact=bool(self.hands.touching.any()), fingers=self.hands.pressing)
         self.hands.arrived()
-        self.clusters.part()
+        self.clusters.part(self.hands.radius_goal > 0.0)
         self._frames += 1
         if self._frames % LOST_EVERY == 0:
             self.stepper.find_lost()
@@ -89,7 +89,7 @@ class KosakaModel:
     def look(self) -> None:
         """Fetch the present state, from which frames are made."""
         self.stepper.look()
-        self._seen = {name: self.scene.arrays[name].numpy() for name in LOOKED_AT}
+        self._seen = self._mirror.arrays()
 
     def frame(self, world: int, time_code: int) -> Frame:
         """Return what was looked at as a frame of one sculpture."""
@@ -101,7 +101,7 @@ class KosakaModel:
             time_code,
             tuple(seen["x"][span].copy() for span in walls),
             tuple(seen["stretch"][span].copy() for span in walls),
-            self._pressures()[bubbles],
+            self._seen["cluster_pressure"][self._run_of(bubbles)],
             seen["volume"][bubbles],
             self.makers[world].doing,
             tuple(seen["air"][span].copy() for span in airs),
@@ -111,28 +111,17 @@ class KosakaModel:
     def failure(self, world: int, time_code: int) -> str | None:
         """Return what is wrong with a sculpture in a way that its frame does not show, or None."""
         near = int(self._seen["most_near"][world])
-        if near <= AIR_FACES:
+        if near == 0:
             return None
-        return f"{near} air particles and faces meet but there is room for {AIR_FACES}: space them wider"
+        return f"about {near} air particles and faces meet, more than there is room for: space them wider"
 
     def give_up(self, world: int) -> None:
         """Leave a sculpture alone whose run has failed."""
         self.hands.give_up(self._bodies[world])
 
-    def _pressures(self) -> NDArray[np.float32]:
-        """Gauge pressure (Pa) of every segment from the particles that pushed on it during the frame."""
-        s = self.scene
-        hits = self._seen["face_hits"].reshape(-1, 2).sum(axis=1) / self.substeps
-        x = self._seen["x"][s.quads.numpy()]
-        area = 0.5 * np.linalg.norm(np.cross(x[:, 2] - x[:, 0], x[:, 3] - x[:, 1]), axis=1)
-        run = s.quad_cluster.numpy()
-        counts = np.bincount(run, weights=hits, minlength=len(s.segment_quad))
-        areas = np.bincount(run, weights=area, minlength=len(s.segment_quad))
-        first = np.zeros(len(s.segment_quad), dtype=int)
-        first[s.quad_segment.numpy()] = run
-        body = np.searchsorted(s.segment_start, np.arange(len(first)), side="right") - 1
-        push = np.array([b.vertex_mass * b.push / 6.0 for b in s.bodies])
-        return np.asarray(push[body] * (counts / np.maximum(areas, 1e-9))[first], dtype=np.float32)
+    def _run_of(self, bubbles: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Cluster of some segments: the first of their run."""
+        return self.clusters.of_segment[bubbles]
 
 
 def _hands(scene: KosakaScene) -> Hands:

@@ -9,6 +9,7 @@ import numpy as np
 import warp as wp
 
 from balloon_usd.solver.kernels.drift import Drift
+from balloon_usd.solver.kernels.near import LANES
 from balloon_usd.solver.kernels.springs import Constants
 from balloon_usd.solver.kosaka.parameters import MARGIN, SEARCH_EVERY
 from balloon_usd.solver.scene import Ints, Scene, lay_meshes
@@ -20,14 +21,14 @@ if TYPE_CHECKING:
     from balloon_usd.solver.kosaka.body import KosakaBody
     from balloon_usd.solver.settings import SceneSettings
 
-NEIGHBOURS = 192
-"""Room for the neighbours of one particle."""
-FACE_AIR = 128
-"""Room for the particles that one triangle may meet."""
+NEIGHBOURS = 1024
+"""Room for the neighbours of one particle, shared by the lanes of its block."""
+FACE_AIR = 1024
+"""Room for the particles that one quad may meet."""
+AIR_FACES = 2048
+"""Room for the triangles that one particle may meet."""
 WATCHED = 2.0
 """Distance within which walls are watched between two searches, in thicknesses of the contact region."""
-AIR_FACES = 512
-"""Room for the triangles that one particle may meet."""
 
 
 @dataclass
@@ -79,6 +80,7 @@ def _air_arrays(scene: KosakaScene, host: Arrays) -> None:
     bodies = scene.bodies
     counts = [len(b.air) for b in bodies]
     first = [int(scene.segment_start[k]) + b.spare_segments for k, b in enumerate(bodies)]
+    host["pressure_per_hit"] = np.array([b.vertex_mass * b.push / 6.0 for b in bodies], dtype=np.float32)
     host["air"] = np.concatenate([b.air for b in bodies]).astype(np.float32)
     host["air_balloon"] = np.repeat(np.arange(len(bodies)), counts).astype(np.int32)
     host["air_world"] = np.asarray(scene.worlds, dtype=np.int32)[host["air_balloon"]]
@@ -129,15 +131,16 @@ def _scratch_arrays(scene: KosakaScene) -> None:
         scene.zeros(name, count, wp.vec3)
     scene.zeros("drifts", int(scene.segment_start[-1]), Drift)
     scene.zeros("face_hits", 2 * quads, float)
+    scene.zeros("cluster_pressure", int(scene.segment_start[-1]), float)
     for name, shape in (
-        ("neighbour_count", particles),
-        ("face_air_count", 2 * quads),
-        ("air_face_count", particles),
+        ("neighbour_count", (particles, LANES)),
+        ("face_air_count", (quads, LANES)),
+        ("air_face_count", (particles, LANES)),
         ("alone", particles),
         ("repairs", particles),
         ("most_near", worlds),
     ):
         scene.zeros(name, shape, int)
     scene.zeros("neighbours", (particles, NEIGHBOURS), int)
-    scene.zeros("face_air", (2 * quads, FACE_AIR), int)
+    scene.zeros("face_air", (quads, FACE_AIR), int)
     scene.zeros("air_faces", (particles, AIR_FACES), int)

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import warp as wp
+
 from balloon_usd.solver.kernels.drift import cluster_drift
 from balloon_usd.solver.kernels.fingers import press_fingers
 from balloon_usd.solver.kernels.frozen import hold_rings, move_rubber
 from balloon_usd.solver.kernels.gas import segment_volumes
-from balloon_usd.solver.kernels.near import near_air, near_faces, order_air
+from balloon_usd.solver.kernels.near import LANES, near_air, near_faces, near_faces_air
 from balloon_usd.solver.kernels.offsets import (
+    cluster_pressures,
     face_surface,
     find_lost_air,
     press_air,
@@ -21,62 +24,80 @@ from balloon_usd.solver.kernels.springs import limit_elongation, pull_springs, s
 from balloon_usd.solver.kernels.walls import part_walls
 from balloon_usd.solver.kosaka.parameters import SEARCH_EVERY
 from balloon_usd.solver.launch import Launcher
-from balloon_usd.solver.wall_search import WallSearch, hash_grid
+from balloon_usd.solver.search_grid import SearchGrid
+from balloon_usd.solver.wall_search import WallSearch
 
 if TYPE_CHECKING:
     from balloon_usd.solver.kosaka.scene import KosakaScene
+    from balloon_usd.solver.mirror import Mirror
+
+
+FARTHEST = 10.0
+"""Distance up to which the wall is looked for that an air particle has leaked through, m."""
 
 
 class KosakaStepper:
     """Advances a scene of springs and particles by whole frames of a fixed number of substeps."""
 
-    def __init__(self, scene: KosakaScene, substeps: int, reach: float, quad_half: float) -> None:
+    def __init__(self, scene: KosakaScene, substeps: int, quad_half: float, mirror: Mirror) -> None:
         """Prepare a scene.
 
         Args:
             scene: state to advance.
             substeps: per frame.
-            reach: cell size of the searches among quads (m).
             quad_half: largest distance of a quad's corner from its middle (m).
+            mirror: what to copy for frames.
         """
         self.scene = scene
         self.substeps = substeps
+        self._mirror = mirror
         dt = scene.settings.dt
-        self._air_grid = hash_grid(scene.device)
-        self._cell = max(b.parameters.re for b in scene.bodies) + scene.margin
+        cell = max(b.parameters.re for b in scene.bodies) + scene.margin
+        self._grid = SearchGrid(scene, cell, max(len(scene.air), len(scene.quads)))
         values: dict[str, Any] = {
             "dt": dt,
             "frame_seconds": dt * substeps,
+            "substeps": float(substeps),
             "margin": scene.margin,
+            "farthest": FARTHEST,
             "quad_half": quad_half,
-            "air_grid": self._air_grid.id,
         }
+        self._walls_as_mesh = _mesh_of_walls(scene)
+        values["walls"] = self._walls_as_mesh.id
         self._launcher = Launcher(scene, values)
         self._launch = self._launcher.launch
-        self._walls = WallSearch(self._launcher, reach)
+        self._walls = WallSearch(self._launcher, self._grid)
         self._launch(hold_rings, len(scene.joint_first), fraction=1.0)
 
     def advance(self, *, contact: bool, fingers: bool = False) -> None:
         """Advance by one frame, with or without walls that can touch and fingers that press."""
+        self._grid.claim()
         self._launcher.replay((contact, fingers), lambda: self._frame(contact=contact, fingers=fingers))
 
     def find_lost(self) -> None:
         """Bring back air that has leaked beyond every offset region."""
+        self._walls_as_mesh.refit()
         self._launch(find_lost_air, len(self.scene.air))
 
     def look(self) -> None:
-        """Write the stretch of every vertex and the volume (m3) of every segment."""
+        """Write the stretch of every vertex, the volumes (m3) and pressures (Pa) of all segments, and copy what
+        frames are made of.
+        """
+        self._launcher.replay(("look",), self._look)
+
+    def _look(self) -> None:
+        segments = len(self.scene.segment_quad)
         self._launch(spring_stretch, len(self.scene.x))
-        self._launcher.launch_tiled(segment_volumes, len(self.scene.segment_quad))
+        self._launcher.launch_tiled(segment_volumes, segments)
+        self._launcher.launch_tiled(cluster_pressures, segments)
+        self._mirror.copy()
 
     def _frame(self, *, contact: bool, fingers: bool) -> None:
         s = self.scene
         s.face_hits.zero_()
         for k in range(self.substeps):
             if k % SEARCH_EVERY == 0:
-                if contact:
-                    self._walls.find(s.x)
-                self._find_neighbours()
+                self._find_neighbours(contact=contact)
                 self._launcher.launch_tiled(cluster_drift, len(s.segment_quad))
             if fingers:
                 self._launch(press_fingers, len(s.x), fraction=(k + 1) / self.substeps)
@@ -89,23 +110,34 @@ class KosakaStepper:
         wall = s.x_next
         self._launch(part_walls, vertices)
         self._launch(face_surface, faces, x=wall)
-        self._launch(repel_air, particles)
-        self._launch(press_faces, faces, x=wall)
+        self._launch_lanes(repel_air, particles)
+        self._launch_lanes(press_faces, len(s.quads), x=wall)
         self._launch(press_vertices, vertices)
-        self._launch(press_air, particles, x=wall)
+        self._launch_lanes(press_air, particles, x=wall)
         self._launch(pull_springs, vertices, x=wall)
         self._launch(move_air, particles)
         self._launch(move_rubber, vertices, x=wall, fraction=fraction)
         self._launch(limit_elongation, vertices, x=wall, x_next=s.x)
         self._launch(hold_rings, len(s.joint_first), fraction=fraction)
 
-    def _find_neighbours(self) -> None:
-        """List the particles and triangles that may meet before the next search."""
+    def _find_neighbours(self, *, contact: bool) -> None:
+        """List the particles, triangles and walls that may meet before the next search."""
         s = self.scene
         self._launch(face_surface, len(s.face_normal))
-        self._air_grid.build(s.air, self._cell, groups=s.air_world)
-        self._launch(near_air, len(s.air))
         self._walls.sort_quads(s.x)
-        s.face_air_count.zero_()
-        self._launch(near_faces, len(s.air))
-        self._launch(order_air, len(s.face_normal))
+        if contact:
+            self._walls.find(s.x)
+        self._launch_lanes(near_faces, len(s.air))
+        self._grid.build(s.air, s.air_world)
+        self._launch_lanes(near_air, len(s.air))
+        self._launch_lanes(near_faces_air, len(s.quads))
+
+    def _launch_lanes(self, kernel: Any, blocks: int, **changing: Any) -> None:
+        self._launcher.launch_tiled(kernel, blocks, lanes=LANES, **changing)
+
+
+def _mesh_of_walls(scene: KosakaScene) -> Any:
+    """Return the triangles of all walls as a mesh that follows the vertices when it is refitted."""
+    corners = scene.quads.numpy()[:, [0, 1, 2, 0, 2, 3]].reshape(-1)
+    indices: Any = wp.array(corners, dtype=int, device=scene.device)
+    return wp.Mesh(points=scene.x, indices=indices, support_winding_number=True)

@@ -85,7 +85,7 @@ class LatexHands(Hands):
             ("pump_limit", self.pump_limit),
             ("pump_goal", self.pump_goal),
         ):
-            self.scene.arrays[name].assign(values)
+            self._send(name, values)
 
     def arrived(self) -> None:
         """Make this frame's goals the next frame's starts."""

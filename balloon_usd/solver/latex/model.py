@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,11 +17,14 @@ from balloon_usd.solver.latex.maker import LatexMaker
 from balloon_usd.solver.latex.scene import build_scene
 from balloon_usd.solver.latex.stepper import Stepper
 from balloon_usd.solver.latex.struts import StrutLaw, Struts
+from balloon_usd.solver.mirror import Mirror
 from balloon_usd.solver.settings import SceneSettings
 from balloon_usd.solver.watch import crowded
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+    from numpy.typing import NDArray
 
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan, Strip
@@ -32,7 +35,7 @@ STRUTS_PER_JOINT = 12
 """Room for struts, per joint of the scene."""
 SHORT_OF_GAS = 0.98
 """Share of the wanted gas below which inflating counts as failed."""
-LOOKED_AT = ("x", "stretch", "pressure", "volume", "most_hits", "amount")
+LOOKED_AT = ("x", "stretch", "pressure", "volume", "most_hits", "amount", "ring_middle")
 """Arrays of which frames are made."""
 
 
@@ -66,11 +69,12 @@ class LatexModel:
             LatexMaker(plan, self.scene, self.hands, struts, run.start)
             for plan, run in zip(plans, self._bodies, strict=True)
         ]
-        self._seen: dict[str, np.ndarray] = {}
+        self._mirror = Mirror(self.scene, LOOKED_AT)
+        self._seen: dict[str, NDArray[Any]] = {}
 
     def advance(self, begin: float, end: float) -> None:
         """Let the makers act and the physics run from `begin` to `end` (s)."""
-        middle = self.scene.ring_middle.numpy()
+        middle = self._seen["ring_middle"].copy()
         for maker in self.makers:
             maker.act(begin, end, middle)
         self.hands.upload()
@@ -80,7 +84,8 @@ class LatexModel:
     def look(self) -> None:
         """Fetch the present state, from which frames are made."""
         self.stepper.stretch()
-        self._seen = {name: self.scene.arrays[name].numpy() for name in LOOKED_AT}
+        self._mirror.copy()
+        self._seen = self._mirror.arrays()
 
     def frame(self, world: int, time_code: int) -> Frame:
         """Return what was looked at as a frame of one sculpture."""

@@ -11,6 +11,7 @@ from balloon_usd.solver.kernels.joints import hold_welds, load_struts, move_join
 from balloon_usd.solver.kernels.membrane import quad_forces, vertex_stretch
 from balloon_usd.solver.kernels.motion import move_vertices
 from balloon_usd.solver.launch import Launcher
+from balloon_usd.solver.search_grid import SearchGrid
 from balloon_usd.solver.wall_search import WallSearch
 
 if TYPE_CHECKING:
@@ -42,7 +43,8 @@ class Stepper:
         values: dict[str, Any] = {"dt": dt, "frame_seconds": dt * substeps, "air": scene.air}
         self._launcher = Launcher(scene, values)
         self._launch = self._launcher.launch
-        self._search = WallSearch(self._launcher, reach)
+        self._grid = SearchGrid(scene, reach, len(scene.quads))
+        self._search = WallSearch(self._launcher, self._grid)
         self._start()
 
     def _start(self) -> None:
@@ -59,6 +61,7 @@ class Stepper:
 
     def advance(self, *, contact: bool, fingers: bool = False) -> None:
         """Advance by one frame, with or without walls that can touch and fingers that press."""
+        self._grid.claim()
         self._launcher.replay((contact, fingers), lambda: self._frame(contact=contact, fingers=fingers))
 
     def stretch(self) -> None:
@@ -70,6 +73,7 @@ class Stepper:
         here, there = s.x, s.x_next
         for k in range(self.substeps):
             if contact and k % SEARCH_EVERY == 0:
+                self._search.sort_quads(here)
                 self._search.find(here)
             fraction = (k + 1) / self.substeps
             if fingers:
