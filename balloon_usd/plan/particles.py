@@ -23,32 +23,67 @@ EXPERIMENT_RADIUS = 0.0255
 PACKED = 0.4 / 2.55
 """Spacing of the experiment's particles at the start, in radii of its capsule."""
 FROM_WALL = 0.5
-"""Least distance of an evenly placed particle from the wall, in spacings."""
+"""Least distance of an evenly placed particle from the wall, in spacings of its lattice."""
+HALVINGS = 50
+"""Bisections for that spacing."""
 
 
 def experiment_spacing(radius: float) -> float:
     """Return how far apart (m) the experiment's particles are once spread, for a capsule's radius (m)."""
-    scale = radius / EXPERIMENT_RADIUS
-    straight = EXPERIMENT_LENGTH - 2.0 * EXPERIMENT_RADIUS
-    volume = np.pi * EXPERIMENT_RADIUS**2 * (straight + 4.0 / 3.0 * EXPERIMENT_RADIUS)
-    return float(scale * (volume / np.prod(EXPERIMENT)) ** (1.0 / 3.0))
+    volume = _volume(EXPERIMENT_LENGTH, EXPERIMENT_RADIUS)
+    return float(radius / EXPERIMENT_RADIUS * (volume / np.prod(EXPERIMENT)) ** (1.0 / 3.0))
 
 
 def start_particles(strip: Strip, spacing: float | None = None) -> Floats:
     """Return where the air particles of a balloon are at the start, (P, 3) float64, m.
 
-    In a capsule they are packed as in the thesis's experiment; in a whole balloon they are spread evenly, at
-    the density that the experiment's have once spread, or `spacing` (m) apart.
+    In a capsule they are packed as in the thesis's experiment; in a whole balloon they are spread evenly, as many
+    as fill it at the density that the experiment's have once spread, or `spacing` (m) apart.
     """
     shape = blown_shape(strip)
     if strip.capsule and spacing is None:
         return _packed(shape.end, shape.wide)
-    step = spacing or experiment_spacing(shape.wide)
-    counts = (int(np.ceil(shape.end / step)), *(int(np.ceil(2.0 * shape.wide / step)),) * 2)
-    lattice = _lattice((shape.end, 2.0 * shape.wide, 2.0 * shape.wide), counts)
-    lattice[:, 0] += 0.5 * shape.end
-    room = shape.radius_at(lattice[:, 0]) - FROM_WALL * step
-    return lattice[np.hypot(lattice[:, 1], lattice[:, 2]) < room]
+    return _even(shape.end, min(shape.wide, 0.5 * shape.end), spacing or experiment_spacing(shape.wide))
+
+
+def _volume(length: float, radius: float) -> float:
+    """Volume (m3) of a tube with round ends."""
+    return float(np.pi * radius**2 * (length - 2.0 / 3.0 * radius))
+
+
+def _even(length: float, radius: float, spacing: float) -> Floats:
+    """An even lattice inside a tube with round ends, as many particles as fill it to the wall at a spacing (m).
+
+    None is at the wall itself, so the lattice is a little closer than that.
+    """
+    wanted = max(_volume(length, radius) / spacing**3, 1.0)
+    step = _lattice_step(length, radius, wanted)
+    across = max(int(np.ceil(2.0 * radius / step)), 1)
+    along = max(round(length / step), 1)
+    for _ in range(2):
+        size = (length, across * step, across * step)
+        lattice = _lattice(size, (along, across, across))
+        lattice[:, 0] += 0.5 * length
+        kept = lattice[_depth(lattice, length, radius) >= FROM_WALL * step]
+        along = max(round(along * wanted / max(len(kept), 1)), 1)
+    return kept
+
+
+def _lattice_step(length: float, radius: float, count: float) -> float:
+    """Spacing (m) at which so many particles fill what is not near the wall of a tube with round ends."""
+    low, high = 0.0, radius / FROM_WALL
+    for _ in range(HALVINGS):
+        step = 0.5 * (low + high)
+        free = _volume(length - 2.0 * FROM_WALL * step, radius - FROM_WALL * step)
+        low, high = (step, high) if count * step**3 < free else (low, step)
+    return low
+
+
+def _depth(places: Floats, length: float, radius: float) -> Floats:
+    """Distance (P,) of places (P, 3) inside a tube with round ends from its wall, m."""
+    x = places[:, 0]
+    beyond = x - np.clip(x, radius, length - radius)
+    return radius - np.sqrt(beyond**2 + places[:, 1] ** 2 + places[:, 2] ** 2)
 
 
 def _packed(length: float, radius: float) -> Floats:

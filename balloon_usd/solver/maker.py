@@ -179,6 +179,7 @@ class Maker:
         """Bend a bubble towards a side: its end stays, its start goes, and carries what is already made
         upright.
         """
+        self.hands.touch(self.body.values())
         rings = [self._ring[r] for r in move.rings]
         before, beyond = self._worked(move.rings[0]), self._open(move.rings[-1])
         if fresh:
@@ -204,6 +205,7 @@ class Maker:
     def _push(self, k: int, move: Push, share: float, fresh: bool, middle: Floats) -> None:
         """Press a finger into a wall and take it back; the other hand holds the ends."""
         b = self.body[move.balloon]
+        self.hands.touch(self.body.values())
         if fresh:
             for ring in move.holds:
                 self.hands.grip(self._ring[ring], middle)

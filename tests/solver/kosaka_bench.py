@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,6 +12,7 @@ import warp as wp
 from balloon_usd.balloon.capsule_mesh import capsule_mesh
 from balloon_usd.solver.corners import corner_table
 from balloon_usd.solver.kernels.drift import Drift
+from balloon_usd.solver.kernels.near import LANES
 from balloon_usd.solver.kernels.offsets import WIDER, WIDER_OUTSIDE
 from balloon_usd.solver.kernels.springs import Constants
 from balloon_usd.solver.kosaka.net import edges_of, net_of
@@ -95,6 +97,11 @@ def by_balloon(name: str, balloon) -> np.ndarray:
     return np.array([law[name] for law in LAWS], dtype=np.float32).astype(float)[balloon]
 
 
+def lanes_on(device: str) -> int:
+    """How many lanes a block has that works on one thing."""
+    return LANES if wp.get_device(device).is_cuda else 1
+
+
 def launch(kernel: Any, device: str, dim: int, **values: Any) -> dict[str, np.ndarray]:
     """Run a kernel on copies of host arrays; return all its arrays as they are afterwards.
 
@@ -110,8 +117,39 @@ def launch(kernel: Any, device: str, dim: int, **values: Any) -> dict[str, np.nd
             shape = (rows, 2)[: kind.ndim]
             arrays[argument.label] = value = wp.zeros(shape, dtype=kind.dtype, device=device)
         given.append(value)
-    wp.launch(kernel, dim=dim, inputs=given, device=device)
+    if _by_lanes(kernel):
+        wp.launch_tiled(kernel, dim=[dim], inputs=given, block_dim=LANES, device=device)
+    else:
+        wp.launch(kernel, dim=dim, inputs=given, device=device)
     return {name: array.numpy() for name, array in arrays.items()}
+
+
+def _by_lanes(kernel: Any) -> bool:
+    """Whether a block of threads works on one thing."""
+    return "lane = wp.tid()" in inspect.getsource(kernel.func)
+
+
+def listed(rows: list[np.ndarray], device: str) -> tuple[np.ndarray, np.ndarray]:
+    """Lists as kernels read them, shared out over the lanes: how many each lane has, and who."""
+    lanes = lanes_on(device)
+    room = max(1, -(-max(map(len, rows)) // lanes))
+    count = np.zeros((len(rows), LANES), dtype=np.int32)
+    table = np.full((len(rows), room * lanes), -1, dtype=np.int32)
+    for k, row in enumerate(rows):
+        for lane, part in enumerate(np.array_split(row, lanes)):
+            count[k, lane] = len(part)
+            table[k, lane * room : lane * room + len(part)] = part
+    return count, table
+
+
+def members(count: np.ndarray, table: np.ndarray, device: str) -> list[np.ndarray]:
+    """What kernels have listed, row by row in the order in which it is read."""
+    lanes = lanes_on(device)
+    room = table.shape[1] // lanes
+    return [
+        np.concatenate([row[lane * room : lane * room + n[lane]] for lane in range(lanes)])
+        for n, row in zip(count, table, strict=True)
+    ]
 
 
 def off(result, wanted) -> float:

@@ -11,7 +11,9 @@ from balloon_usd.balloon.tube_mesh import BalloonMesh
 from balloon_usd.plan import Plan, plan
 from balloon_usd.recipe import Recipe
 from balloon_usd.solver.kosaka.model import KosakaModel
+from balloon_usd.solver.kosaka.parameters import SUBSTEPS
 from balloon_usd.solver.kosaka.scene import KosakaScene
+from balloon_usd.solver.simulation import NOMINAL_RATE
 
 AROUND = 16
 RECIPE = """
@@ -19,7 +21,7 @@ format: 1
 name: small
 units: cm
 balloons:
-  main: {size: 260, capsule: 12}
+  main: {size: 260, capsule: 16}
 steps:
   - bubbles: {first: 4, second: 3}
   - rest: third
@@ -29,7 +31,7 @@ physics: {model: kosaka}
 
 @cache
 def small_plan() -> tuple[Plan, BalloonMesh]:
-    """The plan of a capsule of 12 cm, and a coarse mesh of it."""
+    """The plan of a capsule of 16 cm, and a coarse mesh of it."""
     figure = plan(Recipe.parse(RECIPE))
     (strip,) = figure.strips.values()
     ends = tuple(bubble.rest_end for bubble in strip.bubbles)
@@ -39,7 +41,44 @@ def small_plan() -> tuple[Plan, BalloonMesh]:
 def small_model(device: str, copies: int = 1) -> KosakaModel:
     """A model of one or several small balloons, each a sculpture of its own."""
     figure, mesh = small_plan()
-    return KosakaModel([figure] * copies, [[mesh]] * copies, 24.0, 20, device)
+    return KosakaModel([figure] * copies, [[mesh]] * copies, NOMINAL_RATE, SUBSTEPS, device)
+
+
+def one_frame(model: KosakaModel) -> None:
+    """Let the physics run for a frame in which no hand does anything."""
+    model.stepper.advance(contact=False, fingers=False, searches=1)
+
+
+def filled(device: str, seed: int, copies: int = 1) -> KosakaModel:
+    """A model whose balloons are filled with air anywhere in them."""
+    model = small_model(device, copies)
+    air = model.scene.air.numpy()
+    air[:] = np.concatenate(
+        [within(np.random.default_rng(seed + k), len(air) // copies) for k in range(copies)]
+    )
+    model.scene.air.assign(air)
+    return model
+
+
+def borders(model: KosakaModel, body: int = 0) -> tuple[int, ...]:
+    """Rings between the bubbles of one balloon, in order."""
+    ends = model.scene.end_joint.numpy()[model.scene.bubbles_of(body)]
+    return tuple(int(joint) for joint in ends if joint >= 0)
+
+
+def place_of(model: KosakaModel, joint: int) -> float:
+    """Where a ring is along the straight balloon, m."""
+    return float(model.scene.x.numpy()[model.scene.joint_first.numpy()[joint], 0])
+
+
+def freeze(model: KosakaModel, *joints: int) -> None:
+    """Freeze rings and part the clusters, as after a frame in which they were drawn together."""
+    frozen = model.scene.frozen.numpy()
+    frozen[list(joints)] = 1
+    model.scene.frozen.assign(frozen)
+    closing = np.zeros(len(frozen), dtype=bool)
+    closing[list(joints)] = True
+    model.clusters.part(closing)
 
 
 def scatter(scene: KosakaScene, seed: int, beyond: float = 0.0) -> np.ndarray:

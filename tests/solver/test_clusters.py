@@ -2,49 +2,17 @@
 
 from __future__ import annotations
 
-from itertools import permutations
-
 import numpy as np
 import pytest
 
 from balloon_usd.solver.kosaka.model import KosakaModel
 from tests.solver.kosaka_bench import DEVICES
-from tests.solver.kosaka_scenes import small_model, small_plan, within
+from tests.solver.kosaka_scenes import borders, filled, freeze, place_of, small_plan
 
 NECK = 0.004
 """Radius at a ring that is drawn together, m."""
 ROUND = 0.012
 """How far from a ring the wall narrows, m."""
-
-
-def borders(model: KosakaModel, body: int = 0) -> tuple[int, ...]:
-    """Rings between the bubbles of one balloon, in order."""
-    ends = model.scene.end_joint.numpy()[model.scene.bubbles_of(body)]
-    return tuple(int(joint) for joint in ends if joint >= 0)
-
-
-def place_of(model: KosakaModel, joint: int) -> float:
-    """Where a ring is along the straight balloon, m."""
-    return float(model.scene.x.numpy()[model.scene.joint_first.numpy()[joint], 0])
-
-
-def freeze(model: KosakaModel, *joints: int) -> None:
-    """Freeze rings and part the clusters, as after a frame in which they were drawn together."""
-    frozen = model.scene.frozen.numpy()
-    frozen[list(joints)] = 1
-    model.scene.frozen.assign(frozen)
-    closing = np.zeros(len(frozen), dtype=bool)
-    closing[list(joints)] = True
-    model.clusters.part(closing)
-
-
-def filled(device: str, seed: int, copies: int = 1) -> KosakaModel:
-    """A model whose balloons are filled with air anywhere in them."""
-    model = small_model(device, copies)
-    air = model.scene.air.numpy()
-    air[:] = np.concatenate([within(np.random.default_rng(seed + k), len(air) // copies) for k in range(copies)])
-    model.scene.air.assign(air)
-    return model
 
 
 def narrowed(model: KosakaModel, joint: int) -> None:
@@ -69,7 +37,7 @@ def face_places(model: KosakaModel) -> np.ndarray:
 
 def clusters(model: KosakaModel) -> tuple[np.ndarray, np.ndarray]:
     """Of air and faces; what the model tells and what is on the device must agree."""
-    air, faces = model.scene.air_cluster.numpy(), model.scene.quad_cluster.numpy()
+    air, faces = model.scene.air_cluster.numpy().copy(), model.scene.quad_cluster.numpy().copy()
     assert np.array_equal(air, model.clusters.of_air)
     return air, faces
 
@@ -106,7 +74,7 @@ def test_after_parting_everything_belongs_to_the_bubble_on_its_side(device, bord
     assert np.array_equal(faces, np.where(sides(face_places(model), [place]) == 1, whole + border + 1, whole))
 
 
-@pytest.mark.parametrize("order", permutations([0, 1]), ids=["from the start", "from the end"])
+@pytest.mark.parametrize("order", [(0, 1), (1, 0)], ids=["from the start", "from the end"])
 @pytest.mark.parametrize("device", DEVICES)
 def test_bubbles_come_out_the_same_in_whatever_order_they_are_parted(device, order):
     model = filled(device, seed=54)

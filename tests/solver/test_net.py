@@ -117,7 +117,10 @@ def test_every_ring_of_the_cylinder_rests_under_the_pressure(name, swell):
 def test_the_cylinder_far_from_its_ends_rests_to_within_a_percent():
     t = taut("experiment", natural=0.5, swell=0.03)
     for ring in t.rings[4:-4]:
-        assert np.linalg.norm((t.pull + t.push)[ring], axis=1).max() < 0.01 * np.linalg.norm(t.push[ring], axis=1).min()
+        assert (
+            np.linalg.norm((t.pull + t.push)[ring], axis=1).max()
+            < 0.01 * np.linalg.norm(t.push[ring], axis=1).min()
+        )
 
 
 @pytest.mark.parametrize("name", CAPSULES)
@@ -143,5 +146,7 @@ def test_springs_round_the_tube_are_naturally_as_short_as_asked_for(name):
 def test_a_stiffer_net_is_made_for_more_pressure():
     mesh = capsule("small")
     tension = tension_of(mesh, mesh.points.astype(float))
-    assert tension.pressure_for(0.5, 0.03, 2.0 * KS) == pytest.approx(2.0 * tension.pressure_for(0.5, 0.03, KS))
+    assert tension.pressure_for(0.5, 0.03, 2.0 * KS) == pytest.approx(
+        2.0 * tension.pressure_for(0.5, 0.03, KS)
+    )
     assert tension.pressure_for(0.5, 0.1, KS) > tension.pressure_for(0.5, 0.03, KS)

@@ -87,7 +87,9 @@ def test_the_contact_region_is_as_thick_as_faces_are_wide():
     assert rule(radius=2.0 * RADIUS).contact_offset == rule().contact_offset
 
 
-@pytest.mark.parametrize("name", ["swell", "natural", "ks", "kd", "alpha", "calming", "grading", "elongation_limit"])
+@pytest.mark.parametrize(
+    "name", ["swell", "natural", "ks", "kd", "alpha", "calming", "grading", "elongation_limit"]
+)
 def test_a_larger_balloon_is_as_stiff_and_as_damped_as_a_small_one(name):
     assert getattr(rule(radius=2.0 * RADIUS), name) == getattr(rule(), name)
 
@@ -128,19 +130,19 @@ def test_what_grading_takes_away_is_its_mean_over_the_region():
 
 @pytest.mark.parametrize("grading", [0.0, 1.0])
 def test_evenly_spread_air_presses_on_a_plane_wall_as_the_rule_says(grading):
-    side, cells, offset = 0.005, 4, 0.01
+    side, offset, cells = 0.005, 0.01, 2
     places = side * np.arange(cells + 1)
     x = np.stack(np.meshgrid(places, places, [0.0], indexing="ij"), axis=-1).reshape(-1, 3)
     corner = (np.arange(cells)[:, None] * (cells + 1) + np.arange(cells)).reshape(-1)
-    quads = corner[:, None] + [0, cells + 1, cells + 2, 1]
-    across = middles(0.0, cells * side, 101)
-    air = np.stack(np.meshgrid(across, across, middles(-offset, 0.0, 16), indexing="ij"), axis=-1).reshape(-1, 3)
-    triangles = thesis.triangles_of(quads)
+    triangles = thesis.triangles_of(corner[:, None] + [0, cells + 1, cells + 2, 1])
+    # Air goes on beside the faces round the middle, as far as their regions do.
+    across, deep = middles(-side, (cells + 1) * side, 121), middles(-offset, 0.0, 10)
+    air = np.stack(np.meshgrid(across, across, deep, indexing="ij"), axis=-1).reshape(-1, 3)
     normal, d, uvw = thesis.regions(triangles, x, air)
     beside = uvw.min(axis=2)
     push = np.where(beside > -WIDER, thesis.grading(-d / offset, beside, WIDER, grading), 0.0)
     pushes = thesis.pushes(triangles, thesis.angles_of(triangles, x), normal, push, uvw)
-    spacing = ((cells * side) ** 2 * offset / len(air)) ** (1.0 / 3.0)
+    spacing = (((cells + 2) * side) ** 2 * offset / len(air)) ** (1.0 / 3.0)
     law = replace(rule(), air_offset=offset, grading=grading, spacing=spacing)
     middle = pushes[len(x) // 2] / side**2
     assert middle == pytest.approx([0.0, 0.0, pressure_of_push(law)], rel=0.1, abs=0.01 * middle[2])

@@ -13,9 +13,10 @@ from tests.solver.kosaka_bench import (
     by_balloon,
     drift_of,
     drifts,
-    laws,
     launch,
+    laws,
     leftover,
+    listed,
     off,
     sample,
 )
@@ -36,16 +37,8 @@ def in_clusters(s: Sample) -> list[np.ndarray]:
     return [np.flatnonzero(row) for row in same]
 
 
-def listed(others: list[np.ndarray]):
-    """Neighbours as the kernel reads them: how many, and who."""
-    table = np.full((len(others), max(map(len, others))), -1, dtype=np.int32)
-    for a, row in enumerate(others):
-        table[a, : len(row)] = row
-    return np.array([len(row) for row in others], dtype=np.int32), table
-
-
 def repelled(s: Sample, device: str):
-    count, neighbours = listed(in_clusters(s))
+    count, neighbours = listed(in_clusters(s), device)
     host = s.host() | {
         "neighbour_count": count,
         "neighbours": neighbours,
@@ -56,7 +49,7 @@ def repelled(s: Sample, device: str):
 
 def few(device: str, places, **law: float):
     """Repulsions of a few particles that all are neighbours."""
-    count, neighbours = listed([np.delete(np.arange(len(places)), a) for a in range(len(places))])
+    count, neighbours = listed([np.delete(np.arange(len(places)), a) for a in range(len(places))], device)
     return launch(
         repel_air,
         device,

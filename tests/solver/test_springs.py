@@ -7,7 +7,7 @@ import pytest
 
 from balloon_usd.solver.kernels.springs import HALF_EACH, limit_elongation, pull_springs, spring_stretch
 from tests.solver import kosaka_reference as thesis
-from tests.solver.kosaka_bench import DEVICES, Sample, by_balloon, laws, launch, leftover, off, sample
+from tests.solver.kosaka_bench import DEVICES, Sample, by_balloon, launch, laws, leftover, off, sample
 
 DT = 1e-3
 CALM = 30.0

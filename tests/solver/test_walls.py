@@ -8,7 +8,7 @@ import pytest
 from balloon_usd.solver.kernels.offsets import WIDER
 from balloon_usd.solver.kernels.walls import part_walls
 from tests.solver import kosaka_reference as thesis
-from tests.solver.kosaka_bench import DEVICES, laws, launch, off, single
+from tests.solver.kosaka_bench import DEVICES, launch, laws, off, single
 
 THICKNESS = 0.002
 UNCLEAR = 1e-7

@@ -100,14 +100,13 @@ def perform(text: str, device: str = "cpu", most: int | None = None) -> Run:
         assert isinstance(frame, Frame), frame
         frames.append(frame)
         ticks.append(time.perf_counter())
-    model = simulation.model
-    kosaka = isinstance(model, KosakaModel)
+    scene = simulation.model.scene if isinstance(simulation.model, KosakaModel) else None
     return Run(
         plan=made,
         mesh=simulation.meshes[0][0],
         frames=tuple(frames),
-        law=model.scene.bodies[0].parameters if kosaka else None,
-        repairs=int(model.scene.repairs.numpy().sum()) if kosaka else 0,
+        law=scene.bodies[0].parameters if scene else None,
+        repairs=int(scene.repairs.numpy().sum()) if scene else 0,
         milliseconds=1e3 * float(np.median(np.diff(ticks))),
     )
 
@@ -152,7 +151,7 @@ def cluster_quads(run: Run, k: int, cluster: int) -> NDArray[np.int32]:
     """Faces of one cluster in a frame: those of its first bubble and of all that are not parted from it yet."""
     clusters = np.unique(run.frames[k].cluster[0])
     of_quad = clusters[np.searchsorted(clusters, run.mesh.quad_bubble, side="right") - 1]
-    return run.mesh.quads[of_quad == cluster]
+    return np.asarray(run.mesh.quads[of_quad == cluster])
 
 
 @cache
@@ -212,7 +211,7 @@ def unevenness(run: Run, k: int) -> float:
 
 def rings(run: Run, x: Floats) -> Floats:
     """All rings of the balloon, (R, around, 3)."""
-    return x[run.mesh.ring_start[:, None] + np.arange(run.mesh.around)]
+    return np.asarray(x[run.mesh.ring_start[:, None] + np.arange(run.mesh.around)])
 
 
 def ring_diameters(ring: Floats) -> Floats:
@@ -269,7 +268,8 @@ def trembling(run: Run) -> tuple[float, float]:
     x = run.points[run.last_second]
     speed = np.diff(x, axis=0) * run.fps
     off = x - x.mean(axis=0)
-    return tuple(float(np.sqrt((d**2).sum(axis=2).mean())) for d in (speed, off))
+    rms = [float(np.sqrt((d**2).sum(axis=2).mean())) for d in (speed, off)]
+    return rms[0], rms[1]
 
 
 def moved_back(x: Floats, goal: Floats) -> Floats:

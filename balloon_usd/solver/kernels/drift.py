@@ -5,6 +5,10 @@ wall along by its joints.
 import warp as wp
 
 
+FEW = wp.constant(2)
+"""Neighbours that a particle inside a bubble has more of, however deep it lies."""
+
+
 @wp.struct
 class Drift:
     """The motion of one cluster: that of its ends, and evenly from one to the other between them."""
@@ -31,41 +35,46 @@ def drift_at(drift: Drift, x: wp.vec3) -> wp.vec3:
 def cluster_drift(
     start_joint: wp.array[int],
     end_joint: wp.array[int],
-    air_cluster: wp.array[int],
     frozen: wp.array[int],
     ring_middle: wp.array[wp.vec3],
     ring_speed: wp.array[wp.vec3],
-    air_speed: wp.array[wp.vec3],
     drifts: wp.array[Drift],
 ):
-    """Write how every cluster drifts: with its frozen joints, or as its air does on average if it has none."""
-    s, lane = wp.tid()
-    total = wp.vec3(0.0)
-    count = float(0.0)
-    for a in range(lane, air_cluster.shape[0], wp.block_dim()):
-        if air_cluster[a] == s:
-            total += air_speed[a]
-            count += 1.0
-    speeds = wp.tile_sum(wp.tile(total, preserve_type=True))[0]
-    counts = wp.tile_sum(wp.tile(count))[0]
-    if lane == 0:
-        last = int(s)
-        while end_joint[last] >= 0 and frozen[wp.max(end_joint[last], 0)] == 0:
-            last += 1
-        first_joint = start_joint[s]
-        last_joint = end_joint[last]
-        drift = Drift()
-        mean = speeds / wp.max(counts, 1.0)
-        drift.start_speed = mean
-        drift.end_speed = mean
-        if last_joint >= 0:
-            drift.end = ring_middle[last_joint]
-            drift.end_speed = ring_speed[last_joint]
-            drift.start_speed = drift.end_speed
-        if first_joint >= 0:
-            if frozen[first_joint] == 1:
-                drift.start = ring_middle[first_joint]
-                drift.start_speed = ring_speed[first_joint]
-                if last_joint < 0:
-                    drift.end_speed = drift.start_speed
-        drifts[s] = drift
+    """Write how every cluster drifts: with its frozen joints, or not at all if it has none."""
+    s = wp.tid()
+    last = int(s)
+    while end_joint[last] >= 0 and frozen[wp.max(end_joint[last], 0)] == 0:
+        last += 1
+    first_joint = start_joint[s]
+    last_joint = end_joint[last]
+    drift = Drift()
+    if last_joint >= 0:
+        drift.end = ring_middle[last_joint]
+        drift.end_speed = ring_speed[last_joint]
+        drift.start_speed = drift.end_speed
+    if first_joint >= 0:
+        if frozen[first_joint] == 1:
+            drift.start = ring_middle[first_joint]
+            drift.start_speed = ring_speed[first_joint]
+            if last_joint < 0:
+                drift.end_speed = drift.start_speed
+    drifts[s] = drift
+
+
+@wp.kernel
+def find_lonely(
+    neighbour_count: wp.array2d[int],
+    alone: wp.array[int],
+    lonely: wp.array[int],
+    lonely_count: wp.array[int],
+):
+    """Mark and count the particles that are near neither their bubble's wall nor others: they may be lost."""
+    a = wp.tid()
+    lonely[a] = 0
+    if alone[a] == 1:
+        near = int(0)
+        for lane in range(neighbour_count.shape[1]):
+            near += neighbour_count[a, lane]
+        if near <= FEW:
+            lonely[a] = 1
+            wp.atomic_add(lonely_count, 0, 1)

@@ -46,6 +46,7 @@ def move_rubber(
     air_pull: wp.array[wp.vec3],
     x: wp.array[wp.vec3],
     v: wp.array[wp.vec3],
+    x_next: wp.array[wp.vec3],
 ):
     """Move every vertex that is not frozen by symplectic Euler (Kosaka 2008, eqs. 3.22 and 3.23)."""
     i = wp.tid()
@@ -55,13 +56,14 @@ def move_rubber(
     f -= drag[vertex_balloon[i]] * (v[i] - drift_at(drifts[quad_cluster[corners[i][0] // 4]], x[i]))
     if j >= 0:
         if frozen[j] == 1:
+            x_next[i] = x[i]
             return
         if radius_to[j] > 0.0:
             radius = radius_from[j] + fraction * (radius_to[j] - radius_from[j])
             f += pinch_force(x[i], v[i], ring_middle[j], radius, f, law.force_limit, dt)
     speed = v[i] + f * dt
     v[i] = speed
-    x[i] = x[i] + speed * dt
+    x_next[i] = x[i] + speed * dt
 
 
 @wp.kernel
@@ -93,52 +95,54 @@ def hold_rings(
 
     Middles in m, vector areas in m2, speeds in m/s.
     """
-    j = wp.tid()
+    j, lane = wp.tid()
     first = joint_first[j]
     n = joint_around[j]
-    c = wp.vec3(0.0)
-    w = wp.vec3(0.0)
-    for k in range(n):
-        c += x[first + k]
-        w += v[first + k]
-    c = c / float(n)
-    w = w / float(n)
-    if radius_to[j] > 0.0 and frozen[j] == 0:
-        far = float(0.0)
-        for k in range(n):
-            far = wp.max(far, wp.length(x[first + k] - c))
-        if far < COINCIDENT * joint_neck[j]:
-            frozen[j] = 1
+    place = wp.vec3(0.0)
+    speed = wp.vec3(0.0)
+    for k in range(lane, n, wp.block_dim()):
+        place += x[first + k]
+        speed += v[first + k]
+    # Every lane must read a block's sum: it is no place for branches.
+    c = wp.tile_sum(wp.tile(place, preserve_type=True))[0] / float(n)
+    w = wp.tile_sum(wp.tile(speed, preserve_type=True))[0] / float(n)
+    off = float(0.0)
+    for k in range(lane, n, wp.block_dim()):
+        off = wp.max(off, wp.length(x[first + k] - c))
+    far = wp.tile_max(wp.tile(off))[0]
+    still = frozen[j]
+    if radius_to[j] > 0.0 and far < COINCIDENT * joint_neck[j]:
+        still = 1
+    # A shift does not change the fan's area, and no lane must read what another has shifted.
+    fan = wp.vec3(0.0)
+    for k in range(lane, n, wp.block_dim()):
+        fan += wp.cross(x[first + (k + n - 1) % n] - c, x[first + k] - c)
+    area = wp.tile_sum(wp.tile(fan, preserve_type=True))[0]
     goal = hand_from[j] + fraction * (hand_to[j] - hand_from[j])
     wanted = (hand_to[j] - hand_from[j]) / frame_seconds
     shift = wp.vec3(0.0)
     kick = wp.vec3(0.0)
-    if frozen[j] == 1:
+    begin = first
+    if still == 1:
+        begin = first - joint_carried[j]
         if hand[j] != 0:
             shift = goal - c
-        for i in range(first - joint_carried[j], first + n):
-            x[i] = x[i] + shift
-            v[i] = shift / dt
-    else:
-        if held(hand[j]) == 1:
-            shift = goal - c
-            kick = wanted - w
-        elif hand[j] == LEAD:
-            load = lead_load(
-                goal - c, w - wanted, hand_stiffness[j], joint_mass[j], hand_force[j], hand_free[j]
-            )
-            kick = load * (dt / joint_mass[j])
-            shift = kick * dt
-        for k in range(n):
-            x[first + k] = x[first + k] + shift
-            v[first + k] = v[first + k] + kick
-    c += shift
-    a = wp.vec3(0.0)
-    last = x[first + n - 1] - c
-    for k in range(n):
-        here = x[first + k] - c
-        a += wp.cross(last, here)
-        last = here
-    ring_middle[j] = c
-    ring_area[j] = 0.5 * a
-    ring_speed[j] = wp.where(frozen[j] == 1, shift / dt, w + kick)
+        kick = shift / dt
+    elif held(hand[j]) == 1:
+        shift = goal - c
+        kick = wanted - w
+    elif hand[j] == LEAD:
+        load = lead_load(goal - c, w - wanted, hand_stiffness[j], joint_mass[j], hand_force[j], hand_free[j])
+        kick = load * (dt / joint_mass[j])
+        shift = kick * dt
+    for i in range(begin + lane, first + n, wp.block_dim()):
+        x[i] = x[i] + shift
+        if still == 1:
+            v[i] = kick
+        else:
+            v[i] = v[i] + kick
+    if lane == 0:
+        frozen[j] = still
+        ring_middle[j] = c + shift
+        ring_area[j] = 0.5 * area
+        ring_speed[j] = wp.where(still == 1, kick, w + kick)

@@ -11,7 +11,7 @@ WIDER = wp.constant(0.15)
 """How far an inner offset region reaches beyond its triangle, in barycentric shares: no gaps where a wall bends
 inwards.
 """
-WIDER_OUTSIDE = wp.constant(0.3)
+WIDER_OUTSIDE = wp.constant(0.2)
 """The same of the outer region, where the walls of a round balloon leave gaps."""
 UNSEEN = wp.constant(1.0e6)
 """Distance of a triangle that is not there, m."""
@@ -264,29 +264,56 @@ def press_air(
             repairs[p] = repairs[p] + 1
 
 
+@wp.func
+def solid_angle(p: wp.vec3, a: wp.vec3, b: wp.vec3, c: wp.vec3) -> float:
+    """Return half the solid angle of a triangle seen from a point (Van Oosterom & Strackee 1983)."""
+    u = a - p
+    v = b - p
+    w = c - p
+    lu = wp.length(u)
+    lv = wp.length(v)
+    lw = wp.length(w)
+    below = lu * lv * lw + wp.dot(u, v) * lw + wp.dot(v, w) * lu + wp.dot(w, u) * lv
+    return wp.atan2(wp.dot(u, wp.cross(v, w)), below)
+
+
 @wp.kernel
 def find_lost_air(
-    walls: wp.uint64,
-    farthest: float,
+    quads: wp.array[wp.vec4i],
+    quad_cluster: wp.array[int],
     air_balloon: wp.array[int],
     constants: wp.array[Constants],
-    alone: wp.array[int],
+    air_cluster: wp.array[int],
+    lonely: wp.array[int],
+    x: wp.array[wp.vec3],
     air: wp.array[wp.vec3],
     air_speed: wp.array[wp.vec3],
     repairs: wp.array[int],
 ):
-    """Bring particles that have leaked beyond every offset region back behind the nearest wall.
+    """Bring particles that have leaked beyond every offset region, or into another bubble, back behind the
+    nearest face of their own.
 
-    `walls`: mesh of all triangles. Of the particles that lie in no region, the winding number of the walls tells
-    those inside from those outside. `farthest`: distance (m) up to which walls are looked for.
+    Of the lonely particles, the winding number of their bubble's wall tells those inside from those outside.
     """
     p = wp.tid()
-    if alone[p] == 0:
+    if lonely[p] == 0:
         return
-    hit = wp.mesh_query_point_sign_winding_number(walls, air[p], farthest)
-    if hit.result and hit.sign > 0.0:
-        wall = wp.mesh_eval_position(walls, hit.face, hit.u, hit.v)
-        air[p] = wall - constants[air_balloon[p]].gamma * wp.mesh_eval_face_normal(walls, hit.face)
+    here = air[p]
+    turns = float(0.0)
+    nearest = float(UNSEEN)
+    face = int(-1)
+    for t in range(2 * quads.shape[0]):
+        if quad_cluster[t // 2] == air_cluster[p]:
+            f = triangle(quads, t)
+            turns += solid_angle(here, x[f[0]], x[f[1]], x[f[2]])
+            far = wp.length_sq((x[f[0]] + x[f[1]] + x[f[2]]) / 3.0 - here)
+            if far < nearest:
+                nearest = far
+                face = t
+    if turns < wp.pi and face >= 0:
+        f = triangle(quads, face)
+        normal = plane_normal(x[f[0]], x[f[1]], x[f[2]])
+        air[p] = (x[f[0]] + x[f[1]] + x[f[2]]) / 3.0 - constants[air_balloon[p]].gamma * normal
         air_speed[p] = wp.vec3(0.0)
         repairs[p] = repairs[p] + 1
 

@@ -96,22 +96,29 @@ HALF_EACH = wp.constant(0.25)
 @wp.kernel
 def limit_elongation(
     spring_ends: wp.array[wp.vec4i],
+    vertex_joint: wp.array[int],
     vertex_balloon: wp.array[int],
     constants: wp.array[Constants],
     natural: wp.array[wp.vec4],
     dt: float,
+    radius_to: wp.array[float],
     x: wp.array[wp.vec3],
     v: wp.array[wp.vec3],
     x_next: wp.array[wp.vec3],
 ):
     """Draw together the ends of springs that are longer than allowed, so that a sudden force cannot tear
-    the net (Kosaka 2008, 3.1); both ends move alike.
+    the net (Kosaka 2008, 3.1); both ends move alike, but for those that a hand closes or that are frozen.
     """
     i = wp.tid()
+    p = x[i]
+    j = vertex_joint[i]
+    if j >= 0:
+        if radius_to[j] > 0.0:
+            x_next[i] = p
+            return
     most = 1.0 + constants[vertex_balloon[i]].elongation_limit
     ends = spring_ends[i]
     lengths = natural[i]
-    p = x[i]
     shift = wp.vec3(0.0)
     for k in range(4):
         if ends[k] >= 0:

@@ -32,8 +32,10 @@ def onto_wall(r: wp.vec3, normal_r: wp.vec3, a: wp.vec3, b: wp.vec3, c: wp.vec3,
 @wp.kernel
 def part_walls(
     quads: wp.array[wp.vec4i],
+    vertex_joint: wp.array[int],
     vertex_balloon: wp.array[int],
     constants: wp.array[Constants],
+    radius_to: wp.array[float],
     target: wp.array2d[int],
     normal: wp.array[wp.vec3],
     x: wp.array[wp.vec3],
@@ -41,9 +43,14 @@ def part_walls(
     x_next: wp.array[wp.vec3],
 ):
     """Move every vertex that lies inside a wall onto it (Kosaka 2008, eq. 3.15), and take from its speed what
-    would carry it in again; only the vertex's own speed is changed.
+    would carry it in again; only the vertex's own speed is changed. Necks stay where hands closed them.
     """
     i = wp.tid()
+    j = vertex_joint[i]
+    if j >= 0:
+        if radius_to[j] > 0.0:
+            x_next[i] = x[i]
+            return
     thickness = constants[vertex_balloon[i]].contact_offset
     p = x[i]
     u = v[i]

@@ -39,6 +39,7 @@ class KosakaMaker(Maker):
         if fresh:
             self._began[k] = np.array([self._ring_width(joint)])
             self.hands.clasp(joint, middle)
+            self.hands.touch(self.body.values())
             self.hands.radius[joint] = self._began[k][0]
         wide, neck = float(self._began[k][0]), float(self.hands.neck[joint])
         self.hands.close(joint, neck + (wide - neck) * (1.0 - smooth(share / CLOSED_EARLY)))

@@ -27,10 +27,21 @@ if TYPE_CHECKING:
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
 
-LOOKED_AT = ("x", "stretch", "volume", "cluster_pressure", "most_near", "air", "ring_middle")
+LOOKED_AT = (
+    "x",
+    "stretch",
+    "volume",
+    "cluster_pressure",
+    "most_near",
+    "air",
+    "ring_middle",
+    "lonely_count",
+)
 """Arrays of which frames are made."""
 
 
+HANDLED_SEARCHES = 2
+"""Searches for neighbours in a frame in which hands are at work; else there is one in two frames."""
 LEADING = 0.1
 """Force of a hand that leads a bubble, as a share of the largest external force."""
 LOST_EVERY = 12
@@ -64,7 +75,6 @@ class KosakaModel:
         self._mirror = Mirror(self.scene, LOOKED_AT)
         self.stepper = KosakaStepper(self.scene, substeps, _quad_half(bodies), self._mirror)
         self.hands = _hands(self.scene)
-        self.hands.touch(range(len(bodies)))
         self.clusters = Clusters(self.scene)
         self.makers = [
             KosakaMaker(plan, self.scene, self.hands, run.start)
@@ -79,16 +89,23 @@ class KosakaModel:
         for maker in self.makers:
             maker.act(begin, end, middle)
         self.hands.upload()
-        self.stepper.advance(contact=bool(self.hands.touching.any()), fingers=self.hands.pressing)
+        handled = self.hands.pressing or bool(self.hands.mode.any())
+        self._frames += 1
+        rest = 1 if self._frames % 2 else 0
+        self.stepper.advance(
+            contact=bool(self.hands.touching.any()),
+            fingers=self.hands.pressing,
+            searches=HANDLED_SEARCHES if handled else rest,
+        )
         self.hands.arrived()
         self.clusters.part(self.hands.radius_goal > 0.0)
-        self._frames += 1
-        if self._frames % LOST_EVERY == 0:
+        if self._frames % LOST_EVERY == 0 and self._seen["lonely_count"][0] > 0:
             self.stepper.find_lost()
 
     def look(self) -> None:
         """Fetch the present state, from which frames are made."""
-        self.stepper.look()
+        if self._frames == 0:
+            self.stepper.look()
         self._seen = self._mirror.arrays()
 
     def frame(self, world: int, time_code: int) -> Frame:

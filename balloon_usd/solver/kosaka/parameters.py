@@ -21,7 +21,7 @@ from balloon_usd.plan.particles import EXPERIMENT_RADIUS, experiment_spacing
 if TYPE_CHECKING:
     from balloon_usd.recipe.kosaka import Kosaka
 
-SUBSTEPS = 10
+SUBSTEPS = 6
 """Substeps in a frame at 24 frames per second."""
 
 RE, AIR_OFFSET, LEAK_OFFSET = 0.010, 0.010, 0.010
@@ -56,8 +56,8 @@ PINCH_LIMIT = 0.5
 """Largest external force, in radii of the balloon per squared time step."""
 ELONGATION_LIMIT = 1.5
 """Largest elongation of a spring, in its length at rest."""
-SEARCH_EVERY = 5
-"""Substeps between two searches for neighbours."""
+FASTEST_AIR = 0.4
+"""Farthest that an air particle moves in one step, in re: it must not jump over the offset regions."""
 MARGIN = 0.25
 """Distance that lists of neighbours look ahead, in re."""
 

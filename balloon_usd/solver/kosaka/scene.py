@@ -11,7 +11,7 @@ import warp as wp
 from balloon_usd.solver.kernels.drift import Drift
 from balloon_usd.solver.kernels.near import LANES
 from balloon_usd.solver.kernels.springs import Constants
-from balloon_usd.solver.kosaka.parameters import MARGIN, SEARCH_EVERY
+from balloon_usd.solver.kosaka.parameters import FASTEST_AIR, MARGIN
 from balloon_usd.solver.scene import Ints, Scene, lay_meshes
 
 if TYPE_CHECKING:
@@ -22,11 +22,11 @@ if TYPE_CHECKING:
     from balloon_usd.solver.settings import SceneSettings
 
 NEIGHBOURS = 1024
-"""Room for the neighbours of one particle, shared by the lanes of its block."""
+"""Room for the neighbours of one particle; on a GPU shared by the lanes of its block."""
 FACE_AIR = 1024
-"""Room for the particles that one quad may meet."""
-AIR_FACES = 2048
-"""Room for the triangles that one particle may meet."""
+"""Room for the particles that one quad may meet, likewise."""
+AIR_FACES = {"cpu": 1536, "cuda": 6144}
+"""Room for the triangles that one particle may meet, likewise: in a neck most of them fall to one lane."""
 WATCHED = 2.0
 """Distance within which walls are watched between two searches, in thicknesses of the contact region."""
 
@@ -58,7 +58,7 @@ def kosaka_scene(
     _net_arrays(scene, host)
     _air_arrays(scene, host)
     scene.put(host)
-    constants = [_constants(b, scene.margin, settings.dt) for b in bodies]
+    constants = [_constants(b, settings.dt) for b in bodies]
     scene.arrays["constants"] = wp.array(constants, dtype=Constants, device=device)
     _scratch_arrays(scene)
     return scene
@@ -90,7 +90,7 @@ def _air_arrays(scene: KosakaScene, host: Arrays) -> None:
     host["quad_cluster"] = np.minimum(segment, np.asarray(first)[scene.quad_balloon.numpy()]).astype(np.int32)
 
 
-def _constants(body: KosakaBody, margin: float, dt: float) -> Constants:
+def _constants(body: KosakaBody, dt: float) -> Constants:
     constants, law = Constants(), body.parameters
     for name in (
         "ks",
@@ -110,8 +110,7 @@ def _constants(body: KosakaBody, margin: float, dt: float) -> Constants:
     ):
         setattr(constants, name, getattr(law, name))
     constants.push = body.push
-    # Lists only mind relative motion: air that a bubble carries along may be fast, so this is no strict bound.
-    constants.air_speed = 2.0 * margin / (SEARCH_EVERY * dt)
+    constants.air_speed = FASTEST_AIR * body.parameters.re / dt
     return constants
 
 
@@ -131,16 +130,18 @@ def _scratch_arrays(scene: KosakaScene) -> None:
         scene.zeros(name, count, wp.vec3)
     scene.zeros("drifts", int(scene.segment_start[-1]), Drift)
     scene.zeros("face_hits", 2 * quads, float)
+    scene.zeros("lonely_count", 1, int)
     scene.zeros("cluster_pressure", int(scene.segment_start[-1]), float)
     for name, shape in (
         ("neighbour_count", (particles, LANES)),
         ("face_air_count", (quads, LANES)),
         ("air_face_count", (particles, LANES)),
         ("alone", particles),
+        ("lonely", particles),
         ("repairs", particles),
         ("most_near", worlds),
     ):
         scene.zeros(name, shape, int)
     scene.zeros("neighbours", (particles, NEIGHBOURS), int)
     scene.zeros("face_air", (quads, FACE_AIR), int)
-    scene.zeros("air_faces", (particles, AIR_FACES), int)
+    scene.zeros("air_faces", (particles, AIR_FACES[scene.device.partition(":")[0]]), int)

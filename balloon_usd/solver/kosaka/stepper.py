@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import warp as wp
 
-from balloon_usd.solver.kernels.drift import cluster_drift
+from balloon_usd.solver.kernels.drift import cluster_drift, find_lonely
 from balloon_usd.solver.kernels.fingers import press_fingers
 from balloon_usd.solver.kernels.frozen import hold_rings, move_rubber
 from balloon_usd.solver.kernels.gas import segment_volumes
@@ -22,7 +22,6 @@ from balloon_usd.solver.kernels.offsets import (
 from balloon_usd.solver.kernels.particles import move_air, repel_air
 from balloon_usd.solver.kernels.springs import limit_elongation, pull_springs, spring_stretch
 from balloon_usd.solver.kernels.walls import part_walls
-from balloon_usd.solver.kosaka.parameters import SEARCH_EVERY
 from balloon_usd.solver.launch import Launcher
 from balloon_usd.solver.search_grid import SearchGrid
 from balloon_usd.solver.wall_search import WallSearch
@@ -32,8 +31,8 @@ if TYPE_CHECKING:
     from balloon_usd.solver.mirror import Mirror
 
 
-FARTHEST = 10.0
-"""Distance up to which the wall is looked for that an air particle has leaked through, m."""
+MANY_LANES = 256
+"""Threads that add up one cluster on a GPU."""
 
 
 class KosakaStepper:
@@ -59,66 +58,75 @@ class KosakaStepper:
             "frame_seconds": dt * substeps,
             "substeps": float(substeps),
             "margin": scene.margin,
-            "farthest": FARTHEST,
             "quad_half": quad_half,
         }
-        self._walls_as_mesh = _mesh_of_walls(scene)
-        values["walls"] = self._walls_as_mesh.id
         self._launcher = Launcher(scene, values)
         self._launch = self._launcher.launch
         self._walls = WallSearch(self._launcher, self._grid)
-        self._launch(hold_rings, len(scene.joint_first), fraction=1.0)
+        self._launch_lanes(hold_rings, len(scene.joint_first), fraction=1.0)
 
-    def advance(self, *, contact: bool, fingers: bool = False) -> None:
-        """Advance by one frame, with or without walls that can touch and fingers that press."""
+    def advance(self, *, contact: bool, fingers: bool, searches: int) -> None:
+        """Advance by one frame, and start copying what frames are made of.
+
+        `contact`: walls can touch. `fingers`: some press. `searches`: how often neighbours are looked for anew;
+        0 where the lists of the frame before still hold.
+        """
         self._grid.claim()
-        self._launcher.replay((contact, fingers), lambda: self._frame(contact=contact, fingers=fingers))
+        self._launcher.replay(
+            (contact, fingers, searches),
+            lambda: self._frame(contact=contact, fingers=fingers, searches=searches),
+        )
 
     def find_lost(self) -> None:
         """Bring back air that has leaked beyond every offset region."""
-        self._walls_as_mesh.refit()
         self._launch(find_lost_air, len(self.scene.air))
 
     def look(self) -> None:
-        """Write the stretch of every vertex, the volumes (m3) and pressures (Pa) of all segments, and copy what
-        frames are made of.
-        """
-        self._launcher.replay(("look",), self._look)
+        """Start copying what frames are made of before anything has moved."""
+        self._look()
 
     def _look(self) -> None:
+        """Write the stretch of every vertex and the volumes (m3) and pressures (Pa) of all segments, and copy."""
         segments = len(self.scene.segment_quad)
         self._launch(spring_stretch, len(self.scene.x))
-        self._launcher.launch_tiled(segment_volumes, segments)
-        self._launcher.launch_tiled(cluster_pressures, segments)
+        self._launcher.launch_tiled(segment_volumes, segments, lanes=MANY_LANES)
+        self._launcher.launch_tiled(cluster_pressures, segments, lanes=MANY_LANES)
+        self.scene.lonely_count.zero_()
+        self._launch(find_lonely, len(self.scene.air))
         self._mirror.copy()
 
-    def _frame(self, *, contact: bool, fingers: bool) -> None:
+    def _frame(self, *, contact: bool, fingers: bool, searches: int) -> None:
         s = self.scene
         s.face_hits.zero_()
+        search_every = -(-self.substeps // max(searches, 1))
         for k in range(self.substeps):
-            if k % SEARCH_EVERY == 0:
-                self._find_neighbours(contact=contact)
-                self._launcher.launch_tiled(cluster_drift, len(s.segment_quad))
+            if k % search_every == 0:
+                if searches:
+                    self._find_neighbours(contact=contact)
+                self._launch(cluster_drift, len(s.segment_quad))
             if fingers:
                 self._launch(press_fingers, len(s.x), fraction=(k + 1) / self.substeps)
-            self._substep((k + 1) / self.substeps)
+            self._substep((k + 1) / self.substeps, contact=contact)
+        self._look()
 
-    def _substep(self, fraction: float) -> None:
-        """One time step in the order of fig. 3.8; the wall stands in `x_next` until its lengths are limited."""
+    def _substep(self, fraction: float, *, contact: bool) -> None:
+        """One time step in the order of fig. 3.8."""
         s = self.scene
-        vertices, faces, particles = len(s.x), len(s.face_normal), len(s.air)
-        wall = s.x_next
-        self._launch(part_walls, vertices)
-        self._launch(face_surface, faces, x=wall)
+        vertices, particles = len(s.x), len(s.air)
+        if contact:
+            # The wall stands in `x_next` for a moment.
+            self._launch(part_walls, vertices)
+            wp.copy(s.x, s.x_next)
+        self._launch(face_surface, len(s.face_normal))
         self._launch_lanes(repel_air, particles)
-        self._launch_lanes(press_faces, len(s.quads), x=wall)
+        self._launch_lanes(press_faces, len(s.quads))
         self._launch(press_vertices, vertices)
-        self._launch_lanes(press_air, particles, x=wall)
-        self._launch(pull_springs, vertices, x=wall)
+        self._launch_lanes(press_air, particles)
+        self._launch(pull_springs, vertices)
         self._launch(move_air, particles)
-        self._launch(move_rubber, vertices, x=wall, fraction=fraction)
-        self._launch(limit_elongation, vertices, x=wall, x_next=s.x)
-        self._launch(hold_rings, len(s.joint_first), fraction=fraction)
+        self._launch(move_rubber, vertices, fraction=fraction)
+        self._launch(limit_elongation, vertices, x=s.x_next, x_next=s.x)
+        self._launch_lanes(hold_rings, len(s.joint_first), fraction=fraction)
 
     def _find_neighbours(self, *, contact: bool) -> None:
         """List the particles, triangles and walls that may meet before the next search."""
@@ -134,10 +142,3 @@ class KosakaStepper:
 
     def _launch_lanes(self, kernel: Any, blocks: int, **changing: Any) -> None:
         self._launcher.launch_tiled(kernel, blocks, lanes=LANES, **changing)
-
-
-def _mesh_of_walls(scene: KosakaScene) -> Any:
-    """Return the triangles of all walls as a mesh that follows the vertices when it is refitted."""
-    corners = scene.quads.numpy()[:, [0, 1, 2, 0, 2, 3]].reshape(-1)
-    indices: Any = wp.array(corners, dtype=int, device=scene.device)
-    return wp.Mesh(points=scene.x, indices=indices, support_winding_number=True)
