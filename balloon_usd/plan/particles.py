@@ -37,8 +37,8 @@ def experiment_spacing(radius: float) -> float:
 def start_particles(strip: Strip, spacing: float | None = None) -> Floats:
     """Return where the air particles of a balloon are at the start, (P, 3) float64, m.
 
-    In a capsule they are packed as in the thesis's experiment; in a whole balloon they are spread evenly, as many
-    as fill it at the density that the experiment's have once spread, or `spacing` (m) apart.
+    In a capsule they are packed as in the thesis's experiment; in a whole balloon they are spread evenly, as
+    many as fill it at the density that the experiment's have once spread, or `spacing` (m) apart.
     """
     shape = blown_shape(strip)
     if strip.capsule and spacing is None:
@@ -52,20 +52,26 @@ def _volume(length: float, radius: float) -> float:
 
 
 def _even(length: float, radius: float, spacing: float) -> Floats:
-    """An even lattice inside a tube with round ends, as many particles as fill it to the wall at a spacing (m).
+    """An even lattice in a tube with round ends: as many particles as fill it to the wall at a spacing (m).
 
     None is at the wall itself, so the lattice is a little closer than that.
     """
     wanted = max(_volume(length, radius) / spacing**3, 1.0)
     step = _lattice_step(length, radius, wanted)
-    across = max(int(np.ceil(2.0 * radius / step)), 1)
     along = max(round(length / step), 1)
-    for _ in range(2):
-        size = (length, across * step, across * step)
-        lattice = _lattice(size, (along, across, across))
-        lattice[:, 0] += 0.5 * length
-        kept = lattice[_depth(lattice, length, radius) >= FROM_WALL * step]
-        along = max(round(along * wanted / max(len(kept), 1)), 1)
+    found = len(_inside(length, radius, step, along))
+    return _inside(length, radius, step, max(round(along * wanted / found), 1))
+
+
+def _inside(length: float, radius: float, step: float, along: int) -> Floats:
+    """What is not near the wall, at least the deepest, of a lattice of a spacing (m) in `along` layers."""
+    across = max(int(np.ceil(2.0 * radius / step)), 1)
+    lattice = _lattice((length, across * step, across * step), (along, across, across))
+    lattice[:, 0] += 0.5 * length
+    x = lattice[:, 0]
+    beyond = x - np.clip(x, radius, length - radius)
+    depth = radius - np.sqrt(beyond**2 + lattice[:, 1] ** 2 + lattice[:, 2] ** 2)
+    kept: Floats = lattice[depth >= min(FROM_WALL * step, depth.max())]
     return kept
 
 
@@ -77,13 +83,6 @@ def _lattice_step(length: float, radius: float, count: float) -> float:
         free = _volume(length - 2.0 * FROM_WALL * step, radius - FROM_WALL * step)
         low, high = (step, high) if count * step**3 < free else (low, step)
     return low
-
-
-def _depth(places: Floats, length: float, radius: float) -> Floats:
-    """Distance (P,) of places (P, 3) inside a tube with round ends from its wall, m."""
-    x = places[:, 0]
-    beyond = x - np.clip(x, radius, length - radius)
-    return radius - np.sqrt(beyond**2 + places[:, 1] ** 2 + places[:, 2] ** 2)
 
 
 def _packed(length: float, radius: float) -> Floats:

@@ -35,7 +35,7 @@ class Balloon(BaseModel):
     inflated: Length | None = None
     """Length of the inflated part, instead of tail; m in Python."""
     capsule: Length | None = None
-    """Inflated length of a closed capsule, instead of a balloon with knot and tail; m in Python."""
+    """Length of a closed capsule before it is twisted, instead of one with knot and tail; m in Python."""
     radius: Annotated[float, LengthWithin(0.0005, 0.1)] | None = None
     """Unstressed radius, where a brand differs; m in Python."""
     length: Length | None = None

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 import warp as wp
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Hashable
+    from collections.abc import Callable, Hashable, Iterator
 
     from balloon_usd.solver.scene import Scene
 
@@ -24,6 +25,7 @@ class Launcher:
         self.scene = scene
         self.values = values
         self._graphs: dict[Hashable, Any] = {}
+        self._side = wp.Stream(scene.device) if wp.get_device(scene.device).is_cuda else None
 
     def launch(self, kernel: Any, dim: int | tuple[int, ...], **changing: Any) -> None:
         """Launch a kernel over `dim` threads."""
@@ -38,6 +40,21 @@ class Launcher:
             block_dim=lanes,
             device=self.scene.device,
         )
+
+    @contextmanager
+    def aside(self) -> Iterator[None]:
+        """Launch what the block launches beside what follows, until `join`; on the CPU one after the other."""
+        if self._side is None:
+            yield
+            return
+        self._side.wait_stream(wp.get_stream(self.scene.device))
+        with wp.ScopedStream(self._side, sync_enter=False):
+            yield
+
+    def join(self) -> None:
+        """Let what follows wait for what was launched aside."""
+        if self._side is not None:
+            wp.get_stream(self.scene.device).wait_stream(self._side)
 
     def replay(self, key: Hashable, record: Callable[[], None]) -> None:
         """Launch what was recorded under a key; record it the first time."""

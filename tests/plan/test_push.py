@@ -65,6 +65,41 @@ def test_of_a_tip_the_last_guide_ring_is_held(planned):
     assert held_names(figure) == ["main.knot", "main_rest.1"]
 
 
+NECKED = """
+balloons: {{main: {{size: 260, capsule: 28}}}}
+steps:
+  - bubbles: {{a: 8, b: 6}}
+  - {}
+physics: {{model: kosaka}}
+"""
+
+
+def test_a_place_before_any_neck_of_a_capsule_is_as_far_along_its_wall(planned):
+    assert push_of(planned(NECKED.format("push: {bubble: a, at: 2, depth: 1}"))).along == pytest.approx(
+        2 * CM
+    )
+
+
+def test_the_middle_of_a_bubble_with_two_necks_is_that_of_its_wall(planned):
+    figure = planned(NECKED.format("push: {bubble: b, depth: 1}"))
+    bubble = figure.bubbles[1]
+    assert push_of(figure).along == pytest.approx(0.5 * (bubble.rest_start + bubble.rest_end))
+
+
+def test_a_place_beyond_a_neck_of_a_capsule_is_farther_along_its_wall(planned):
+    figure = planned(NECKED.format("push: {bubble: main_rest, at: 5, depth: 1}"))
+    rest = figure.bubbles[-1]
+    necked = rest.rest_length - rest.length
+    assert push_of(figure).along == pytest.approx(rest.rest_start + 5 * CM + necked)
+
+
+def test_the_tip_of_a_capsule_is_at_its_end(planned):
+    figure = planned(NECKED.format("push: {bubble: main_rest, force: 1}"))
+    strip = figure.strips["main"]
+    rest = figure.bubbles[-1]
+    assert strip.rest_place(rest, rest.length) == pytest.approx(strip.capsule_length)
+
+
 def test_a_place_on_the_rest_is_not_on_its_flat_tail(planned):
     figure = planned(TUBE.format("push: {bubble: main_rest, at: 90, depth: 1}"))
     rest = figure.bubbles[-1]

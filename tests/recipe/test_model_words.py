@@ -32,6 +32,17 @@ def test_the_particle_model_is_read_with_its_constants_in_si_units() -> None:
     assert (physics.kosaka.re, physics.kosaka.contact_offset) == (0.01, 0.002)
 
 
+def test_what_goes_beyond_the_thesis_can_be_switched_off() -> None:
+    off = "{grading: 0, calming: 0, drag: 0}"
+    kosaka = Recipe.parse(f"{CAPSULE}  - wait: 1\n{KOSAKA}  kosaka: {off}\n").physics.kosaka
+    assert (kosaka.grading, kosaka.calming, kosaka.drag) == (0.0, 0.0, 0.0)
+
+
+def test_what_is_absent_is_left_to_the_model() -> None:
+    kosaka = Recipe.parse(f"{CAPSULE}  - wait: 1\n{KOSAKA}").physics.kosaka
+    assert {value for key, value in kosaka if key != "swell"} == {None}
+
+
 def test_a_capsule_is_a_balloon_without_knot_and_tail() -> None:
     balloon = Recipe.parse(f"{CAPSULE}  - wait: 1\n{KOSAKA}").balloons["main"]
     assert (balloon.capsule, balloon.tail, balloon.inflated) == (0.2, None, None)
@@ -171,6 +182,11 @@ CONSTANTS = [
     ("natural: 1.1", "1.1 is out of range, expected 0.05 to 1, the nearest is 1"),
     ("ks: 0", "0 is out of range, expected 1 to 1e+09 1/s2, the nearest is 1"),
     ("kd: .nan", "nan is out of range, expected 0 to 1e+06 1/s, the nearest is 0"),
+    ("grading: 1.5", "1.5 is out of range, expected 0 to 1, the nearest is 1"),
+    ("grading: true", "True is no number, expected 0 to 1"),
+    ("calming: -1", "-1 is out of range, expected 0 to 1e+06 1/s, the nearest is 0"),
+    ("calming: 3 cm", '"3 cm" is no number, expected 0 to 1e+06 1/s'),
+    ("gradin: 1", 'unknown key "gradin", did you mean "grading"?'),
     ("gamma: 20", "20 cm is out of range, expected more than 0 and at most 10 cm"),
     ("spacing: 0.01", "0.1 mm is out of range, expected at least 1 mm and at most 10 cm"),
     ("air_ofset: 1", 'unknown key "air_ofset", did you mean "air_offset"?'),

@@ -116,8 +116,8 @@ EVERYTHING = (
 AIR = (
     "format: 1\nname: air\nunits: cm\nballoons: {main: {size: 260, capsule: 20}}\nsteps: [wait: 1]\n"
     "physics: {model: kosaka, kosaka: {swell: 0.1, natural: 0.5, ks: 1e5, kd: 1, alpha: 1, beta: 1, push: 1, gamma: 0.1,"
-    " re: 1, air_offset: 1, contact_offset: 2 mm, leak_offset: 1, spacing: 0.7, drag: 0, force_limit: 10,"
-    " elongation_limit: 1}}\n"
+    " re: 1, air_offset: 1, contact_offset: 2 mm, leak_offset: 1, spacing: 0.7, drag: 0, grading: 0,"
+    " calming: 0, force_limit: 10, elongation_limit: 1}}\n"
 )
 
 

@@ -214,6 +214,7 @@ class Sample:
             "quad_cluster": self.quad_cluster,
             "balloon_world": np.zeros(len(LAWS), dtype=np.int32),
             "vertex_balloon": self.vertex_balloon,
+            "vertex_joint": np.full(len(self.x), -1, dtype=np.int32),
             "corners": corner_table(self.quads, len(self.x)),
             "spring_ends": net.ends,
             "natural": net.natural,

@@ -257,12 +257,16 @@ def calming_sum(edges, x, v, calming) -> Floats:
     return total
 
 
-def shortening(edges, x, longest, share) -> Floats:
-    """How far vertices move when both ends of springs that are too long take back a share of the excess, (V, 3)."""
-    d = x[edges[:, 1]] - x[edges[:, 0]]
-    size = length(d)
-    step = (share * np.maximum(size - longest, 0.0) / size)[:, None] * d
+def shortening(edges, x, longest, share, held) -> Floats:
+    """How far vertices move when the ends of springs that are too long each take back a share of the excess, (V, 3).
+
+    What a hand holds does not move, `held` (V,) bool: then the other end takes both shares.
+    """
     total = np.zeros_like(x)
-    np.add.at(total, edges[:, 0], step)
-    np.add.at(total, edges[:, 1], -step)
+    for q, p in (edges.T, edges.T[::-1]):
+        d = x[q] - x[p]
+        size = length(d)
+        excess = np.maximum(size - longest, 0.0)
+        np.add.at(total, p, (share * np.where(held[q], 2.0, 1.0) * excess / size)[:, None] * d)
+    total[held] = 0.0
     return total

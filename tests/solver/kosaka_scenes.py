@@ -15,7 +15,10 @@ from balloon_usd.solver.kosaka.parameters import SUBSTEPS
 from balloon_usd.solver.kosaka.scene import KosakaScene
 from balloon_usd.solver.simulation import NOMINAL_RATE
 
-AROUND = 16
+AROUND, FINE = 16, 32
+"""Vertices round a coarse mesh, and round one as fine as that of the thesis's experiment."""
+DENTS = 5e-4
+"""How far vertices are moved at random, m."""
 RECIPE = """
 format: 1
 name: small
@@ -30,17 +33,17 @@ physics: {model: kosaka}
 
 
 @cache
-def small_plan() -> tuple[Plan, BalloonMesh]:
-    """The plan of a capsule of 16 cm, and a coarse mesh of it."""
+def small_plan(around: int = AROUND) -> tuple[Plan, BalloonMesh]:
+    """The plan of a capsule of 16 cm, and a mesh of it."""
     figure = plan(Recipe.parse(RECIPE))
     (strip,) = figure.strips.values()
     ends = tuple(bubble.rest_end for bubble in strip.bubbles)
-    return figure, capsule_mesh(ends[-1], strip.inflated_radius, AROUND, ends)
+    return figure, capsule_mesh(ends[-1], strip.inflated_radius, around, ends)
 
 
-def small_model(device: str, copies: int = 1) -> KosakaModel:
+def small_model(device: str, copies: int = 1, around: int = AROUND) -> KosakaModel:
     """A model of one or several small balloons, each a sculpture of its own."""
-    figure, mesh = small_plan()
+    figure, mesh = small_plan(around)
     return KosakaModel([figure] * copies, [[mesh]] * copies, NOMINAL_RATE, SUBSTEPS, device)
 
 
@@ -73,25 +76,24 @@ def place_of(model: KosakaModel, joint: int) -> float:
 
 def freeze(model: KosakaModel, *joints: int) -> None:
     """Freeze rings and part the clusters, as after a frame in which they were drawn together."""
+    for joint in joints:
+        model.hands.close(joint, float(model.hands.neck[joint]))
+    model.hands.upload()
     frozen = model.scene.frozen.numpy()
     frozen[list(joints)] = 1
     model.scene.frozen.assign(frozen)
-    closing = np.zeros(len(frozen), dtype=bool)
-    closing[list(joints)] = True
-    model.clusters.part(closing)
+    model.clusters.part(model.hands.radius_goal > 0.0)
 
 
-def scatter(scene: KosakaScene, seed: int, beyond: float = 0.0) -> np.ndarray:
-    """Dent the first balloon and put its air anywhere within it, or as far `beyond` its wall (m); return the air."""
+def scatter(scene: KosakaScene, seed: int, beyond: float = 0.0) -> None:
+    """Dent the first balloon and put its air anywhere within it, or as far `beyond` its wall (m)."""
     random = np.random.default_rng(seed)
-    mesh = small_plan()[1]
     x, air = scene.x.numpy(), scene.air.numpy()
-    x[: len(mesh.points)] = mesh.points + random.normal(0.0, 5e-4, mesh.points.shape)
-    count = int(scene.air_start[1])
-    air[:count] = within(random, count, beyond)
+    vertices, particles = int(scene.vertex_start[1]), int(scene.air_start[1])
+    x[:vertices] += random.normal(0.0, DENTS, (vertices, 3))
+    air[:particles] = within(random, particles, beyond)
     scene.x.assign(x)
     scene.air.assign(air)
-    return air
 
 
 def within(random: np.random.Generator, count: int, beyond: float = 0.0) -> np.ndarray:

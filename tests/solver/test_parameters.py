@@ -136,13 +136,14 @@ def test_evenly_spread_air_presses_on_a_plane_wall_as_the_rule_says(grading):
     corner = (np.arange(cells)[:, None] * (cells + 1) + np.arange(cells)).reshape(-1)
     triangles = thesis.triangles_of(corner[:, None] + [0, cells + 1, cells + 2, 1])
     # Air goes on beside the faces round the middle, as far as their regions do.
-    across, deep = middles(-side, (cells + 1) * side, 121), middles(-offset, 0.0, 10)
+    beyond = 2.0 * side
+    across, deep = middles(-beyond, cells * side + beyond, 151), middles(-offset, 0.0, 10)
     air = np.stack(np.meshgrid(across, across, deep, indexing="ij"), axis=-1).reshape(-1, 3)
     normal, d, uvw = thesis.regions(triangles, x, air)
     beside = uvw.min(axis=2)
     push = np.where(beside > -WIDER, thesis.grading(-d / offset, beside, WIDER, grading), 0.0)
     pushes = thesis.pushes(triangles, thesis.angles_of(triangles, x), normal, push, uvw)
-    spacing = (((cells + 2) * side) ** 2 * offset / len(air)) ** (1.0 / 3.0)
+    spacing = ((cells * side + 2.0 * beyond) ** 2 * offset / len(air)) ** (1.0 / 3.0)
     law = replace(rule(), air_offset=offset, grading=grading, spacing=spacing)
     middle = pushes[len(x) // 2] / side**2
     assert middle == pytest.approx([0.0, 0.0, pressure_of_push(law)], rel=0.1, abs=0.01 * middle[2])

@@ -87,7 +87,7 @@ def test_the_first_frame_is_flat_and_the_last_has_a_full_bubble():
 def test_gas_is_neither_lost_nor_won_once_the_pump_has_stopped():
     simulation = simulate_many([short()], detail="draft", device="cpu")
     amounts = [
-        simulation.scene.amount.numpy()[2:].sum()
+        simulation.model.scene.amount.numpy()[2:].sum()
         for frames in simulation.frames()
         if frames[0].doing.startswith(("pinch", "twist"))
     ]

@@ -15,13 +15,17 @@ UNCLEAR = 1e-7
 """How near to a border float32 does not know the side, m."""
 
 
-def part(device: str, x, quads, normal, target, v=None):
+def part(device: str, x, quads, normal, target, v=None, neck=()):
+    joint = np.full(len(x), -1, dtype=np.int32)
+    joint[list(neck)] = 0
     return launch(
         part_walls,
         device,
         len(x),
         quads=np.asarray(quads, dtype=np.int32),
+        vertex_joint=joint,
         vertex_balloon=np.zeros(len(x), dtype=np.int32),
+        radius_to=np.full(1, 0.005),
         constants=laws(contact_offset=THICKNESS),
         target=np.asarray(target, dtype=np.int32),
         normal=np.asarray(normal, dtype=float),
@@ -47,7 +51,7 @@ def many(seed: int):
     random = np.random.default_rng(seed)
     walls, each = 60, 8
     corners = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]) * 0.01
-    place = np.column_stack([np.arange(walls) % 8, np.arange(walls) // 8, np.zeros(walls)]) * 0.03
+    place = np.column_stack([np.arange(walls) % 8 - 4, np.arange(walls) // 8 - 4, np.zeros(walls)]) * 0.03
     wall = place[:, None] + corners + random.normal(0.0, 7e-4, (walls, 4, 3))
     loose = place[:, None] + random.uniform((-0.002, -0.002, -0.004), (0.012, 0.012, 0.002), (walls, each, 3))
     x = single(np.concatenate([wall.reshape(-1, 3), loose.reshape(-1, 3)]))
@@ -116,9 +120,21 @@ def test_a_vertex_inside_a_wall_is_put_onto_it(device):
     [
         pytest.param((0.004, 0.003, 0.001), (0, 0, -1), id="outside"),
         pytest.param((0.004, 0.003, -1.1 * THICKNESS), (0, 0, -1), id="too deep"),
-        pytest.param((0.013, 0.003, -0.001), (0, 0, -1), id="beside the wall"),
+        pytest.param((0.012 + 0.01 * WIDER, 0.003, -0.001), (0, 0, -1), id="beside the wall"),
         pytest.param((0.004, 0.003, -0.001), (0, 0, 1), id="of the same wall"),
     ],
 )
 def test_any_other_vertex_stays_where_it_is(device, place, facing):
     assert np.array_equal(above(device, place, facing), np.array(place, dtype=np.float32))
+
+
+@pytest.mark.parametrize("device", DEVICES)
+def test_necks_stay_where_hands_closed_them(device):
+    x, quads, normal, target = many(seed=39)
+    neck = np.arange(len(x) - 100, len(x))
+    v = np.full_like(x, 0.1)
+    free, held = (part(device, x, quads, normal, target, v, necks) for necks in ((), neck))
+    assert not np.array_equal(free["x_next"][neck], x[neck].astype(np.float32))
+    assert np.array_equal(held["x_next"][neck], x[neck].astype(np.float32))
+    assert np.array_equal(held["v"][neck], v[neck].astype(np.float32))
+    assert np.array_equal(held["x_next"][: neck[0]], free["x_next"][: neck[0]])

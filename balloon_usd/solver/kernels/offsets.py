@@ -7,11 +7,12 @@ import warp as wp
 
 from balloon_usd.solver.kernels.springs import Constants
 
-WIDER = wp.constant(0.15)
+REACHES_OVER = 0.5
+WIDER = wp.constant(REACHES_OVER)
 """How far an inner offset region reaches beyond its triangle, in barycentric shares: no gaps where a wall bends
 inwards.
 """
-WIDER_OUTSIDE = wp.constant(0.2)
+WIDER_OUTSIDE = wp.constant(0.5)
 """The same of the outer region, where the walls of a round balloon leave gaps."""
 UNSEEN = wp.constant(1.0e6)
 """Distance of a triangle that is not there, m."""

@@ -2,7 +2,7 @@
 
 import warp as wp
 
-from balloon_usd.solver.kernels.drift import Drift, drift_at
+from balloon_usd.solver.kernels.drift import Drift, drift_at, kept_in
 from balloon_usd.solver.kernels.springs import Constants
 
 NEAREST = wp.constant(1.0e-6)
@@ -67,5 +67,5 @@ def move_air(
     size = wp.length(u)
     if size > law.air_speed:
         u = u * (law.air_speed / size)
-    air[a] = air[a] + u * dt
+    air[a] = kept_in(air[a] + u * dt, drifts[air_cluster[a]])
     air_speed[a] = u

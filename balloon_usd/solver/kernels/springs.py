@@ -126,7 +126,12 @@ def limit_elongation(
             size = wp.length(d)
             excess = size - most * lengths[k]
             if excess > 0.0:
-                shift += (HALF_EACH * excess / wp.max(size, SHORTEST)) * d
+                share = HALF_EACH
+                other = vertex_joint[ends[k]]
+                if other >= 0:
+                    # The other end does not give way.
+                    share = wp.where(radius_to[other] > 0.0, 2.0 * HALF_EACH, HALF_EACH)
+                shift += (share * excess / wp.max(size, SHORTEST)) * d
     x_next[i] = p + shift
     v[i] = v[i] + shift / dt
 

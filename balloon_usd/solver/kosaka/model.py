@@ -35,13 +35,18 @@ LOOKED_AT = (
     "most_near",
     "air",
     "ring_middle",
-    "lonely_count",
 )
 """Arrays of which frames are made."""
 
 
-HANDLED_SEARCHES = 2
-"""Searches for neighbours in a frame in which hands are at work; else there is one in two frames."""
+MOST_SEARCHES = 2
+"""Searches for neighbours in a frame in which hands are at work or air moves fast."""
+FAST, SLOW = 0.5, 0.25
+"""Ways of the fastest air in a frame, in the distance that lists look ahead: above the first it is searched twice,
+above the second once, below it once in two frames.
+"""
+FIRST_FRAMES = 6
+"""Frames at the start in which air moves as fast as it may."""
 LEADING = 0.1
 """Force of a hand that leads a bubble, as a share of the largest external force."""
 LOST_EVERY = 12
@@ -91,16 +96,22 @@ class KosakaModel:
         self.hands.upload()
         handled = self.hands.pressing or bool(self.hands.mode.any())
         self._frames += 1
-        rest = 1 if self._frames % 2 else 0
         self.stepper.advance(
             contact=bool(self.hands.touching.any()),
             fingers=self.hands.pressing,
-            searches=HANDLED_SEARCHES if handled else rest,
+            searches=MOST_SEARCHES if handled else self._searches(end - begin),
         )
         self.hands.arrived()
         self.clusters.part(self.hands.radius_goal > 0.0)
-        if self._frames % LOST_EVERY == 0 and self._seen["lonely_count"][0] > 0:
+        if self._frames % LOST_EVERY == 0:
             self.stepper.find_lost()
+
+    def _searches(self, seconds: float) -> int:
+        """Searches that a frame of some seconds needs in which no hand is at work."""
+        moved = float(self._seen["fastest"][0]) * seconds / self.scene.margin
+        if self._frames <= FIRST_FRAMES or moved > FAST:
+            return MOST_SEARCHES
+        return 1 if self._frames % 2 or moved > SLOW else 0
 
     def look(self) -> None:
         """Fetch the present state, from which frames are made."""

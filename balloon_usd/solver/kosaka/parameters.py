@@ -17,6 +17,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from balloon_usd.plan.particles import EXPERIMENT_RADIUS, experiment_spacing
+from balloon_usd.solver.kernels.offsets import REACHES_OVER
 
 if TYPE_CHECKING:
     from balloon_usd.recipe.kosaka import Kosaka
@@ -38,15 +39,15 @@ SPRING_DAMPING = 0.1
 """Damping of the springs in units of one over the time step."""
 CALMING = 0.15
 """Damping across the springs in units of one over the time step; the thesis has none, and its net trembles."""
-AIR_STEP = 0.01
+AIR_STEP = 0.005
 """Repulsion in units of one over the squared time step."""
-BETA = 1.2
+BETA = 1.0
 """Push on a particle at the wall, in the repulsion of all evenly spread ones behind it."""
 GRADING = 1.0
 """How far the push fades with depth in the offset region; 0 is the thesis's."""
 GRADED_AWAY = 0.6
 """Mean share of the push that grading takes away: the integral of 1 - (1 - s)^3 (1 + 3 s) over the region."""
-NATURAL = 0.4
+NATURAL = 0.7
 """Natural length of the springs round the balloon, in their length at rest: below one they stay taut in a neck."""
 DRAG = 12.0
 """Drag on air, 1/s: the thesis has none, and its air never comes to rest. Real air weighs nearly nothing."""
@@ -127,7 +128,9 @@ def parameters(given: Kosaka, radius: float, width: float, dt: float) -> Paramet
         ks=_first(given.ks, SPRING_STEP / dt**2),
         kd=_first(given.kd, SPRING_DAMPING / dt),
         alpha=alpha,
-        beta=_first(given.beta, BETA * wall_repulsion(alpha, re, spacing)),
+        beta=_first(
+            given.beta, BETA * wall_repulsion(alpha, re, spacing) / overlap(_first(given.grading, GRADING))
+        ),
         push=given.push,
         gamma=_first(given.gamma, GAMMA * AIR_OFFSET * scale),
         re=re,
@@ -160,7 +163,19 @@ def pressure_of_push(law: Parameters) -> float:
     add up to one, and a vertex takes the mean over its triangles (eq. 3.11): a third of the push per particle
     in one triangle, over the two triangles' areas that belong to it.
     """
-    return law.density * law.air_offset * (1.0 - GRADED_AWAY * law.grading) / 6.0
+    sharp = (1.0 - law.grading) * overlap(0.0)
+    graded = law.grading * overlap(1.0) * (1.0 - GRADED_AWAY)
+    return (sharp + graded) * law.density * law.air_offset / 6.0
+
+
+def overlap(grading: float) -> float:
+    """Return how many triangles' regions a particle beside a plane wall counts in, on average.
+
+    Each reaches W beyond its triangle, in barycentric shares: sharp regions cover (1 + 3 W)^2 times the wall;
+    regions that fade sideways over that, for W above a third, (1 + 3 W)^3 / (18 W) times.
+    """
+    reach = 1.0 + 3.0 * REACHES_OVER
+    return (1.0 - grading) * reach**2 + grading * reach**3 / (18.0 * REACHES_OVER)
 
 
 def _first(given: float | None, rule: float) -> float:

@@ -21,9 +21,9 @@ if TYPE_CHECKING:
     from balloon_usd.solver.kosaka.body import KosakaBody
     from balloon_usd.solver.settings import SceneSettings
 
-NEIGHBOURS = 1024
-"""Room for the neighbours of one particle; on a GPU shared by the lanes of its block."""
-FACE_AIR = 1024
+NEIGHBOURS = {"cpu": 256, "cuda": 2048}
+"""Room for the neighbours of one particle; on a GPU the lanes of its block share it."""
+FACE_AIR = {"cpu": 512, "cuda": 2048}
 """Room for the particles that one quad may meet, likewise."""
 AIR_FACES = {"cpu": 1536, "cuda": 6144}
 """Room for the triangles that one particle may meet, likewise: in a neck most of them fall to one lane."""
@@ -129,8 +129,8 @@ def _scratch_arrays(scene: KosakaScene) -> None:
     ):
         scene.zeros(name, count, wp.vec3)
     scene.zeros("drifts", int(scene.segment_start[-1]), Drift)
+    scene.zeros("fastest", 1, float)
     scene.zeros("face_hits", 2 * quads, float)
-    scene.zeros("lonely_count", 1, int)
     scene.zeros("cluster_pressure", int(scene.segment_start[-1]), float)
     for name, shape in (
         ("neighbour_count", (particles, LANES)),
@@ -142,6 +142,10 @@ def _scratch_arrays(scene: KosakaScene) -> None:
         ("most_near", worlds),
     ):
         scene.zeros(name, shape, int)
-    scene.zeros("neighbours", (particles, NEIGHBOURS), int)
-    scene.zeros("face_air", (quads, FACE_AIR), int)
-    scene.zeros("air_faces", (particles, AIR_FACES[scene.device.partition(":")[0]]), int)
+    kind = scene.device.partition(":")[0]
+    for name, count, room in (
+        ("neighbours", particles, NEIGHBOURS),
+        ("face_air", quads, FACE_AIR),
+        ("air_faces", particles, AIR_FACES),
+    ):
+        scene.zeros(name, (count, room[kind]), int)

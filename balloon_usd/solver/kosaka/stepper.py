@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import warp as wp
 
-from balloon_usd.solver.kernels.drift import cluster_drift, find_lonely
+from balloon_usd.solver.kernels.drift import cluster_drift, fastest_air, find_lonely
 from balloon_usd.solver.kernels.fingers import press_fingers
 from balloon_usd.solver.kernels.frozen import hold_rings, move_rubber
 from balloon_usd.solver.kernels.gas import segment_volumes
@@ -79,6 +79,7 @@ class KosakaStepper:
 
     def find_lost(self) -> None:
         """Bring back air that has leaked beyond every offset region."""
+        self._launch(find_lonely, len(self.scene.air))
         self._launch(find_lost_air, len(self.scene.air))
 
     def look(self) -> None:
@@ -91,8 +92,8 @@ class KosakaStepper:
         self._launch(spring_stretch, len(self.scene.x))
         self._launcher.launch_tiled(segment_volumes, segments, lanes=MANY_LANES)
         self._launcher.launch_tiled(cluster_pressures, segments, lanes=MANY_LANES)
-        self.scene.lonely_count.zero_()
-        self._launch(find_lonely, len(self.scene.air))
+        self.scene.fastest.zero_()
+        self._launch(fastest_air, len(self.scene.air))
         self._mirror.copy()
 
     def _frame(self, *, contact: bool, fingers: bool, searches: int) -> None:
@@ -117,16 +118,20 @@ class KosakaStepper:
             # The wall stands in `x_next` for a moment.
             self._launch(part_walls, vertices)
             wp.copy(s.x, s.x_next)
+        with self._launcher.aside():
+            self._launch_lanes(repel_air, particles)
+            self._launch(pull_springs, vertices)
         self._launch(face_surface, len(s.face_normal))
-        self._launch_lanes(repel_air, particles)
         self._launch_lanes(press_faces, len(s.quads))
         self._launch(press_vertices, vertices)
+        self._launcher.join()
         self._launch_lanes(press_air, particles)
-        self._launch(pull_springs, vertices)
-        self._launch(move_air, particles)
+        with self._launcher.aside():
+            self._launch(move_air, particles)
         self._launch(move_rubber, vertices, fraction=fraction)
         self._launch(limit_elongation, vertices, x=s.x_next, x_next=s.x)
         self._launch_lanes(hold_rings, len(s.joint_first), fraction=fraction)
+        self._launcher.join()
 
     def _find_neighbours(self, *, contact: bool) -> None:
         """List the particles, triangles and walls that may meet before the next search."""
