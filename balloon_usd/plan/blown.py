@@ -9,12 +9,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from balloon_usd.balloon.tube_theory import maxwell_state
+from balloon_usd.plan.necks import wall_length
 
 if TYPE_CHECKING:
     from balloon_usd.plan.strip import Strip
 
 Floats = NDArray[np.float64]
 
+SHORTEST_TAIL = 1e-3
+"""Least share of a balloon that stays flat, so that its tip lies beyond its front."""
+NECKS = 2
+"""Necks of a bubble of a tube: its knot or a joint, and a joint."""
 NECK_AT_KNOT = 0.55
 """Radius at the knot, in R0."""
 
@@ -53,20 +58,21 @@ def blown_shape(strip: Strip) -> BlownShape:
     """Return the shape of a strip that is blown up and not yet twisted."""
     state = maxwell_state(strip.rubber)
     wide = strip.size.radius * state.bulged.a
-    last = strip.bubbles[-1]
     if strip.capsule:
         ends = np.array([0.0, strip.capsule_length])
         return BlownShape(ends, ends, strip.capsule_length, wide, 0.0, 0.0)
-    flat = [strip.bubbles[0].rest_start, *(b.rest_end for b in strip.bubbles[:-1])]
-    place = [strip.bubbles[0].start, *(b.end for b in strip.bubbles[:-1])]
-    front = last.rest_start + last.length / state.bulged.b
-    tip = max(strip.size.length, front + 1e-4)
-    flat += [front, tip]
-    place += [last.end, last.end + (tip - front) * state.thin.b]
+    flat, place = [0.0], [0.0]
+    for bubble in strip.bubbles[:-1]:
+        flat.append(bubble.rest_end)
+        place.append(place[-1] + wall_length(bubble.length, wide, NECKS))
+    tip = strip.size.length
+    front = max(tip - max(strip.tail, SHORTEST_TAIL * tip), flat[-1] + SHORTEST_TAIL * tip)
+    tip = max(tip, front + SHORTEST_TAIL * tip)
+    end = place[-1] + (front - flat[-1]) * state.bulged.b
     return BlownShape(
-        np.array(flat),
-        np.array(place),
-        last.end,
+        np.array([*flat, front, tip]),
+        np.array([*place, end, end + (tip - front) * state.thin.b]),
+        end,
         wide,
         strip.size.radius * state.thin.a,
         NECK_AT_KNOT * strip.size.radius,

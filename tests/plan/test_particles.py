@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ from balloon_usd.plan.blown import blown_shape
 from balloon_usd.plan.particles import EXPERIMENT_RADIUS, experiment_spacing, start_particles
 from balloon_usd.recipe import Recipe
 
+RECIPES = sorted((Path(__file__).parents[2] / "recipes" / "kosaka").glob("*.yaml"))
 SIZES = (160, 260, 321, 350, 360, 646)
 
 
@@ -93,7 +95,7 @@ def test_a_whole_260_is_as_dense_as_the_experiment_once_spread(filling):
     x = np.linspace(0.0, shape.end, 10001)
     volume = np.trapezoid(math.pi * shape.radius_at(x) ** 2, x)
     wanted = volume / experiment_spacing(shape.wide) ** 3
-    assert len(air) == pytest.approx(wanted, rel=0.03)
+    assert len(air) == pytest.approx(wanted, rel=0.05)
 
 
 def test_it_is_as_dense_at_its_ends_as_in_its_middle(whole):
@@ -124,6 +126,15 @@ def test_neighbours_are_about_as_far_apart_everywhere(whole):
     apart = nearest(air[:1000])
     assert apart.min() > 0.85 * spacing
     assert apart.max() < spacing
+
+
+@pytest.mark.parametrize("path", RECIPES, ids=lambda path: path.stem)
+def test_every_bubble_of_the_shipped_recipes_has_air_at_the_start(path):
+    for strip in plan(Recipe.load(path)).strips.values():
+        shape, air = blown_shape(strip), start_particles(strip)
+        starts = [shape.place_of(np.array([bubble.rest_start]))[0] for bubble in strip.bubbles]
+        count, _ = np.histogram(air[:, 0], [*starts, shape.end])
+        assert count.min() > 20
 
 
 @pytest.mark.parametrize("size", SIZES)

@@ -65,6 +65,7 @@ def test_nothing_but_what_follows_from_it_changes_with_a_setting(name):
         "alpha": {"beta"},
         "re": {"beta"},
         "spacing": {"beta"},
+        "grading": {"beta"},
         "natural": {"elongation_limit"},
     }
     plain, changed = rule(), rule(**{name: SET[name]})

@@ -76,7 +76,7 @@ def test_gas_is_shared_by_a_pinch_and_then_stays_where_it_is(verify):
     simulation = simulate_many([made], detail="draft", device="cpu")
     total, sealed = [], []
     for frames in simulation.frames():
-        amount = simulation.scene.amount.numpy()[2:]
+        amount = simulation.model.scene.amount.numpy()[2:]
         if frames[0].doing.startswith(("pinch", "twist", "hold")):
             total.append(amount.sum())
         if frames[0].doing.startswith(("twist: second", "hold")):

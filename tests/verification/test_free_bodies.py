@@ -49,10 +49,10 @@ def pinched():
 def test_a_pinched_bubble_that_shakes_keeps_its_momentum_and_its_spin(verify, pinched, spin):
     shake = np.random.default_rng(1).normal(size=pinched.points.shape) * 0.05
     velocity = shake + np.cross(spin, pinched.points - pinched.points.mean(axis=0))
-    pinched.scene.v.assign(velocity.astype(np.float32))
+    pinched.model.scene.v.assign(velocity.astype(np.float32))
     pinched.advance()
     push, turn = pinched.momentum()
-    for _ in range(round(1.0 / (pinched.stepper.substeps * pinched.scene.settings.dt))):
+    for _ in range(round(1.0 / (pinched.model.stepper.substeps * pinched.model.scene.settings.dt))):
         pinched.advance()
     pushed, turned = pinched.momentum()
     scale = pinched.array("mass").sum() * WAVE_SPEED
@@ -80,13 +80,13 @@ def test_a_lock_twist_that_is_let_go_does_not_move_itself(verify):
     simulation = simulate_many([plan(Recipe.parse(LOCKED))], detail="draft", device="cpu")
     for frames in simulation.frames():
         assert isinstance(frames[0], Frame), frames[0]
-    scene = simulation.scene
-    simulation.hands.set_drag(0, 0.0)
+    scene = simulation.model.scene
+    simulation.model.hands.set_drag(0, 0.0)
     push, turn = momentum_of(scene)
     for _ in range(round(simulation.fps)):
-        simulation.hands.upload()
-        simulation.stepper.advance(contact=True)
-        simulation.hands.arrived()
+        simulation.model.hands.upload()
+        simulation.model.stepper.advance(contact=True)
+        simulation.model.hands.arrived()
     pushed, turned = momentum_of(scene)
     scale = scene.mass.numpy().sum() * WAVE_SPEED
     length = np.ptp(scene.x.numpy(), axis=0).max()

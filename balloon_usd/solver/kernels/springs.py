@@ -89,7 +89,7 @@ def pull_springs(
     spring_pull[i] = total
 
 
-HALF_EACH = wp.constant(0.25)
+HALF_EACH = wp.constant(0.4)
 """Share of a spring's excess length that each end takes back in one substep: half of it in two."""
 
 

@@ -35,16 +35,15 @@ LOOKED_AT = (
     "most_near",
     "air",
     "ring_middle",
+    "fastest",
 )
 """Arrays of which frames are made."""
 
 
 MOST_SEARCHES = 2
 """Searches for neighbours in a frame in which hands are at work or air moves fast."""
-FAST, SLOW = 0.5, 0.25
-"""Ways of the fastest air in a frame, in the distance that lists look ahead: above the first it is searched twice,
-above the second once, below it once in two frames.
-"""
+AHEAD = 0.5
+"""Way of the fastest air after which lists are made anew, in the distance that they look ahead."""
 FIRST_FRAMES = 6
 """Frames at the start in which air moves as fast as it may."""
 LEADING = 0.1
@@ -87,6 +86,8 @@ class KosakaModel:
         ]
         self._seen: dict[str, NDArray[Any]] = {}
         self._frames = 0
+        self._moved = 0.0
+        """Way of the fastest air since the last search, in the distance that lists look ahead."""
 
     def advance(self, begin: float, end: float) -> None:
         """Let the makers act and the physics run from `begin` to `end` (s)."""
@@ -99,19 +100,26 @@ class KosakaModel:
         self.stepper.advance(
             contact=bool(self.hands.touching.any()),
             fingers=self.hands.pressing,
-            searches=MOST_SEARCHES if handled else self._searches(end - begin),
+            searches=self._searches(end - begin, handled=handled),
         )
         self.hands.arrived()
         self.clusters.part(self.hands.radius_goal > 0.0)
         if self._frames % LOST_EVERY == 0:
             self.stepper.find_lost()
 
-    def _searches(self, seconds: float) -> int:
-        """Searches that a frame of some seconds needs in which no hand is at work."""
-        moved = float(self._seen["fastest"][0]) * seconds / self.scene.margin
-        if self._frames <= FIRST_FRAMES or moved > FAST:
+    def _searches(self, seconds: float, *, handled: bool) -> int:
+        """Searches that a frame of some seconds needs: more where hands are at work or air moves fast, none while
+        all that moves stays within what the last lists look ahead.
+        """
+        step = float(self._seen["fastest"][0]) * seconds / self.scene.margin
+        if handled or self._frames <= FIRST_FRAMES or step > AHEAD:
+            self._moved = step
             return MOST_SEARCHES
-        return 1 if self._frames % 2 or moved > SLOW else 0
+        self._moved += step
+        if self._moved <= AHEAD:
+            return 0
+        self._moved = step
+        return 1
 
     def look(self) -> None:
         """Fetch the present state, from which frames are made."""

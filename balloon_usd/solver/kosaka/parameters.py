@@ -41,7 +41,7 @@ CALMING = 0.15
 """Damping across the springs in units of one over the time step; the thesis has none, and its net trembles."""
 AIR_STEP = 0.005
 """Repulsion in units of one over the squared time step."""
-BETA = 1.0
+BETA = 1.5
 """Push on a particle at the wall, in the repulsion of all evenly spread ones behind it."""
 GRADING = 1.0
 """How far the push fades with depth in the offset region; 0 is the thesis's."""
@@ -49,6 +49,10 @@ GRADED_AWAY = 0.6
 """Mean share of the push that grading takes away: the integral of 1 - (1 - s)^3 (1 + 3 s) over the region."""
 NATURAL = 0.7
 """Natural length of the springs round the balloon, in their length at rest: below one they stay taut in a neck."""
+KEPT_OFF = 0.72
+"""Share of the push that arrives: a push on the air stronger than its repulsion keeps it off the wall a little
+(measured on the experiment's capsule).
+"""
 DRAG = 12.0
 """Drag on air, 1/s: the thesis has none, and its air never comes to rest. Real air weighs nearly nothing."""
 RUBBER_DRAG = 10.0
@@ -165,7 +169,7 @@ def pressure_of_push(law: Parameters) -> float:
     """
     sharp = (1.0 - law.grading) * overlap(0.0)
     graded = law.grading * overlap(1.0) * (1.0 - GRADED_AWAY)
-    return (sharp + graded) * law.density * law.air_offset / 6.0
+    return KEPT_OFF * (sharp + graded) * law.density * law.air_offset / 6.0
 
 
 def overlap(grading: float) -> float:

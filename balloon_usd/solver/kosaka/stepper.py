@@ -108,6 +108,9 @@ class KosakaStepper:
             if fingers:
                 self._launch(press_fingers, len(s.x), fraction=(k + 1) / self.substeps)
             self._substep((k + 1) / self.substeps, contact=contact)
+        # What leaked in the last step comes back before it is seen.
+        self._launch(face_surface, len(s.face_normal))
+        self._launch_lanes(press_air, len(s.air))
         self._look()
 
     def _substep(self, fraction: float, *, contact: bool) -> None:
