@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 SHORTEST_TAIL = 1e-3
-"""Least share of a balloon that stays flat, so that its tip lies beyond its front."""
+"""Least share of a balloon that is drawn flat, so that its tip lies beyond its front."""
 NECKS = 2
 """Necks of a bubble of a tube: its knot or a joint, and a joint."""
 NECK_AT_KNOT = 0.55
@@ -65,10 +65,10 @@ def blown_shape(strip: Strip) -> BlownShape:
     for bubble in strip.bubbles[:-1]:
         flat.append(bubble.rest_end)
         place.append(place[-1] + wall_length(bubble.length, wide, NECKS))
-    tip = strip.size.length
-    front = max(tip - max(strip.tail, SHORTEST_TAIL * tip), flat[-1] + SHORTEST_TAIL * tip)
-    tip = max(tip, front + SHORTEST_TAIL * tip)
-    end = place[-1] + (front - flat[-1]) * state.bulged.b
+    last = strip.bubbles[-1]
+    front = last.rest_start + last.length / state.bulged.b
+    end = place[-1] + wall_length(last.length, wide, 1)
+    tip = max(strip.size.length, front + SHORTEST_TAIL * strip.size.length)
     return BlownShape(
         np.array([*flat, front, tip]),
         np.array([*place, end, end + (tip - front) * state.thin.b]),

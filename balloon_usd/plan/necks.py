@@ -6,7 +6,7 @@ long.
 
 from __future__ import annotations
 
-NECK_EXCESS = 0.18
+NECK_EXCESS = 0.22
 """Wall that a neck takes beyond the bubble's length, in radii of the bubble's round end: a quarter circle
 would take 0.57, but the air stretches it.
 """

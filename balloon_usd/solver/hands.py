@@ -30,7 +30,9 @@ class Hands:
     """What hands do to the joints of a scene; uploaded once a frame."""
 
     def __init__(self, scene: Scene, *, lead_stiffness: float = LEAD_STIFFNESS) -> None:
-        """Take hold of nothing yet; `lead_stiffness`: of a hand that leads, where the time step allows it (N/m)."""
+        """Take hold of nothing yet; `lead_stiffness`: of a hand that leads, where the time step allows it
+        (N/m).
+        """
         joints = len(scene.joint_first)
         self.scene = scene
         self.mode = np.zeros(joints, dtype=np.int32)

@@ -32,7 +32,9 @@ class Launcher:
         wp.launch(kernel, dim=dim, inputs=self._inputs(kernel, changing), device=self.scene.device)
 
     def launch_tiled(self, kernel: Any, blocks: int, *, lanes: int = VOLUME_BLOCK, **changing: Any) -> None:
-        """Launch a kernel over blocks of threads that work together: so many `lanes` on a GPU, one on the CPU."""
+        """Launch a kernel over blocks of threads that work together: so many `lanes` on a GPU, one on the
+        CPU.
+        """
         wp.launch_tiled(
             kernel,
             dim=[blocks],
@@ -43,7 +45,7 @@ class Launcher:
 
     @contextmanager
     def aside(self) -> Iterator[None]:
-        """Launch what the block launches beside what follows, until `join`; on the CPU one after the other."""
+        """Launch what the block launches beside what follows, until `join`; on the CPU one by one."""
         if self._side is None:
             yield
             return

@@ -44,6 +44,8 @@ class Maker:
         self._done = 0
         """Moves that are finished."""
         self._frame = 0
+        self._span = (0.0, 0.0)
+        """Beginning and end of the coming frame, s."""
         self.doing = ""
 
     def _global_rings(self) -> list[int]:
@@ -64,6 +66,7 @@ class Maker:
         """
         moves = self.plan.choreography.moves
         self._frame = round(end * self.plan.recipe.fps)
+        self._span = (begin, end)
         self.hands.lift_fingers()
         for k in range(self._done, len(moves)):
             move = moves[k]
@@ -74,13 +77,11 @@ class Maker:
                 self._began[k] = np.zeros(0)
                 self.doing = move.text if move.seconds > 0.0 else self.doing
             share = 1.0 if move.end <= end or move.seconds == 0.0 else (end - move.start) / move.seconds
-            self._perform(k, move, (begin, end), share, fresh, middle)
+            self._perform(k, move, share, fresh, middle)
             if move.end <= end and k == self._done:
                 self._done += 1
 
-    def _perform(
-        self, k: int, move: Move, frame: tuple[float, float], share: float, fresh: bool, middle: Floats
-    ) -> None:
+    def _perform(self, k: int, move: Move, share: float, fresh: bool, middle: Floats) -> None:
         if isinstance(move, Gather):
             self._gather(k, move, share, fresh, middle)
         elif isinstance(move, Bring):

@@ -24,7 +24,7 @@ class Model(Protocol):
     def frame(self, world: int, time_code: int) -> Frame:
         """Return what was looked at as a frame of one sculpture."""
 
-    def failure(self, world: int, time_code: int) -> str | None:
+    def failure(self, world: int) -> str | None:
         """Return what is wrong with a sculpture in a way that its frame does not show, or None."""
 
     def give_up(self, world: int) -> None:

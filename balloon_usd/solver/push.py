@@ -6,11 +6,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from balloon_usd.plan.closing import smooth
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from balloon_usd.plan.choreography import Push
     from balloon_usd.solver.scene import Scene
 

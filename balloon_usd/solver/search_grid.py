@@ -1,8 +1,9 @@
 """The hash grid of a scene, built anew for every search.
 
-Warp 1.19 keeps the descriptor that a grid's build copies to a CUDA device in one variable for all grids, and a
-recorded graph reads that variable when it is replayed. So a scene has one grid, with one cell size, for all that it
-searches; and a scene whose graph is replayed after another scene's grid was built first builds its own once more.
+Warp 1.19 keeps the descriptor that a grid's build copies to a CUDA device in one variable for all grids, and
+a recorded graph reads that variable when it is replayed. So a scene has one grid, with one cell size, for all
+that it searches; and a scene whose graph is replayed after another scene's grid was built first builds its
+own once more.
 """
 
 from __future__ import annotations

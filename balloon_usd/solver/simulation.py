@@ -78,7 +78,7 @@ class Simulation:
 
     def _outcome(self, world: int, index: int) -> Frame | SimulationFailed:
         frame = self.model.frame(world, index + 1)
-        cause = self.watches[world].failure(frame) or self.model.failure(world, index + 1)
+        cause = self.watches[world].failure(frame) or self.model.failure(world)
         if cause is None:
             return frame
         self.model.give_up(world)

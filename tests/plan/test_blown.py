@@ -76,18 +76,21 @@ def test_the_tube_is_narrow_at_its_knot_wide_along_it_and_thin_in_its_tail(tube)
     assert front == tip == pytest.approx(tube.size.radius * maxwell_state(tube.rubber).thin.a)
 
 
-def test_the_tail_is_as_long_as_it_was_left(tube):
-    shape = blown_shape(tube)
+def test_the_tail_is_what_the_twists_leave_of_it(tube):
+    shape, last = blown_shape(tube), tube.bubbles[-1]
     front, tip = shape.place[-2:]
+    state = maxwell_state(tube.rubber)
+    left = tube.size.length - last.rest_start - last.length / state.bulged.b
     assert shape.end == front
-    assert tube.size.length - shape.flat[-2] == pytest.approx(tube.tail)
-    assert tip - front == pytest.approx(tube.tail * maxwell_state(tube.rubber).thin.b)
+    assert tube.size.length - shape.flat[-2] == pytest.approx(left)
+    assert tip - front == pytest.approx(left * state.thin.b)
 
 
-def test_the_rest_is_stretched_as_the_bulged_rubber_is(tube):
+def test_every_bubble_lies_on_the_wall_that_it_takes(tube):
     shape = blown_shape(tube)
-    (flat, place) = (np.diff(ends[-3:-1])[0] for ends in (shape.flat, shape.place))
-    assert place == pytest.approx(flat * maxwell_state(tube.rubber).bulged.b)
+    taken = [wall_length(bubble.length, shape.wide, 2) for bubble in tube.bubbles[:-1]]
+    taken.append(wall_length(tube.bubbles[-1].length, shape.wide, 1))
+    assert np.diff(shape.place)[:-1] == pytest.approx(taken)
 
 
 def test_the_ends_of_a_tube_are_half_spheres(tube):

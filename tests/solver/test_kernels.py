@@ -18,8 +18,8 @@ from balloon_usd.recipe import Recipe
 from balloon_usd.solver import kernels
 from balloon_usd.solver.latex.body import tube_body
 from balloon_usd.solver.latex.scene import build_scene
-from balloon_usd.solver.simulation import simulate_many
 from balloon_usd.solver.settings import SceneSettings
+from balloon_usd.solver.simulation import simulate_many
 
 CHANGING = {"dt", "fraction", "frame_seconds", "air", "touch", "grid", "margin", "quad_half", "substeps"}
 """Arguments that are no arrays of the scene."""

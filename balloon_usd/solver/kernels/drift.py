@@ -1,9 +1,8 @@
-"""Drift: how a bubble moves as a whole. Drag brakes only what moves against it, so hands carry a bubble's air and
-wall along by its joints.
+"""Drift: how a bubble moves as a whole. Drag brakes only what moves against it, so hands carry a bubble's
+air and wall along by its joints.
 """
 
 import warp as wp
-
 
 FEW = wp.constant(2)
 """Neighbours that a particle inside a bubble has more of, however deep it lies."""
@@ -53,8 +52,8 @@ def behind_neck(x: wp.vec3, joint: wp.vec3, inward: wp.vec3, neck: float) -> flo
 
 @wp.func
 def kept_in(x: wp.vec3, drift: Drift) -> wp.vec3:
-    """Return a place of a cluster, mirrored back where it has slipped through one of its necks: a frozen ring is
-    closed (Kosaka 2008, 3.6).
+    """Return a place of a cluster, mirrored back where it has slipped through one of its necks: a frozen
+    ring is closed (Kosaka 2008, 3.6).
     """
     there = x + 2.0 * behind_neck(x, drift.start, drift.start_inward, drift.neck) * drift.start_inward
     return wp.vec3(
@@ -84,8 +83,8 @@ def cluster_drift(
     x: wp.array[wp.vec3],
     drifts: wp.array[Drift],
 ):
-    """Write how every cluster drifts: with its frozen joints, or not at all if it has none; and where these keep
-    its air in.
+    """Write how every cluster drifts: with its frozen joints, or not at all if it has none; and where these
+    keep its air in.
     """
     s = wp.tid()
     last = int(s)

@@ -18,7 +18,8 @@ class Finger:
     load_end: float
     """The same at its end, N."""
     stiff: float
-    """Stiffness per touched vertex behind the tip, in vertex masses per squared time step; 0 for force alone."""
+    """Stiffness per touched vertex behind the tip, in vertex masses per squared time step; 0 for force alone.
+    """
 
 
 @wp.kernel
@@ -32,12 +33,12 @@ def press_fingers(
     x: wp.array[wp.vec3],
     v: wp.array[wp.vec3],
 ):
-    """Add to the speed (m/s) of every vertex under a finger what the finger's force gives it in one substep."""
+    """Add to the speed (m/s) of every vertex under a finger what the finger's force gives it in a substep."""
     i = wp.tid()
     share = finger_share[i]
     if share > 0.0:
         finger = fingers[vertex_balloon[i]]
-        load = share * (finger.load_start + fraction * (finger.load_end - finger.load_start)) * (dt / mass[i])
+        load = share * wp.lerp(finger.load_start, finger.load_end, fraction) * (dt / mass[i])
         tip = finger.start + fraction * (finger.end - finger.start)
         behind = wp.max(wp.dot(tip - x[i], finger.along), 0.0)
         v[i] = v[i] + (load + share * finger.stiff * behind / dt) * finger.along

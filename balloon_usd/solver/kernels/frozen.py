@@ -1,5 +1,5 @@
-"""Bubbles of the thesis's model: rings drawn to their mean and then frozen (Kosaka 2008, 3.6), and the rubber's
-motion.
+"""Bubbles of the thesis's model: rings drawn to their mean and then frozen (Kosaka 2008, 3.6), and the
+rubber's motion.
 """
 
 import warp as wp
@@ -16,8 +16,8 @@ COINCIDENT = wp.constant(1.05)
 def pinch_force(
     x: wp.vec3, v: wp.vec3, mean: wp.vec3, radius: float, others: wp.vec3, limit: float, dt: float
 ) -> wp.vec3:
-    """Return the force f_p (m/s2) of a hand that draws a vertex towards the mean of its ring, to a radius (m),
-    against the other forces (m/s2) on it; limited (Kosaka 2008, 3.1 and 3.6).
+    """Return the force f_p (m/s2) of a hand that draws a vertex towards the mean of its ring, to a radius
+    (m), against the other forces (m/s2) on it; limited (Kosaka 2008, 3.1 and 3.6).
     """
     d = mean - x
     far = wp.length(d)

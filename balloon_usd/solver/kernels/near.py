@@ -1,8 +1,8 @@
 """Who is near whom: lists of particles and triangles that may meet before the next search.
 
-A block of threads searches for one particle or quad. Its lanes share the work by place: each looks through one of
-3 x 3 x 3 boxes of the neighbourhood and keeps a list of its own, so that no list depends on which came first. On
-the CPU a block has one lane, which looks through all.
+A block of threads searches for one particle or quad. Its lanes share the work by place: each looks through
+one of 3 x 3 x 3 boxes of the neighbourhood and keeps a list of its own, so that no list depends on which came
+first. On the CPU a block has one lane, which looks through all.
 """
 
 import warp as wp
@@ -74,8 +74,8 @@ def may_meet(
     outside: float,
     margin: float,
 ) -> bool:
-    """Tell whether a particle may come into a triangle's offset regions of these thicknesses (m) before it has
-    moved by a margin (m).
+    """Tell whether a particle may come into a triangle's offset regions of these thicknesses (m) before it
+    has moved by a margin (m).
     """
     d = plane_distance(p, a, normal)
     meets = d > -inside - margin and d < outside + margin
@@ -202,7 +202,8 @@ def near_faces_air(
     face_air: wp.array2d[int],
     most_near: wp.array[int],
 ):
-    """List the particles of the same cluster that may enter the inner offset regions of every quad's triangles.
+    """List the particles of the same cluster that may enter the inner offset regions of every quad's
+    triangles.
 
     `quad_half`: largest distance (m) of a quad's corner from its middle.
     """

@@ -1,4 +1,5 @@
-"""Offset regions: where air and rubber push each other, and where leaked air is found (Kosaka 2008, 3.3, 3.4).
+"""Offset regions: where air and rubber push each other, and where leaked air is found (Kosaka 2008, 3.3,
+3.4).
 
 Every quad is two triangles: triangle 2 q has its corners 0, 1, 2, and 2 q + 1 its corners 0, 2, 3.
 """
@@ -9,8 +10,8 @@ from balloon_usd.solver.kernels.springs import Constants
 
 REACHES_OVER = 0.5
 WIDER = wp.constant(REACHES_OVER)
-"""How far an inner offset region reaches beyond its triangle, in barycentric shares: no gaps where a wall bends
-inwards.
+"""How far an inner offset region reaches beyond its triangle, in barycentric shares: no gaps where a wall
+bends inwards.
 """
 WIDER_OUTSIDE = wp.constant(0.5)
 """The same of the outer region, where the walls of a round balloon leave gaps."""
@@ -79,9 +80,9 @@ def grade(depth: float, beside: float, grading: float) -> float:
     """Return the share of its push that a particle has at a depth (0 at the wall, 1 at the region's end) and
     with `beside` as its smallest barycentric share; 1 everywhere is the thesis's.
 
-    Graded, it is the share of its neighbours' repulsion that a particle lacks behind a plane wall when all are
-    evenly spread (eq. 3.4 integrated): such air is at rest up to the wall. Sideways one triangle's share fades
-    into the next one's, so that no push jumps.
+    Graded, it is the share of its neighbours' repulsion that a particle lacks behind a plane wall when all
+    are evenly spread (eq. 3.4 integrated): such air is at rest up to the wall. Sideways one triangle's share
+    fades into the next one's, so that no push jumps.
     """
     left = wp.max(1.0 - depth, 0.0)
     faded = left * left * left * (1.0 + 3.0 * depth) * wp.clamp(0.5 + 0.5 * beside / WIDER, 0.0, 1.0)

@@ -33,7 +33,8 @@ class Constants:
     calming: float
     """Damping of what the two ends of a spring move across it, 1/s; not in the thesis."""
     grading: float
-    """How far the push of eqs. 3.10 and 3.12 fades with depth: 0 not at all, as in the thesis, 1 to nothing."""
+    """How far the push of eqs. 3.10 and 3.12 fades with depth: 0 not at all, as in the thesis, 1 to nothing.
+    """
     drag: float
     """Drag on air, 1/s; not in the thesis."""
     force_limit: float

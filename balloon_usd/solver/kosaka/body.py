@@ -7,16 +7,17 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from balloon_usd.plan.blown import BlownShape, blown_shape
 from balloon_usd.plan.meshing import joint_places
 from balloon_usd.plan.particles import start_particles
 from balloon_usd.solver.body import NECK_RADIUS, Body, RingSpec
 from balloon_usd.solver.kosaka.net import Net, net_of, tension_of
-from balloon_usd.solver.kosaka.parameters import Parameters, parameters, pressure_of_push
+from balloon_usd.solver.kosaka.parameters import KEPT_OFF, Parameters, parameters, pressure_of_push
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Strip
     from balloon_usd.plan.rings import RingTable
@@ -64,7 +65,7 @@ def kosaka_body(
     law = parameters(given, shape.wide, 2.0 * math.pi * shape.wide / mesh.around, dt)
     tension = tension_of(mesh, points)
     carried = tension.pressure_for(law.natural, law.swell, law.ks)
-    push = law.push if law.push is not None else carried / pressure_of_push(law)
+    push = law.push if law.push is not None else carried / (KEPT_OFF * pressure_of_push(law))
     natural = tension.natural_lengths(carried, law.swell, law.ks)
     guides = tuple(r.along for r in table.rings if r.balloon == strip.balloon and not r.joint)
     rings = _rings(mesh, joint_places(strip), guides, capsule=strip.capsule)
@@ -118,7 +119,7 @@ def _knot(mesh: BalloonMesh) -> int:
 def _rings(
     mesh: BalloonMesh, joints: tuple[float, ...], guides: tuple[float, ...], *, capsule: bool
 ) -> tuple[RingSpec, ...]:
-    """Rings that hands hold, in order: a tube's knot is closed and carries its nozzle, a capsule has neither."""
+    """Rings that hands hold, in order: a tube's closed knot, which carries the nozzle, then joints and guides."""
     knot = 0 if capsule else _knot(mesh)
     start = int(mesh.ring_start[knot])
     begin = (

@@ -52,7 +52,7 @@ class Clusters:
         return runs
 
     def _part_after(self, segment: int) -> None:
-        """Give what lies beyond a segment in its run a number of its own; particles follow the nearest face."""
+        """Give what lies beyond a segment in its run a number of its own; air follows the nearest face."""
         s = self.scene
         segments = self._segments
         run = int(self._of_quads[np.flatnonzero(segments == segment)[0]])

@@ -26,13 +26,11 @@ class KosakaMaker(Maker):
 
     scene: KosakaScene
 
-    def _perform(
-        self, k: int, move: Move, frame: tuple[float, float], share: float, fresh: bool, middle: Floats
-    ) -> None:
+    def _perform(self, k: int, move: Move, share: float, fresh: bool, middle: Floats) -> None:
         if isinstance(move, Pinch):
             self._pinch(k, move, share, fresh, middle)
         else:
-            super()._perform(k, move, frame, share, fresh, middle)
+            super()._perform(k, move, share, fresh, middle)
 
     def _pinch(self, k: int, move: Pinch, share: float, fresh: bool, middle: Floats) -> None:
         joint = self._ring[move.ring]

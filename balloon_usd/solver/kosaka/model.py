@@ -6,7 +6,6 @@ import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.solver.body import body_ranges, places_beside
@@ -23,6 +22,8 @@ from balloon_usd.solver.settings import SceneSettings
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+    from numpy.typing import NDArray
 
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
@@ -108,8 +109,8 @@ class KosakaModel:
             self.stepper.find_lost()
 
     def _searches(self, seconds: float, *, handled: bool) -> int:
-        """Searches that a frame of some seconds needs: more where hands are at work or air moves fast, none while
-        all that moves stays within what the last lists look ahead.
+        """Searches that a frame of some seconds needs: more where hands are at work or air moves fast, none
+        while all that moves stays within what the last lists look ahead.
         """
         step = float(self._seen["fastest"][0]) * seconds / self.scene.margin
         if handled or self._frames <= FIRST_FRAMES or step > AHEAD:
@@ -144,7 +145,7 @@ class KosakaModel:
             tuple(np.searchsorted(bubbles, self.clusters.of_air[span]).astype(np.int32) for span in airs),
         )
 
-    def failure(self, world: int, time_code: int) -> str | None:
+    def failure(self, world: int) -> str | None:
         """Return what is wrong with a sculpture in a way that its frame does not show, or None."""
         near = int(self._seen["most_near"][world])
         if near == 0:

@@ -1,13 +1,14 @@
 """The automatic rule: all constants of the thesis's model from the balloon's size and how it shall look.
 
-The thesis gives neither units of time nor its constants; they were tuned by hand. Here they follow from what an
-artist knows, in this order:
+The thesis gives neither units of time nor its constants; they were tuned by hand. Here they follow from what
+an artist knows, in this order:
 
 - lengths (re, the offset regions, gamma) are the experiment's, scaled with the balloon's radius;
-- ks, kd and alpha are as stiff and as damped as the time step bears, so that nothing rings and nothing drifts;
+- ks, kd and alpha are as stiff and as damped as the time step bears, so that nothing rings and nothing
+drifts;
 - beta stops a particle just before the wall against all its neighbours behind it;
-- the push of the air on the rubber and the springs' natural lengths follow from the wanted swelling and tension:
-  a net of that tension carries just that push when the balloon has swollen as wanted.
+- the push of the air on the rubber and the springs' natural lengths follow from the wanted swelling and
+tension: a net of that tension carries just that push when the balloon has swollen as wanted.
 """
 
 from __future__ import annotations
@@ -38,7 +39,8 @@ SPRING_STEP = 0.1
 SPRING_DAMPING = 0.1
 """Damping of the springs in units of one over the time step."""
 CALMING = 0.15
-"""Damping across the springs in units of one over the time step; the thesis has none, and its net trembles."""
+"""Damping across the springs in units of one over the time step; the thesis has none, and its net trembles.
+"""
 AIR_STEP = 0.005
 """Repulsion in units of one over the squared time step."""
 BETA = 1.5
@@ -48,10 +50,12 @@ GRADING = 1.0
 GRADED_AWAY = 0.6
 """Mean share of the push that grading takes away: the integral of 1 - (1 - s)^3 (1 + 3 s) over the region."""
 NATURAL = 0.7
-"""Natural length of the springs round the balloon, in their length at rest: below one they stay taut in a neck."""
+"""Natural length of the springs round the balloon, in their length at rest: below one they stay taut in a
+neck.
+"""
 KEPT_OFF = 0.72
-"""Share of the push that arrives: a push on the air stronger than its repulsion keeps it off the wall a little
-(measured on the experiment's capsule).
+"""Share of the push that arrives: a push on the air stronger than its repulsion keeps it off the wall a
+little (measured on the experiment's capsule).
 """
 DRAG = 12.0
 """Drag on air, 1/s: the thesis has none, and its air never comes to rest. Real air weighs nearly nothing."""
@@ -59,7 +63,7 @@ RUBBER_DRAG = 10.0
 """Drag on the rubber, 1/s; not in the thesis."""
 PINCH_LIMIT = 0.5
 """Largest external force, in radii of the balloon per squared time step."""
-ELONGATION_LIMIT = 1.5
+ELONGATION_LIMIT = 2.0
 """Largest elongation of a spring, in its length at rest."""
 FASTEST_AIR = 0.4
 """Farthest that an air particle moves in one step, in re: it must not jump over the offset regions."""
@@ -169,7 +173,7 @@ def pressure_of_push(law: Parameters) -> float:
     """
     sharp = (1.0 - law.grading) * overlap(0.0)
     graded = law.grading * overlap(1.0) * (1.0 - GRADED_AWAY)
-    return KEPT_OFF * (sharp + graded) * law.density * law.air_offset / 6.0
+    return (sharp + graded) * law.density * law.air_offset / 6.0
 
 
 def overlap(grading: float) -> float:

@@ -21,11 +21,11 @@ if TYPE_CHECKING:
     from balloon_usd.solver.kosaka.body import KosakaBody
     from balloon_usd.solver.settings import SceneSettings
 
-NEIGHBOURS = {"cpu": 256, "cuda": 2048}
+NEIGHBOURS = {"cpu": 512, "cuda": 2048}
 """Room for the neighbours of one particle; on a GPU the lanes of its block share it."""
-FACE_AIR = {"cpu": 512, "cuda": 2048}
+FACE_AIR = {"cpu": 1536, "cuda": 2048}
 """Room for the particles that one quad may meet, likewise."""
-AIR_FACES = {"cpu": 1536, "cuda": 6144}
+AIR_FACES = {"cpu": 3072, "cuda": 6144}
 """Room for the triangles that one particle may meet, likewise: in a neck most of them fall to one lane."""
 WATCHED = 2.0
 """Distance within which walls are watched between two searches, in thicknesses of the contact region."""

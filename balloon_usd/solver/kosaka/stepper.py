@@ -68,8 +68,8 @@ class KosakaStepper:
     def advance(self, *, contact: bool, fingers: bool, searches: int) -> None:
         """Advance by one frame, and start copying what frames are made of.
 
-        `contact`: walls can touch. `fingers`: some press. `searches`: how often neighbours are looked for anew;
-        0 where the lists of the frame before still hold.
+        `contact`: walls can touch. `fingers`: some press. `searches`: how often neighbours are looked for
+        anew; 0 where the lists of the frame before still hold.
         """
         self._grid.claim()
         self._launcher.replay(
@@ -87,7 +87,9 @@ class KosakaStepper:
         self._look()
 
     def _look(self) -> None:
-        """Write the stretch of every vertex and the volumes (m3) and pressures (Pa) of all segments, and copy."""
+        """Write the stretch of every vertex and the volumes (m3) and pressures (Pa) of all segments, and
+        copy.
+        """
         segments = len(self.scene.segment_quad)
         self._launch(spring_stretch, len(self.scene.x))
         self._launcher.launch_tiled(segment_volumes, segments, lanes=MANY_LANES)

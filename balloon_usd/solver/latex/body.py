@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from balloon_usd.balloon.bubble_shape import neck_rubber
 from balloon_usd.balloon.sizes import BalloonSize
@@ -16,6 +15,8 @@ from balloon_usd.plan.open_tube import softened
 from balloon_usd.solver.body import NECK_RADIUS, Body, RingSpec
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from balloon_usd.balloon.rubber import Rubber
     from balloon_usd.balloon.tube_mesh import BalloonMesh
 

@@ -52,6 +52,11 @@ class LatexMaker(Maker):
         self.inflated = -1
         """Frame at whose end the last balloon has its gas."""
 
+    @property
+    def just_inflated(self) -> bool:
+        """Whether the last balloon has got its gas in the frame that was performed last."""
+        return self.inflated == self._frame
+
     def act(self, begin: float, end: float, middle: Floats) -> None:
         """Set the hands' goals for the frame from `begin` to `end` (s), given where all rings are (J, 3),
         m.
@@ -60,17 +65,15 @@ class LatexMaker(Maker):
             self.hands.stop_turning(body)
         super().act(begin, end, middle)
 
-    def _perform(
-        self, k: int, move: Move, frame: tuple[float, float], share: float, fresh: bool, middle: Floats
-    ) -> None:
+    def _perform(self, k: int, move: Move, share: float, fresh: bool, middle: Floats) -> None:
         if isinstance(move, Inflate):
             self._inflate(move, share, fresh, middle)
         elif isinstance(move, Pinch):
             self._pinch(k, move, share, fresh, middle)
         elif isinstance(move, Spin):
-            self._spin(move, *frame, middle)
+            self._spin(move, *self._span, middle)
         else:
-            super()._perform(k, move, frame, share, fresh, middle)
+            super()._perform(k, move, share, fresh, middle)
             if isinstance(move, LetGo) and fresh:
                 self.struts.hold(friction_pairs(self.plan, self.hands, self._ring), middle)
 

@@ -101,17 +101,17 @@ class LatexModel:
             self.makers[world].doing,
         )
 
-    def failure(self, world: int, time_code: int) -> str | None:
+    def failure(self, world: int) -> str | None:
         """Return what is wrong with a sculpture in a way that its frame does not show, or None."""
-        return crowded(int(self._seen["most_hits"][world])) or self._short_of_gas(world, time_code)
+        return crowded(int(self._seen["most_hits"][world])) or self._short_of_gas(world)
 
     def give_up(self, world: int) -> None:
         """Leave a sculpture alone whose run has failed."""
         self.hands.give_up(self._bodies[world])
 
-    def _short_of_gas(self, world: int, time_code: int) -> str | None:
+    def _short_of_gas(self, world: int) -> str | None:
         """Tell when inflating has ended without the gas that the plan asks for."""
-        if self.makers[world].inflated != time_code - 1:
+        if not self.makers[world].just_inflated:
             return None
         for b in self._bodies[world]:
             got = float(self._seen["amount"][self.scene.bubbles_of(b)].sum())
