@@ -180,7 +180,6 @@ class Maker:
         """Bend a bubble towards a side: its end stays, its start goes, and carries what is already made
         upright.
         """
-        self.hands.touch(self.body.values())
         rings = [self._ring[r] for r in move.rings]
         before, beyond = self._worked(move.rings[0]), self._open(move.rings[-1])
         if fresh:

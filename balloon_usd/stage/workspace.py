@@ -15,8 +15,9 @@ if TYPE_CHECKING:
     from types import TracebackType
 
 SUFFIX = ".writing"
-LOCK = "lock"
-PREVIOUS = "previous"
+# Names with a dot: no sculpture is called so.
+LOCK = "in.use"
+PREVIOUS = "previous.asset"
 
 
 class Workspace:

@@ -24,6 +24,7 @@ class FakeSimulation:
         ]
         self.frame_counts = tuple(FRAMES for _ in plans)
         self.trouble = trouble
+        self.substeps = 100
         self.given = 0
 
     def frames(self):

@@ -4,9 +4,6 @@ air and wall along by its joints.
 
 import warp as wp
 
-FEW = wp.constant(2)
-"""Neighbours that a particle inside a bubble has more of, however deep it lies."""
-
 
 @wp.struct
 class Drift:
@@ -116,16 +113,19 @@ def cluster_drift(
 def find_lonely(
     neighbour_count: wp.array2d[int],
     alone: wp.array[int],
+    few: int,
     lonely: wp.array[int],
 ):
-    """Mark the particles that are near neither their bubble's wall nor others: they may be lost."""
+    """Mark the particles that are near neither their bubble's wall nor more than a few others: they may be
+    lost.
+    """
     a = wp.tid()
     lonely[a] = 0
     if alone[a] == 1:
         near = int(0)
         for lane in range(neighbour_count.shape[1]):
             near += neighbour_count[a, lane]
-        if near <= FEW:
+        if near <= few:
             lonely[a] = 1
 
 

@@ -119,7 +119,7 @@ def _knot(mesh: BalloonMesh) -> int:
 def _rings(
     mesh: BalloonMesh, joints: tuple[float, ...], guides: tuple[float, ...], *, capsule: bool
 ) -> tuple[RingSpec, ...]:
-    """Rings that hands hold, in order: a tube's closed knot, which carries the nozzle, then joints and guides."""
+    """Rings that hands hold, in order; a tube's knot is closed and carries the nozzle."""
     knot = 0 if capsule else _knot(mesh)
     start = int(mesh.ring_start[knot])
     begin = (

@@ -50,7 +50,7 @@ FIRST_FRAMES = 6
 LEADING = 0.1
 """Force of a hand that leads a bubble, as a share of the largest external force."""
 LOST_EVERY = 12
-"""Frames between two searches for air that no offset region sees."""
+"""Frames between two searches for air that no offset region sees; half as many where hands are at work."""
 ROOM_TO_GROW = 1.25
 """Largest size of a quad, in its size at the start, up to which the searches are sure to find it."""
 
@@ -105,8 +105,8 @@ class KosakaModel:
         )
         self.hands.arrived()
         self.clusters.part(self.hands.radius_goal > 0.0)
-        if self._frames % LOST_EVERY == 0:
-            self.stepper.find_lost()
+        if self._frames % (LOST_EVERY // 2 if handled else LOST_EVERY) == 0:
+            self.stepper.find_lost(clouds=handled)
 
     def _searches(self, seconds: float, *, handled: bool) -> int:
         """Searches that a frame of some seconds needs: more where hands are at work or air moves fast, none

@@ -31,6 +31,8 @@ if TYPE_CHECKING:
     from balloon_usd.solver.mirror import Mirror
 
 
+FEW, MANY = 2, 1_000_000
+"""Neighbours that a particle inside a bubble has more of, however deep it lies; and more than any has."""
 MANY_LANES = 256
 """Threads that add up one cluster on a GPU."""
 
@@ -77,9 +79,9 @@ class KosakaStepper:
             lambda: self._frame(contact=contact, fingers=fingers, searches=searches),
         )
 
-    def find_lost(self) -> None:
-        """Bring back air that has leaked beyond every offset region."""
-        self._launch(find_lonely, len(self.scene.air))
+    def find_lost(self, *, clouds: bool) -> None:
+        """Bring back air that has leaked beyond every offset region: single particles, or `clouds` too."""
+        self._launch(find_lonely, len(self.scene.air), few=MANY if clouds else FEW)
         self._launch(find_lost_air, len(self.scene.air))
 
     def look(self) -> None:
