@@ -100,6 +100,14 @@ def test_bench_measures_several_batches(cli, solver):
     result = cli("bench", "--copies", 1, "--copies", 3, "--frames", 4, "--device", "cpu")
     assert result.exit_code == 0, result.output
     rows = [line.split() for line in result.stdout.splitlines()[2:]]
-    assert [row[0] for row in rows] == ["1", "3"]
-    assert [row[3] for row in rows] == ["3", "3"]
-    assert int(rows[1][1]) == 3 * int(rows[0][1])
+    assert [row[:2] for row in rows] == [["dog", "1"], ["dog", "3"]]
+    assert [row[6] for row in rows] == ["2", "2"]
+    assert int(rows[1][2]) == 3 * int(rows[0][2])
+
+
+def test_bench_measures_the_experiment_of_the_thesis_up_to_a_whole_balloon(cli, solver):
+    result = cli("bench", "--model", "kosaka", "--frames", 4, "--device", "cpu")
+    assert result.exit_code == 0, result.output
+    rows = [line.split() for line in result.stdout.splitlines()[2:]]
+    assert [row[0] for row in rows] == ["20", "40", "80", "150"]
+    assert rows[0][3] == "1602"

@@ -49,10 +49,10 @@ def pinched():
 def test_a_pinched_bubble_that_shakes_keeps_its_momentum_and_its_spin(verify, pinched, spin):
     shake = np.random.default_rng(1).normal(size=pinched.points.shape) * 0.05
     velocity = shake + np.cross(spin, pinched.points - pinched.points.mean(axis=0))
-    pinched.model.scene.v.assign(velocity.astype(np.float32))
+    pinched.scene.v.assign(velocity.astype(np.float32))
     pinched.advance()
     push, turn = pinched.momentum()
-    for _ in range(round(1.0 / (pinched.model.stepper.substeps * pinched.model.scene.settings.dt))):
+    for _ in range(round(1.0 / (pinched.stepper.substeps * pinched.scene.settings.dt))):
         pinched.advance()
     pushed, turned = pinched.momentum()
     scale = pinched.array("mass").sum() * WAVE_SPEED
