@@ -21,7 +21,18 @@ from balloon_usd.solver.latex.scene import build_scene
 from balloon_usd.solver.settings import SceneSettings
 from balloon_usd.solver.simulation import simulate_many
 
-CHANGING = {"dt", "fraction", "frame_seconds", "air", "touch", "grid", "margin", "quad_half", "substeps", "few"}
+CHANGING = {
+    "dt",
+    "fraction",
+    "frame_seconds",
+    "air",
+    "touch",
+    "grid",
+    "margin",
+    "quad_half",
+    "substeps",
+    "few",
+}
 """Arguments that are no arrays of the scene."""
 
 ORDERLESS = ("hit_count", "most_hits", "most_near", "wp.atomic_max(fastest")
