@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -25,7 +26,7 @@ ALONG = np.array([1.0, 0.0, 0.0])
 """Direction from the knot to the tip."""
 
 
-class Maker:
+class Maker(ABC):
     """Performs one plan on its balloons in a scene."""
 
     def __init__(self, plan: Plan, scene: Scene, hands: Hands, first_body: int) -> None:
@@ -227,9 +228,9 @@ class Maker:
         ring = self.scene.x.numpy()[first : first + n]
         return float(np.linalg.norm(ring - ring.mean(axis=0), axis=1).mean())
 
+    @abstractmethod
     def _keep_bend(self, bubble: str) -> None:
         """Let a bubble that was bent keep part of its curve."""
-        raise NotImplementedError
 
     def _faces(self, bubble: str) -> tuple[int, NDArray[np.int64]]:
         """Body of a bubble, and its faces in order round each ring, numbered within the body."""

@@ -138,7 +138,7 @@ class KosakaModel:
             time_code,
             tuple(seen["x"][span].copy() for span in walls),
             tuple(seen["stretch"][span].copy() for span in walls),
-            self._seen["cluster_pressure"][self._run_of(bubbles)],
+            seen["cluster_pressure"][self.clusters.of_segment[bubbles]],
             seen["volume"][bubbles],
             self.makers[world].doing,
             tuple(seen["air"][span].copy() for span in airs),
@@ -155,10 +155,6 @@ class KosakaModel:
     def give_up(self, world: int) -> None:
         """Leave a sculpture alone whose run has failed."""
         self.hands.give_up(self._bodies[world])
-
-    def _run_of(self, bubbles: NDArray[np.int64]) -> NDArray[np.int64]:
-        """Cluster of some segments: the first of their run."""
-        return self.clusters.of_segment[bubbles]
 
 
 def _hands(scene: KosakaScene) -> Hands:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -39,7 +40,7 @@ class KosakaScene(Scene):
     margin: float = 0.0
     """Distance that lists of neighbours look ahead, m."""
 
-    @property
+    @cached_property
     def air_start(self) -> Ints:
         """First particle of every body, (B + 1,)."""
         return np.concatenate([[0], np.cumsum([len(b.air) for b in self.bodies])])
