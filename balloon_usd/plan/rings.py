@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 GUIDES: dict[str, tuple[float, ...]] = {
     "bubble": (0.5,),
-    "loop": (0.25, 0.5, 0.75),
+    "loop": tuple(k / 8 for k in range(1, 8)),
     "fold": (0.5,),
     "ear": (0.5,),
 }

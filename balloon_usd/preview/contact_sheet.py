@@ -59,7 +59,7 @@ def draw_contact_sheet(
     Args:
         stage_path: any USD stage with meshes; points are drawn as balls.
         png_path: where the sheet goes; replaced when it is complete.
-        frames: time codes; None takes eight, the last frame among them.
+        frames: time codes; None takes eight, the first and the last among them.
         columns: pictures in a row.
         size: width and height of one picture (pixels).
         view: side, three-quarter, top or front.
@@ -87,8 +87,8 @@ def draw_contact_sheet(
 
 
 def spread_moments(start: float, end: float, count: int = MOMENTS) -> tuple[float, ...]:
-    """Return up to `count` whole time codes, evenly spread, that end with the last frame."""
-    wanted = start + (end - start) * np.arange(1, count + 1) / count
+    """Return up to `count` whole time codes, evenly spread from the first frame to the last."""
+    wanted = np.linspace(start, end, count)
     return tuple(float(moment) for moment in np.unique(np.rint(wanted)))
 
 

@@ -34,8 +34,8 @@ def stage_path(dog, tmp_path_factory):
     return path
 
 
-def test_eight_moments_are_spread_up_to_the_last_frame():
-    assert spread_moments(1, 161) == (21, 41, 61, 81, 101, 121, 141, 161)
+def test_eight_moments_are_spread_from_the_first_frame_to_the_last():
+    assert spread_moments(1, 141) == (1, 21, 41, 61, 81, 101, 121, 141)
     assert spread_moments(1, 4) == (1, 2, 3, 4)
     assert spread_moments(7, 7) == (7,)
 

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from balloon_usd.plan.choreography import Move, Pinch
+from balloon_usd.plan.choreography import Move, Pinch, Weld
 from balloon_usd.plan.closing import smooth
-from balloon_usd.solver.kosaka.memory import set_bend
+from balloon_usd.solver.kosaka.memory import BEND_SET, LOOP_SET, set_bend
 from balloon_usd.solver.maker import Maker
 
 if TYPE_CHECKING:
@@ -31,6 +31,8 @@ class KosakaMaker(Maker):
             self._pinch(k, move, share, fresh, middle)
         else:
             super()._perform(k, move, share, fresh, middle)
+        if isinstance(move, Weld) and fresh:
+            self._keep_loop(move)
 
     def _pinch(self, k: int, move: Pinch, share: float, fresh: bool, middle: Floats) -> None:
         joint = self._ring[move.ring]
@@ -44,4 +46,14 @@ class KosakaMaker(Maker):
 
     def _keep_bend(self, bubble: str) -> None:
         body, faces = self._faces(bubble)
-        set_bend(self.scene, body, faces)
+        set_bend(self.scene, body, faces, BEND_SET)
+
+    def _keep_loop(self, move: Weld) -> None:
+        """Let a bubble whose own ends are twisted together keep its curve: a net has no other stiffness that
+        would hold the loop open.
+        """
+        rings = self.plan.table.rings
+        last = max(move.rings)
+        if set(self.plan.table.ends(rings[last].bubble)) == set(move.rings):
+            body, faces = self._faces(rings[last].bubble)
+            set_bend(self.scene, body, faces, LOOP_SET)
