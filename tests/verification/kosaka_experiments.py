@@ -74,7 +74,7 @@ class Run:
         """The first move of a kind."""
         return next(move for move in self.plan.choreography.moves if type(move) is kind)
 
-    def sampled(self, every: int = 6) -> list[int]:
+    def sampled(self, every: int = 5) -> list[int]:
         """Indices of some frames; the last one is among them."""
         last = len(self.frames) - 1
         return sorted({*range(0, last, every), last})

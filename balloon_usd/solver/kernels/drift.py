@@ -110,26 +110,6 @@ def cluster_drift(
 
 
 @wp.kernel
-def find_lonely(
-    neighbour_count: wp.array2d[int],
-    alone: wp.array[int],
-    few: int,
-    lonely: wp.array[int],
-):
-    """Mark the particles that are near neither their bubble's wall nor more than a few others: they may be
-    lost.
-    """
-    a = wp.tid()
-    lonely[a] = 0
-    if alone[a] == 1:
-        near = int(0)
-        for lane in range(neighbour_count.shape[1]):
-            near += neighbour_count[a, lane]
-        if near <= few:
-            lonely[a] = 1
-
-
-@wp.kernel
 def fastest_air(
     air_cluster: wp.array[int],
     drifts: wp.array[Drift],

@@ -222,7 +222,6 @@ def press_air(
     air: wp.array[wp.vec3],
     air_speed: wp.array[wp.vec3],
     wall_push: wp.array[wp.vec3],
-    alone: wp.array[int],
     repairs: wp.array[int],
 ):
     """Write the push D_a (m/s2) of the rubber on every particle (Kosaka 2008, eqs. 3.12 and 3.17) and bring
@@ -259,65 +258,10 @@ def press_air(
     chosen = wp.tile_min(wp.tile(wp.where(nearest == least_far, lane, wp.block_dim())))[0]
     if lane == chosen:
         wall_push[p] = push
-        alone[p] = wp.where(least_far == UNSEEN, 1, 0)
         if face >= 0:
             air[p] = here - law.gamma * face_normal[face]
             air_speed[p] = wp.vec3(0.0)
             repairs[p] = repairs[p] + 1
-
-
-@wp.func
-def solid_angle(p: wp.vec3, a: wp.vec3, b: wp.vec3, c: wp.vec3) -> float:
-    """Return half the solid angle of a triangle seen from a point (Van Oosterom & Strackee 1983)."""
-    u = a - p
-    v = b - p
-    w = c - p
-    lu = wp.length(u)
-    lv = wp.length(v)
-    lw = wp.length(w)
-    below = lu * lv * lw + wp.dot(u, v) * lw + wp.dot(v, w) * lu + wp.dot(w, u) * lv
-    return wp.atan2(wp.dot(u, wp.cross(v, w)), below)
-
-
-@wp.kernel
-def find_lost_air(
-    quads: wp.array[wp.vec4i],
-    quad_cluster: wp.array[int],
-    air_balloon: wp.array[int],
-    constants: wp.array[Constants],
-    air_cluster: wp.array[int],
-    lonely: wp.array[int],
-    x: wp.array[wp.vec3],
-    air: wp.array[wp.vec3],
-    air_speed: wp.array[wp.vec3],
-    repairs: wp.array[int],
-):
-    """Bring particles that have leaked beyond every offset region, or into another bubble, back behind the
-    nearest face of their own.
-
-    Of the lonely particles, the winding number of their bubble's wall tells those inside from those outside.
-    """
-    p = wp.tid()
-    if lonely[p] == 0:
-        return
-    here = air[p]
-    turns = float(0.0)
-    nearest = float(UNSEEN)
-    face = int(-1)
-    for t in range(2 * quads.shape[0]):
-        if quad_cluster[t // 2] == air_cluster[p]:
-            f = triangle(quads, t)
-            turns += solid_angle(here, x[f[0]], x[f[1]], x[f[2]])
-            far = wp.length_sq((x[f[0]] + x[f[1]] + x[f[2]]) / 3.0 - here)
-            if far < nearest:
-                nearest = far
-                face = t
-    if turns < wp.pi and face >= 0:
-        f = triangle(quads, face)
-        normal = plane_normal(x[f[0]], x[f[1]], x[f[2]])
-        air[p] = (x[f[0]] + x[f[1]] + x[f[2]]) / 3.0 - constants[air_balloon[p]].gamma * normal
-        air_speed[p] = wp.vec3(0.0)
-        repairs[p] = repairs[p] + 1
 
 
 @wp.kernel

@@ -50,7 +50,9 @@ FIRST_FRAMES = 6
 LEADING = 0.1
 """Force of a hand that leads a bubble, as a share of the largest external force."""
 LOST_EVERY = 12
-"""Frames between two searches for air that no offset region sees; half as many where hands are at work."""
+"""Frames between two searches for air that no offset region sees, while no hand is at work."""
+LAST_PASSES = 4
+"""Searches for it in the frame in which a sculpture ends."""
 ROOM_TO_GROW = 1.25
 """Largest size of a quad, in its size at the start, up to which the searches are sure to find it."""
 
@@ -102,11 +104,10 @@ class KosakaModel:
             contact=bool(self.hands.touching.any()),
             fingers=self.hands.pressing,
             searches=self._searches(end - begin, handled=handled),
+            passes=self._passes(begin, end, handled=handled),
         )
         self.hands.arrived()
         self.clusters.part(self.hands.radius_goal > 0.0)
-        if self._frames % (LOST_EVERY // 2 if handled else LOST_EVERY) == 0:
-            self.stepper.find_lost(clouds=handled)
 
     def _searches(self, seconds: float, *, handled: bool) -> int:
         """Searches that a frame of some seconds needs: more where hands are at work or air moves fast, none
@@ -121,6 +122,14 @@ class KosakaModel:
             return 0
         self._moved = step
         return 1
+
+    def _passes(self, begin: float, end: float, *, handled: bool) -> int:
+        """How often lost air is looked for in this frame: what was brought back where a sculpture ends must
+        not have come through another wall.
+        """
+        if any(begin < m.plan.choreography.seconds < end + 0.5 * (end - begin) for m in self.makers):
+            return LAST_PASSES
+        return int(handled or self._frames % LOST_EVERY == 0)
 
     def look(self) -> None:
         """Fetch the present state, from which frames are made."""

@@ -85,6 +85,7 @@ def _air_arrays(scene: KosakaScene, host: Arrays) -> None:
     host["air"] = np.concatenate([b.air for b in bodies]).astype(np.float32)
     host["air_balloon"] = np.repeat(np.arange(len(bodies)), counts).astype(np.int32)
     host["air_world"] = np.asarray(scene.worlds, dtype=np.int32)[host["air_balloon"]]
+    host["balloon_quads"] = scene.quad_start.astype(np.int32)
     host["air_cluster"] = np.repeat(first, counts).astype(np.int32)
     segment = scene.quad_segment.numpy()
     # One run of bubbles until a ring freezes; the knot's own segments stay by themselves.
@@ -137,8 +138,6 @@ def _scratch_arrays(scene: KosakaScene) -> None:
         ("neighbour_count", (particles, LANES)),
         ("face_air_count", (quads, LANES)),
         ("air_face_count", (particles, LANES)),
-        ("alone", particles),
-        ("lonely", particles),
         ("repairs", particles),
         ("most_near", worlds),
     ):

@@ -6,15 +6,15 @@ from typing import TYPE_CHECKING, Any
 
 import warp as wp
 
-from balloon_usd.solver.kernels.drift import cluster_drift, fastest_air, find_lonely
+from balloon_usd.solver.kernels.drift import cluster_drift, fastest_air
 from balloon_usd.solver.kernels.fingers import press_fingers
 from balloon_usd.solver.kernels.frozen import hold_rings, move_rubber
 from balloon_usd.solver.kernels.gas import segment_volumes
+from balloon_usd.solver.kernels.lost import find_lost_air
 from balloon_usd.solver.kernels.near import LANES, near_air, near_faces, near_faces_air
 from balloon_usd.solver.kernels.offsets import (
     cluster_pressures,
     face_surface,
-    find_lost_air,
     press_air,
     press_faces,
     press_vertices,
@@ -31,8 +31,6 @@ if TYPE_CHECKING:
     from balloon_usd.solver.mirror import Mirror
 
 
-FEW, MANY = 2, 1_000_000
-"""Neighbours that a particle inside a bubble has more of, however deep it lies; and more than any has."""
 MANY_LANES = 256
 """Threads that add up one cluster on a GPU."""
 
@@ -67,22 +65,22 @@ class KosakaStepper:
         self._walls = WallSearch(self._launcher, self._grid)
         self._launch_lanes(hold_rings, len(scene.joint_first), fraction=1.0)
 
-    def advance(self, *, contact: bool, fingers: bool, searches: int) -> None:
+    def advance(self, *, contact: bool, fingers: bool, searches: int, passes: int) -> None:
         """Advance by one frame, and start copying what frames are made of.
 
         `contact`: walls can touch. `fingers`: some press. `searches`: how often neighbours are looked for
-        anew; 0 where the lists of the frame before still hold.
+        anew; 0 where the lists of the frame before still hold. `passes`: how often lost air is looked
+        for in the end.
         """
         self._grid.claim()
         self._launcher.replay(
-            (contact, fingers, searches),
-            lambda: self._frame(contact=contact, fingers=fingers, searches=searches),
+            (contact, fingers, searches, passes),
+            lambda: self._frame(contact=contact, fingers=fingers, searches=searches, passes=passes),
         )
 
-    def find_lost(self, *, clouds: bool) -> None:
-        """Bring back air that has leaked beyond every offset region: single particles, or `clouds` too."""
-        self._launch(find_lonely, len(self.scene.air), few=MANY if clouds else FEW)
-        self._launch(find_lost_air, len(self.scene.air))
+    def find_lost(self) -> None:
+        """Bring back air that has leaked beyond every offset region."""
+        self._launch_lanes(find_lost_air, len(self.scene.air))
 
     def look(self) -> None:
         """Start copying what frames are made of before anything has moved."""
@@ -100,7 +98,7 @@ class KosakaStepper:
         self._launch(fastest_air, len(self.scene.air))
         self._mirror.copy()
 
-    def _frame(self, *, contact: bool, fingers: bool, searches: int) -> None:
+    def _frame(self, *, contact: bool, fingers: bool, searches: int, passes: int) -> None:
         s = self.scene
         s.face_hits.zero_()
         search_every = -(-self.substeps // max(searches, 1))
@@ -115,6 +113,8 @@ class KosakaStepper:
         # What leaked in the last step comes back before it is seen.
         self._launch(face_surface, len(s.face_normal))
         self._launch_lanes(press_air, len(s.air))
+        for _ in range(passes):
+            self.find_lost()
         self._look()
 
     def _substep(self, fraction: float, *, contact: bool) -> None:
