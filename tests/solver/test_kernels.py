@@ -31,7 +31,7 @@ CHANGING = {
     "margin",
     "quad_half",
     "substeps",
-    "few",
+    "interval",
 }
 """Arguments that are no arrays of the scene."""
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import warp as wp
 
 from balloon_usd.solver.kernels.particles import NEAREST, move_air, repel_air
 from tests.solver import kosaka_reference as thesis
@@ -126,6 +127,20 @@ def test_drag_slows_air_down_to_the_drift_of_its_bubble(device, air):
     host = s.host(drag=DRAG) | {"dt": DT, "drifts": drifts(), "air_push": none, "wall_push": none}
     after = launch(move_air, device, len(s.air), **host)["air_speed"]
     assert off(after, s.air_speed - DRAG * (s.air_speed - drift) * DT) < 1e-5
+
+
+@pytest.mark.parametrize("device", DEVICES)
+def test_air_gains_the_speed_that_the_ends_of_its_bubble_gain(device, air):
+    s, none = air, np.zeros_like(air.air)
+    random, gaining, wanted = np.random.default_rng(6), drifts(), s.air_speed.copy()
+    for k, drift in enumerate(gaining):
+        gains = random.normal(0.0, 50.0, (2, 3))
+        drift.start_gain, drift.end_gain = (wp.vec3(*gain) for gain in gains)
+        ends = drift_of(k) | {"start_speed": gains[0], "end_speed": gains[1]}
+        for p in np.flatnonzero(s.air_cluster == k):
+            wanted[p] += thesis.drift(s.air[p], **ends) * DT
+    host = s.host(drag=0.0) | {"dt": DT, "drifts": gaining, "air_push": none, "wall_push": none}
+    assert off(launch(move_air, device, len(s.air), **host)["air_speed"], wanted) < 1e-5
 
 
 @pytest.mark.parametrize("device", DEVICES)

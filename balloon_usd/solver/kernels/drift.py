@@ -23,14 +23,33 @@ class Drift:
     """The same of its end."""
     neck: float
     """Radius of its necks, m."""
+    start_gain: wp.vec3
+    """m/s2"""
+    end_gain: wp.vec3
+    """m/s2"""
+    joints: wp.vec2i
+    """Its frozen joints; -1 for none."""
+
+
+@wp.func
+def way_along(drift: Drift, x: wp.vec3) -> float:
+    """Return how far a place lies on the way from a cluster's start to its end, 0 to 1."""
+    axis = drift.end - drift.start
+    return wp.clamp(wp.dot(x - drift.start, axis) / wp.max(wp.length_sq(axis), 1.0e-12), 0.0, 1.0)
 
 
 @wp.func
 def drift_at(drift: Drift, x: wp.vec3) -> wp.vec3:
     """Return how a place of a cluster drifts (m/s)."""
-    axis = drift.end - drift.start
-    along = wp.dot(x - drift.start, axis) / wp.max(wp.length_sq(axis), 1.0e-12)
-    return wp.vec3(wp.lerp(drift.start_speed, drift.end_speed, wp.clamp(along, 0.0, 1.0)))
+    return wp.vec3(wp.lerp(drift.start_speed, drift.end_speed, way_along(drift, x)))
+
+
+@wp.func
+def gain_at(drift: Drift, x: wp.vec3) -> wp.vec3:
+    """Return how the drift at a place of a cluster gains speed (m/s2): air and rubber, next to weightless in
+    hands, are not left behind.
+    """
+    return wp.vec3(wp.lerp(drift.start_gain, drift.end_gain, way_along(drift, x)))
 
 
 PLUG = wp.constant(3.0)
@@ -78,10 +97,13 @@ def cluster_drift(
     ring_middle: wp.array[wp.vec3],
     ring_speed: wp.array[wp.vec3],
     x: wp.array[wp.vec3],
+    interval: float,
     drifts: wp.array[Drift],
 ):
     """Write how every cluster drifts: with its frozen joints, or not at all if it has none; and where these
     keep its air in.
+
+    `interval`: time until the next launch, in which it gains what it drifts faster than at the last (s).
     """
     s = wp.tid()
     last = int(s)
@@ -90,6 +112,7 @@ def cluster_drift(
     first_joint = start_joint[s]
     last_joint = end_joint[last]
     drift = Drift()
+    drift.joints = wp.vec2i(-1, last_joint)
     if last_joint >= 0:
         drift.end = ring_middle[last_joint]
         drift.end_speed = ring_speed[last_joint]
@@ -99,6 +122,7 @@ def cluster_drift(
         drift.neck = joint_neck[last_joint]
     if first_joint >= 0:
         if frozen[first_joint] == 1:
+            drift.joints[0] = first_joint
             drift.start = ring_middle[first_joint]
             drift.start_speed = ring_speed[first_joint]
             m = joint_around[first_joint]
@@ -106,6 +130,10 @@ def cluster_drift(
             drift.neck = joint_neck[first_joint]
             if last_joint < 0:
                 drift.end_speed = drift.start_speed
+    before = drifts[s]
+    if before.joints[0] == drift.joints[0] and before.joints[1] == drift.joints[1]:
+        drift.start_gain = (drift.start_speed - before.start_speed) / interval
+        drift.end_gain = (drift.end_speed - before.end_speed) / interval
     drifts[s] = drift
 
 

@@ -4,7 +4,7 @@ rubber's motion.
 
 import warp as wp
 
-from balloon_usd.solver.kernels.drift import Drift, drift_at
+from balloon_usd.solver.kernels.drift import Drift, drift_at, gain_at
 from balloon_usd.solver.kernels.joints import LEAD, held, lead_load
 from balloon_usd.solver.kernels.springs import Constants
 
@@ -53,7 +53,8 @@ def move_rubber(
     j = vertex_joint[i]
     law = constants[vertex_balloon[i]]
     f = spring_pull[i] + air_pull[i] - wp.vec3(0.0, 0.0, gravity[vertex_balloon[i]])
-    f -= drag[vertex_balloon[i]] * (v[i] - drift_at(drifts[quad_cluster[corners[i][0] // 4]], x[i]))
+    drift = drifts[quad_cluster[corners[i][0] // 4]]
+    f += gain_at(drift, x[i]) - drag[vertex_balloon[i]] * (v[i] - drift_at(drift, x[i]))
     if j >= 0:
         if frozen[j] == 1:
             x_next[i] = x[i]

@@ -2,7 +2,7 @@
 
 import warp as wp
 
-from balloon_usd.solver.kernels.drift import Drift, drift_at, kept_in
+from balloon_usd.solver.kernels.drift import Drift, drift_at, gain_at, kept_in
 from balloon_usd.solver.kernels.springs import Constants
 
 NEAREST = wp.constant(1.0e-6)
@@ -62,10 +62,11 @@ def move_air(
     """Move every particle by symplectic Euler (Kosaka 2008, eqs. 3.20 and 3.21), its speed limited."""
     a = wp.tid()
     law = constants[air_balloon[a]]
-    against = air_speed[a] - drift_at(drifts[air_cluster[a]], air[a])
-    u = air_speed[a] + (air_push[a] + wall_push[a] - law.drag * against) * dt
+    drift = drifts[air_cluster[a]]
+    against = air_speed[a] - drift_at(drift, air[a])
+    u = air_speed[a] + (air_push[a] + wall_push[a] - law.drag * against + gain_at(drift, air[a])) * dt
     size = wp.length(u)
     if size > law.air_speed:
         u = u * (law.air_speed / size)
-    air[a] = kept_in(air[a] + u * dt, drifts[air_cluster[a]])
+    air[a] = kept_in(air[a] + u * dt, drift)
     air_speed[a] = u

@@ -50,7 +50,7 @@ class KosakaStepper:
         self.scene = scene
         self.substeps = substeps
         self._mirror = mirror
-        dt = scene.settings.dt
+        dt = self._dt = scene.settings.dt
         cell = max(b.parameters.re for b in scene.bodies) + scene.margin
         self._grid = SearchGrid(scene, cell, max(len(scene.air), len(scene.quads)))
         values: dict[str, Any] = {
@@ -106,7 +106,7 @@ class KosakaStepper:
             if k % search_every == 0:
                 if searches:
                     self._find_neighbours(contact=contact)
-                self._launch(cluster_drift, len(s.segment_quad))
+                self._launch(cluster_drift, len(s.segment_quad), interval=search_every * self._dt)
             if fingers:
                 self._launch(press_fingers, len(s.x), fraction=(k + 1) / self.substeps)
             self._substep((k + 1) / self.substeps, contact=contact)
