@@ -49,7 +49,7 @@ def small_model(device: str, copies: int = 1, around: int = AROUND) -> KosakaMod
 
 def one_frame(model: KosakaModel) -> None:
     """Let the physics run for a frame in which no hand does anything."""
-    model.stepper.advance(contact=False, fingers=False, searches=1, passes=0)
+    model.stepper.advance(contact=False, fingers=False, searches=1)
 
 
 def filled(device: str, seed: int, copies: int = 1) -> KosakaModel:

@@ -37,7 +37,7 @@ FEW = 6
 """Frames over which places are averaged: a quarter of a second, in which the air trembles to and fro."""
 HUNDREDTH = 0.51e-3
 """A hundredth of the diameter of a 260, m: a wall that moves by less from frame to frame is seen at rest."""
-LIKENESS = 1.0 / 3.0
+LIKENESS = 0.25
 """How far a bubble's size may be from that of latex, as a share: alike at a glance. The thesis asks for no more than
 the order of sizes, which has tests of its own.
 """

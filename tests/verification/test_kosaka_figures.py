@@ -71,8 +71,9 @@ def test_joints_that_are_twisted_into_one_lie_together(verify, figure):
             verify("K6c", f"{name}, necks of {move.text}, mm apart", far, 0.0, NECKS_APART)
 
 
-def test_hardly_any_wall_passes_through_another(verify, figure):
-    name, run = figure
+@pytest.mark.parametrize("name", ["bubble", "bubbles", "bend", *FIGURES])
+def test_hardly_any_wall_passes_through_another(verify, name):
+    run = performed(recipe(name))
     crossing = deepest_crossing([(run.frames[-1].points[0], run.mesh.quads)])
     verify("K6d", f"{name}, deepest wall inside another, mm", 1e3 * crossing.depth, 0.0, DEEPEST)
 

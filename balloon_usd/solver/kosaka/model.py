@@ -104,10 +104,12 @@ class KosakaModel:
             contact=bool(self.hands.touching.any()),
             fingers=self.hands.pressing,
             searches=self._searches(end - begin, handled=handled),
-            passes=self._passes(begin, end, handled=handled),
         )
         self.hands.arrived()
         self.clusters.part(self.hands.radius_goal > 0.0)
+        for _ in range(self._passes(begin, end, handled=handled)):
+            self.stepper.find_lost()
+        self.stepper.look()
 
     def _searches(self, seconds: float, *, handled: bool) -> int:
         """Searches that a frame of some seconds needs: more where hands are at work or air moves fast, none

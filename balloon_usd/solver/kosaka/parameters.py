@@ -49,11 +49,11 @@ GRADING = 1.0
 """How far the push fades with depth in the offset region; 0 is the thesis's."""
 GRADED_AWAY = 0.6
 """Mean share of the push that grading takes away: the integral of 1 - (1 - s)^3 (1 + 3 s) over the region."""
-NATURAL = 0.7
+NATURAL = 0.5
 """Natural length of the springs round the balloon, in their length at rest: below one they stay taut in a
 neck.
 """
-KEPT_OFF = 0.72
+KEPT_OFF = 0.735
 """Share of the push that arrives: a push on the air stronger than its repulsion keeps it off the wall a
 little (measured on the experiment's capsule).
 """

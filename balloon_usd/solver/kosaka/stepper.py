@@ -65,17 +65,16 @@ class KosakaStepper:
         self._walls = WallSearch(self._launcher, self._grid)
         self._launch_lanes(hold_rings, len(scene.joint_first), fraction=1.0)
 
-    def advance(self, *, contact: bool, fingers: bool, searches: int, passes: int) -> None:
-        """Advance by one frame, and start copying what frames are made of.
+    def advance(self, *, contact: bool, fingers: bool, searches: int) -> None:
+        """Advance by one frame.
 
         `contact`: walls can touch. `fingers`: some press. `searches`: how often neighbours are looked for
-        anew; 0 where the lists of the frame before still hold. `passes`: how often lost air is looked
-        for in the end.
+        anew; 0 where the lists of the frame before still hold.
         """
         self._grid.claim()
         self._launcher.replay(
-            (contact, fingers, searches, passes),
-            lambda: self._frame(contact=contact, fingers=fingers, searches=searches, passes=passes),
+            (contact, fingers, searches),
+            lambda: self._frame(contact=contact, fingers=fingers, searches=searches),
         )
 
     def find_lost(self) -> None:
@@ -83,8 +82,8 @@ class KosakaStepper:
         self._launch_lanes(find_lost_air, len(self.scene.air))
 
     def look(self) -> None:
-        """Start copying what frames are made of before anything has moved."""
-        self._look()
+        """Start copying what frames are made of."""
+        self._launcher.replay("look", self._look)
 
     def _look(self) -> None:
         """Write the stretch of every vertex and the volumes (m3) and pressures (Pa) of all segments, and
@@ -98,7 +97,7 @@ class KosakaStepper:
         self._launch(fastest_air, len(self.scene.air))
         self._mirror.copy()
 
-    def _frame(self, *, contact: bool, fingers: bool, searches: int, passes: int) -> None:
+    def _frame(self, *, contact: bool, fingers: bool, searches: int) -> None:
         s = self.scene
         s.face_hits.zero_()
         search_every = -(-self.substeps // max(searches, 1))
@@ -113,9 +112,6 @@ class KosakaStepper:
         # What leaked in the last step comes back before it is seen.
         self._launch(face_surface, len(s.face_normal))
         self._launch_lanes(press_air, len(s.air))
-        for _ in range(passes):
-            self.find_lost()
-        self._look()
 
     def _substep(self, fraction: float, *, contact: bool) -> None:
         """One time step in the order of fig. 3.8."""
