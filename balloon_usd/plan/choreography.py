@@ -36,7 +36,7 @@ HAND_SPEED = 0.22
 """Mean speed of a hand that brings joints together, m/s; its peak is 1.9 times this."""
 CARRYING_SPEED = 0.08
 """The same in model kosaka, where air particles must follow the bubble that carries them, m/s."""
-DRAWING_SECONDS = 0.8
+DRAWING_SECONDS = 1.0
 """Closing of a ring by force in model kosaka, with time for the air to leave, s."""
 GATHER_LEAST = 0.8
 """Shortest gathering, s."""

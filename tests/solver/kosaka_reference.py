@@ -260,13 +260,13 @@ def calming_sum(edges, x, v, calming) -> Floats:
 def shortening(edges, x, longest, share, held) -> Floats:
     """How far vertices move when the ends of springs that are too long each take back a share of the excess, (V, 3).
 
-    What a hand holds does not move, `held` (V,) bool: then the other end takes both shares.
+    What a hand holds does not move, `held` (V,) bool: then the other end takes all of it.
     """
     total = np.zeros_like(x)
     for q, p in (edges.T, edges.T[::-1]):
         d = x[q] - x[p]
         size = length(d)
         excess = np.maximum(size - longest, 0.0)
-        np.add.at(total, p, (share * np.where(held[q], 2.0, 1.0) * excess / size)[:, None] * d)
+        np.add.at(total, p, (np.where(held[q], 1.0, share) * excess / size)[:, None] * d)
     total[held] = 0.0
     return total

@@ -40,7 +40,7 @@ PLACE = {50: 0, 30: 1, 90: 2}
 """Where the recipe makes them."""
 WIDEST_NECK = 2.7
 """Largest radius of a closed neck, mm."""
-ALLOWED = {"latex": 0.05, "kosaka": 1.0 / 3.0}
+ALLOWED = {"latex": 0.05, "kosaka": 0.3}
 """How far lengths and diameters may be from theory, as a share: meshes of draft, and a model for the look."""
 ALLOWED_GAS = {"latex": 0.1, "kosaka": 0.5}
 """The same for the gas."""

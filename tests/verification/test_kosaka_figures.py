@@ -1,4 +1,4 @@
-"""K6: lock twist, loop twist and the dog in the thesis's own model; the thesis (Kosaka 2008, chapter 5) left them open."""
+"""K7: lock twist, loop twist and the dog in the thesis's own model; the thesis (Kosaka 2008, chapter 5) left them open."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def test_all_air_is_in_its_bubble_in_the_end(verify, figure):
     last = len(run.frames) - 1
     assert np.unique(run.frames[last].cluster[0]).tolist() == list(range(len(run.plan.bubbles)))
     verify(
-        "K6", f"{name}, air outside in the end, particles", len(outside(run, last)), 0.0, 0.5, told(run, last)
+        "K7", f"{name}, air outside in the end, particles", len(outside(run, last)), 0.0, 0.5, told(run, last)
     )
 
 
@@ -57,7 +57,7 @@ def test_little_air_leaks_in_passing(verify, figure):
     leaks = [len(outside(run, k)) for k in run.sampled()]
     seen = f"{run.repairs} repairs, {sum(leaks)} outside in {len(leaks)} frames looked at"
     verify(
-        "K6b", f"{name}, air outside in passing, worst frame, %", 100.0 * max(leaks) / count, 0.0, 1.0, seen
+        "K7b", f"{name}, air outside in passing, worst frame, %", 100.0 * max(leaks) / count, 0.0, 1.0, seen
     )
 
 
@@ -68,14 +68,14 @@ def test_joints_that_are_twisted_into_one_lie_together(verify, figure):
         if isinstance(move, Weld):
             places = np.array([middle(run, run.points[-1], table[ring].along) for ring in move.rings])
             far = 1e3 * np.linalg.norm(places[:, None] - places[None], axis=2).max()
-            verify("K6c", f"{name}, necks of {move.text}, mm apart", far, 0.0, NECKS_APART)
+            verify("K7c", f"{name}, necks of {move.text}, mm apart", far, 0.0, NECKS_APART)
 
 
 @pytest.mark.parametrize("name", ["bubble", "bubbles", "bend", *FIGURES])
 def test_hardly_any_wall_passes_through_another(verify, name):
     run = performed(recipe(name))
     crossing = deepest_crossing([(run.frames[-1].points[0], run.mesh.quads)])
-    verify("K6d", f"{name}, deepest wall inside another, mm", 1e3 * crossing.depth, 0.0, DEEPEST)
+    verify("K7d", f"{name}, deepest wall inside another, mm", 1e3 * crossing.depth, 0.0, DEEPEST)
 
 
 def test_a_loop_stays_open(verify, loop):
@@ -86,7 +86,7 @@ def test_a_loop_stays_open(verify, loop):
     across = np.linalg.norm(centre - centre[::-1], axis=1) - wide - wide[::-1]
     hole = 1e3 * across.max()
     told = f"{hole:.1f} mm wide after {loop.plan.recipe.physics.hold:g} s"
-    verify("K6e", "loop, what its hole lacks of 10 mm", max(HOLE - hole, 0.0), 0.0, 1e-6, told)
+    verify("K7e", "loop, what its hole lacks of 10 mm", max(HOLE - hole, 0.0), 0.0, 1e-6, told)
 
 
 def test_the_dog_stands_on_its_legs_with_ears_above_and_nose_before(dog):

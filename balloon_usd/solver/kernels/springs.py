@@ -131,7 +131,7 @@ def limit_elongation(
                 other = vertex_joint[ends[k]]
                 if other >= 0:
                     # The other end does not give way.
-                    share = wp.where(radius_to[other] > 0.0, 2.0 * HALF_EACH, HALF_EACH)
+                    share = wp.where(radius_to[other] > 0.0, 1.0, HALF_EACH)
                 shift += (share * excess / wp.max(size, SHORTEST)) * d
     x_next[i] = p + shift
     v[i] = v[i] + shift / dt
