@@ -68,7 +68,6 @@ class Maker(ABC):
         moves = self.plan.choreography.moves
         self._frame = round(end * self.plan.recipe.fps)
         self._span = (begin, end)
-        self.hands.lift_fingers()
         for k in range(self._done, len(moves)):
             move = moves[k]
             if move.start >= end:

@@ -7,6 +7,7 @@ import pytest
 import warp as wp
 
 from balloon_usd.plan import plan
+from balloon_usd.plan.choreography import Push
 from balloon_usd.recipe import Recipe, RecipeBuilder
 from balloon_usd.solver.errors import DeviceUnavailable, SimulationFailed
 from balloon_usd.solver.frame import Frame
@@ -62,6 +63,34 @@ def test_a_sculpture_comes_out_the_same_alone_and_in_a_batch(device):
     batch = last_frames([others[0], short(), others[1]], device)
     assert np.array_equal(alone.points[0], batch[1].points[0])
     assert not np.array_equal(batch[0].points[0], batch[1].points[0])
+
+
+PUSHED = """
+format: 1
+name: pushed
+units: cm
+balloons:
+  main: {size: 260, length: 9, tail: 3, color: red}
+steps:
+  - push: {bubble: main_rest, depth: 1}
+    seconds: 1
+physics: {model: MODEL, hold: 0.2}
+"""
+
+
+@pytest.mark.parametrize("model", ["latex", "kosaka"])
+def test_a_finger_stays_on_its_balloon_beside_another_sculpture(model):
+    pushed = plan(Recipe.parse(PUSHED.replace("MODEL", model)))
+    other = plan(Recipe.parse(PUSHED.replace("MODEL", model).replace("depth: 1", "depth: 0.1")))
+    (push,) = (move for move in pushed.choreography.moves if isinstance(move, Push))
+
+    def dent(plans):
+        frames = [f[0].points[0] for f in simulate_many(plans, detail="draft").frames() if f[0] is not None]
+        begin = round(pushed.recipe.fps * push.start)
+        return max(float((frames[begin] - points)[:, 2].max()) for points in frames[begin:])
+
+    assert dent([pushed, other]) == pytest.approx(dent([pushed]), abs=1e-3)
+    assert dent([pushed, other]) > dent([other]) + 5e-3
 
 
 @pytest.mark.parametrize("device", DEVICES)

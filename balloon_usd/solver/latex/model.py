@@ -75,6 +75,7 @@ class LatexModel:
     def advance(self, begin: float, end: float) -> None:
         """Let the makers act and the physics run from `begin` to `end` (s)."""
         middle = self._seen["ring_middle"].copy()
+        self.hands.lift_fingers()
         for maker in self.makers:
             maker.act(begin, end, middle)
         self.hands.upload()
