@@ -51,8 +51,8 @@ physics: {{model: kosaka}}
 """The thesis's capsule of springs and air particles (Kosaka 2008, 4.1), and longer ones."""
 LENGTHS = (20.0, 40.0, 80.0, 150.0)
 """Lengths of capsules that are measured, cm: the thesis's up to a whole 260."""
-KOSAKA_FRAMES = 97
-"""Frames of a capsule that are measured unless others are asked for: 4 s."""
+KOSAKA_FRAMES = 481
+"""Frames of a capsule that are measured unless others are asked for: 20 s, in most of which the air is at rest."""
 
 
 @dataclass(frozen=True)

@@ -241,8 +241,9 @@ def order_hits(
             hits[q, j] = here
 
 
-@wp.kernel
-def press_walls(
+@wp.func
+def press_wall(
+    i: int,
     quads: wp.array[wp.vec4i],
     mass: wp.array[float],
     touch: Touch,
@@ -259,8 +260,7 @@ def press_walls(
     contact_force: wp.array2d[wp.vec3],
     contact_share: wp.array2d[wp.vec4],
 ):
-    """Write the contact force (N) on every touching vertex and how the quad that it touches shares it."""
-    i = wp.tid()
+    """Write the contact force (N) on a touching vertex and how the quad that it touches shares it."""
     for k in range(2):
         q = target[i, k]
         if q >= 0:
@@ -302,6 +302,45 @@ def press_walls(
             contact_share[i, k] = s
 
 
+@wp.kernel
+def press_walls(
+    quads: wp.array[wp.vec4i],
+    mass: wp.array[float],
+    touch: Touch,
+    friction: wp.array[float],
+    vertex_balloon: wp.array[int],
+    dt: float,
+    area: wp.array[float],
+    quad_area: wp.array[wp.vec3],
+    target: wp.array2d[int],
+    hit_count: wp.array[int],
+    x: wp.array[wp.vec3],
+    v: wp.array[wp.vec3],
+    slip: wp.array2d[wp.vec3],
+    contact_force: wp.array2d[wp.vec3],
+    contact_share: wp.array2d[wp.vec4],
+):
+    """Write the contact force (N) on every touching vertex and how the quad that it touches shares it."""
+    press_wall(
+        wp.tid(),
+        quads,
+        mass,
+        touch,
+        friction,
+        vertex_balloon,
+        dt,
+        area,
+        quad_area,
+        target,
+        hit_count,
+        x,
+        v,
+        slip,
+        contact_force,
+        contact_share,
+    )
+
+
 @wp.func
 def balancing_turn(r0: wp.vec3, r1: wp.vec3, r2: wp.vec3, r3: wp.vec3, gap: wp.vec3, f: wp.vec3):
     """Return the vector whose cross products with a quad's corners balance a contact across a gap.
@@ -314,8 +353,9 @@ def balancing_turn(r0: wp.vec3, r1: wp.vec3, r2: wp.vec3, r3: wp.vec3, gap: wp.v
     return wp.inverse(inertia) * wp.cross(gap, f)
 
 
-@wp.kernel
-def press_back(
+@wp.func
+def press_quad_back(
+    q: int,
     quads: wp.array[wp.vec4i],
     hit_count: wp.array[int],
     hits: wp.array2d[int],
@@ -324,8 +364,7 @@ def press_back(
     x: wp.array[wp.vec3],
     corner_force: wp.array2d[wp.vec3],
 ):
-    """Take from the corners of every quad what the vertices that touch it felt, forces and torques."""
-    q = wp.tid()
+    """Take from the corners of a quad what the vertices that touch it felt, forces and torques."""
     count = hit_count[q]
     if count == 0:
         return
@@ -353,3 +392,17 @@ def press_back(
     corner_force[q, 1] = f1
     corner_force[q, 2] = f2
     corner_force[q, 3] = f3
+
+
+@wp.kernel
+def press_back(
+    quads: wp.array[wp.vec4i],
+    hit_count: wp.array[int],
+    hits: wp.array2d[int],
+    contact_force: wp.array2d[wp.vec3],
+    contact_share: wp.array2d[wp.vec4],
+    x: wp.array[wp.vec3],
+    corner_force: wp.array2d[wp.vec3],
+):
+    """Take from the corners of every quad what the vertices that touch it felt, forces and torques."""
+    press_quad_back(wp.tid(), quads, hit_count, hits, contact_force, contact_share, x, corner_force)

@@ -22,6 +22,28 @@ class Finger:
     """
 
 
+@wp.func
+def press_finger(
+    i: int,
+    vertex_balloon: wp.array[int],
+    mass: wp.array[float],
+    fingers: wp.array[Finger],
+    finger_share: wp.array[float],
+    dt: float,
+    fraction: float,
+    x: wp.array[wp.vec3],
+    v: wp.array[wp.vec3],
+):
+    """Add to the speed (m/s) of a vertex under a finger what the finger's force gives it in a substep."""
+    share = finger_share[i]
+    if share > 0.0:
+        finger = fingers[vertex_balloon[i]]
+        load = share * wp.lerp(finger.load_start, finger.load_end, fraction) * (dt / mass[i])
+        tip = finger.start + fraction * (finger.end - finger.start)
+        behind = wp.max(wp.dot(tip - x[i], finger.along), 0.0)
+        v[i] = v[i] + (load + share * finger.stiff * behind / dt) * finger.along
+
+
 @wp.kernel
 def press_fingers(
     vertex_balloon: wp.array[int],
@@ -33,12 +55,5 @@ def press_fingers(
     x: wp.array[wp.vec3],
     v: wp.array[wp.vec3],
 ):
-    """Add to the speed (m/s) of every vertex under a finger what the finger's force gives it in a substep."""
-    i = wp.tid()
-    share = finger_share[i]
-    if share > 0.0:
-        finger = fingers[vertex_balloon[i]]
-        load = share * wp.lerp(finger.load_start, finger.load_end, fraction) * (dt / mass[i])
-        tip = finger.start + fraction * (finger.end - finger.start)
-        behind = wp.max(wp.dot(tip - x[i], finger.along), 0.0)
-        v[i] = v[i] + (load + share * finger.stiff * behind / dt) * finger.along
+    """Let fingers press on every vertex for a substep."""
+    press_finger(wp.tid(), vertex_balloon, mass, fingers, finger_share, dt, fraction, x, v)

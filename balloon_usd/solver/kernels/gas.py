@@ -10,6 +10,43 @@ def patch_volume(x0: wp.vec3, x1: wp.vec3, x2: wp.vec3, x3: wp.vec3):
     return wp.dot(middle, wp.cross(x2 - x0, x3 - x1)) / 6.0
 
 
+@wp.func
+def share_of_volume(
+    s: int,
+    lane: int,
+    lanes: int,
+    quads: wp.array[wp.vec4i],
+    segment_quad: wp.array[int],
+    segment_quad_end: wp.array[int],
+    o: wp.vec3,
+    x: wp.array[wp.vec3],
+):
+    """Return a lane's share of the volume (m3) between a segment's wall and a point."""
+    total = float(0.0)
+    for q in range(segment_quad[s] + lane, segment_quad_end[s], lanes):
+        c = quads[q]
+        total += patch_volume(x[c[0]] - o, x[c[1]] - o, x[c[2]] - o, x[c[3]] - o)
+    return total
+
+
+@wp.func
+def volume_of_fans(
+    s: int,
+    start_joint: wp.array[int],
+    end_joint: wp.array[int],
+    ring_middle: wp.array[wp.vec3],
+    ring_area: wp.array[wp.vec3],
+    o: wp.vec3,
+):
+    """Return the volume (m3) between a point and the flat fans that close a segment's ends."""
+    caps = float(0.0)
+    if start_joint[s] >= 0:
+        caps -= wp.dot(ring_middle[start_joint[s]] - o, ring_area[start_joint[s]]) / 3.0
+    if end_joint[s] >= 0:
+        caps += wp.dot(ring_middle[end_joint[s]] - o, ring_area[end_joint[s]]) / 3.0
+    return caps
+
+
 @wp.kernel
 def segment_volumes(
     quads: wp.array[wp.vec4i],
@@ -28,18 +65,10 @@ def segment_volumes(
     """
     s, lane = wp.tid()
     o = x[segment_origin[s]]
-    total = float(0.0)
-    for q in range(segment_quad[s] + lane, segment_quad_end[s], wp.block_dim()):
-        c = quads[q]
-        total += patch_volume(x[c[0]] - o, x[c[1]] - o, x[c[2]] - o, x[c[3]] - o)
+    total = share_of_volume(s, lane, wp.block_dim(), quads, segment_quad, segment_quad_end, o, x)
     sums = wp.tile_sum(wp.tile(total))
     if lane == 0:
-        caps = float(0.0)
-        if start_joint[s] >= 0:
-            caps -= wp.dot(ring_middle[start_joint[s]] - o, ring_area[start_joint[s]]) / 3.0
-        if end_joint[s] >= 0:
-            caps += wp.dot(ring_middle[end_joint[s]] - o, ring_area[end_joint[s]]) / 3.0
-        volume[s] = sums[0] + caps
+        volume[s] = sums[0] + volume_of_fans(s, start_joint, end_joint, ring_middle, ring_area, o)
 
 
 OPEN_PASSAGE = 1.0
@@ -63,8 +92,9 @@ class Air:
     """Largest share of a pressure difference that a neck may even out in one substep."""
 
 
-@wp.kernel
-def balloon_gas(
+@wp.func
+def advance_gas(
+    b: int,
     balloon_segment: wp.array[int],
     balloon_segment_end: wp.array[int],
     end_joint: wp.array[int],
@@ -87,7 +117,6 @@ def balloon_gas(
     that closes is an orifice. A chamber without gas of its own is open to the air (the nozzle's lip) and
     keeps its pressure.
     """
-    b = wp.tid()
     first = balloon_segment[b]
     last = balloon_segment_end[b]
     begin = int(first)
@@ -133,6 +162,45 @@ def balloon_gas(
             previous = s
             room_before = room
             begin = s + 1
+
+
+@wp.kernel
+def balloon_gas(
+    balloon_segment: wp.array[int],
+    balloon_segment_end: wp.array[int],
+    end_joint: wp.array[int],
+    inlet: wp.array[int],
+    air: Air,
+    dt: float,
+    fraction: float,
+    open_from: wp.array[float],
+    open_to: wp.array[float],
+    pump_flow: wp.array[float],
+    pump_limit: wp.array[float],
+    pump_goal: wp.array[wp.float64],
+    volume: wp.array[float],
+    amount: wp.array[wp.float64],
+    pressure: wp.array[float],
+):
+    """Advance the gas of every balloon."""
+    advance_gas(
+        wp.tid(),
+        balloon_segment,
+        balloon_segment_end,
+        end_joint,
+        inlet,
+        air,
+        dt,
+        fraction,
+        open_from,
+        open_to,
+        pump_flow,
+        pump_limit,
+        pump_goal,
+        volume,
+        amount,
+        pressure,
+    )
 
 
 @wp.func

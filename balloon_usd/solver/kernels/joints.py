@@ -4,6 +4,8 @@ weld's pose.
 
 import warp as wp
 
+from balloon_usd.solver.kernels.lanes import lanes_meet, lanes_sum3
+
 GRIP_MODE = 1
 LEAD_MODE = 2
 CLASP_MODE = 3
@@ -47,25 +49,170 @@ def turned(p: wp.vec2, turn: wp.vec2):
 
 
 @wp.func
-def regular_ring(x: wp.array[wp.vec3], first: int, around: int, c: wp.vec3):
+def direction(angle: float):
+    """Return the cosine and sine of an angle (radians)."""
+    return wp.vec2(wp.cos(angle), wp.sin(angle))
+
+
+@wp.func
+def regular_ring(x: wp.array[wp.vec3], first: int, around: int, c: wp.vec3, lane: int, lanes: int):
     """Return the two in-plane axes of the regular polygon nearest to a ring, as columns (polar
     decomposition).
     """
     a = wp.vec3(0.0)
     b = wp.vec3(0.0)
     step = 2.0 * wp.pi / float(around)
-    turn = wp.vec2(wp.cos(step), wp.sin(step))
-    at = wp.vec2(1.0, 0.0)
-    for k in range(around):
+    turn = direction(step * float(lanes))
+    at = direction(step * float(lane))
+    for k in range(lane, around, lanes):
         d = x[first + k] - c
         a += d * at[0]
         b += d * at[1]
         at = turned(at, turn)
-    a = wp.normalize(a)
-    b = wp.normalize(b)
+    a = wp.normalize(lanes_sum3(a))
+    b = wp.normalize(lanes_sum3(b))
     s = wp.normalize(a + b)
     t = wp.normalize(a - b)
     return wp.matrix_from_cols((s + t) * wp.sqrt(0.5), (s - t) * wp.sqrt(0.5))
+
+
+@wp.func
+def close_ring(
+    first: int,
+    n: int,
+    radius: float,
+    turns: int,
+    dt: float,
+    c: wp.vec3,
+    speed: wp.vec3,
+    axes: Axes,
+    lane: int,
+    lanes: int,
+    x: wp.array[wp.vec3],
+    v: wp.array[wp.vec3],
+):
+    """Put the vertices of a ring on a regular polygon of a radius (m) and return its vector area (m2).
+
+    `turns`: 1 where the ring is free to turn: its shape must neither push nor turn it, not even by
+    rounding, which over a second adds up.
+    """
+    normal = wp.cross(axes * wp.vec2(1.0, 0.0), axes * wp.vec2(0.0, 1.0))
+    step = 2.0 * wp.pi / float(n)
+    turn = direction(step * float(lanes))
+    corner = radius * direction(step * float(lane))
+    push = wp.vec3(0.0)
+    twist = wp.vec3(0.0)
+    for k in range(lane, n, lanes):
+        arm = axes * corner
+        corner = turned(corner, turn)
+        moved = c + arm - x[first + k]
+        push += moved
+        twist += wp.cross(arm, moved) / dt + wp.cross(moved, v[first + k] - speed)
+        v[first + k] = v[first + k] + moved / dt
+        x[first + k] = c + arm
+    push = lanes_sum3(push) / (float(n) * dt)
+    twist = lanes_sum3(twist)
+    spin = wp.vec3(0.0)
+    if turns == 1:
+        # Moments of inertia of a ring: 1/2 about its diameters, 1 about its axis.
+        spin = (2.0 * twist - wp.dot(twist, normal) * normal) / (float(n) * radius * radius)
+    for k in range(lane, n, lanes):
+        v[first + k] = v[first + k] - push - wp.cross(spin, x[first + k] - c)
+    return (0.5 * float(n) * wp.sin(step) * radius * radius) * normal
+
+
+@wp.func
+def move_joint(
+    j: int,
+    lane: int,
+    lanes: int,
+    joint_first: wp.array[int],
+    joint_around: wp.array[int],
+    joint_parts: wp.array[int],
+    joint_struts: wp.array2d[int],
+    joint_mass: wp.array[float],
+    dt: float,
+    frame_seconds: float,
+    fraction: float,
+    hand: wp.array[int],
+    hand_from: wp.array[wp.vec3],
+    hand_to: wp.array[wp.vec3],
+    hand_free: wp.array[wp.vec3],
+    hand_force: wp.array[float],
+    hand_stiffness: wp.array[float],
+    radius_from: wp.array[float],
+    radius_to: wp.array[float],
+    strut_force: wp.array[wp.vec3],
+    x: wp.array[wp.vec3],
+    v: wp.array[wp.vec3],
+    ring_middle: wp.array[wp.vec3],
+    ring_area: wp.array[wp.vec3],
+    ring_axes: wp.array[Axes],
+    ring_speed: wp.array[wp.vec3],
+    hand_load: wp.array[wp.vec3],
+):
+    """Hold, lead and close the ring of a joint, and write where it is and what the hand feels.
+
+    Middles in m, vector areas in m2, speeds in m/s, loads in N. Every lane has its own vertices.
+    """
+    first = joint_first[j]
+    n = joint_around[j]
+    c = wp.vec3(0.0)
+    w = wp.vec3(0.0)
+    for k in range(lane, n, lanes):
+        c += x[first + k]
+        w += v[first + k]
+    c = lanes_sum3(c) / float(n)
+    w = lanes_sum3(w) / float(n)
+    force = wp.vec3(0.0)
+    for k in range(joint_struts.shape[1]):
+        s = joint_struts[j, k]
+        if s > 0:
+            force += strut_force[s - 1]
+        elif s < 0:
+            force -= strut_force[-s - 1]
+    goal = hand_from[j] + fraction * (hand_to[j] - hand_from[j])
+    wanted = (hand_to[j] - hand_from[j]) / frame_seconds
+    load = wp.vec3(0.0)
+    if hand[j] == LEAD:
+        load = lead_load(goal - c, w - wanted, hand_stiffness[j], joint_mass[j], hand_force[j], hand_free[j])
+        force += load
+    kick = force * (dt / joint_mass[j])
+    shift = kick * dt
+    if held(hand[j]) == 1:
+        load = (wanted - w) * (joint_mass[j] / dt)
+        kick = wanted - w
+        shift = goal - c
+    for k in range(lane, n, lanes):
+        x[first + k] = x[first + k] + shift
+        v[first + k] = v[first + k] + kick
+    c += shift
+    # A ring that parts nothing is never closed: hands only need its middle.
+    if joint_parts[j] == 1:
+        if hand[j] != CLASP:
+            axes = regular_ring(x, first, n, c, lane, lanes)
+            if lane == 0:
+                ring_axes[j] = axes
+        lanes_meet()
+        if radius_to[j] > 0.0:
+            radius = radius_from[j] + fraction * (radius_to[j] - radius_from[j])
+            turns = int(1)
+            if hand[j] == CLASP:
+                turns = 0
+            area = close_ring(first, n, radius, turns, dt, c, w + kick, ring_axes[j], lane, lanes, x, v)
+            if lane == 0:
+                ring_area[j] = area
+        else:
+            fan = wp.vec3(0.0)
+            for k in range(lane, n, lanes):
+                fan += wp.cross(x[first + (k + n - 1) % n] - c, x[first + k] - c)
+            fan = lanes_sum3(fan)
+            if lane == 0:
+                ring_area[j] = 0.5 * fan
+    if lane == 0:
+        ring_middle[j] = c
+        ring_speed[j] = w + kick
+        hand_load[j] = load
 
 
 @wp.kernel
@@ -95,89 +242,36 @@ def move_joints(
     ring_speed: wp.array[wp.vec3],
     hand_load: wp.array[wp.vec3],
 ):
-    """Hold, lead and close the ring of every joint, and write where it is and what the hand feels.
-
-    Middles in m, vector areas in m2, speeds in m/s, loads in N.
-    """
-    j = wp.tid()
-    first = joint_first[j]
-    n = joint_around[j]
-    c = wp.vec3(0.0)
-    w = wp.vec3(0.0)
-    for k in range(n):
-        c += x[first + k]
-        w += v[first + k]
-    c = c / float(n)
-    w = w / float(n)
-    force = wp.vec3(0.0)
-    for k in range(joint_struts.shape[1]):
-        s = joint_struts[j, k]
-        if s > 0:
-            force += strut_force[s - 1]
-        elif s < 0:
-            force -= strut_force[-s - 1]
-    goal = hand_from[j] + fraction * (hand_to[j] - hand_from[j])
-    load = wp.vec3(0.0)
-    if hand[j] == LEAD:
-        speed = w - (hand_to[j] - hand_from[j]) / frame_seconds
-        load = lead_load(goal - c, speed, hand_stiffness[j], joint_mass[j], hand_force[j], hand_free[j])
-        force += load
-    kick = force * (dt / joint_mass[j])
-    shift = kick * dt
-    if hand[j] == GRIP or hand[j] == CLASP:
-        wanted = (hand_to[j] - hand_from[j]) / frame_seconds
-        load = (wanted - w) * (joint_mass[j] / dt)
-        kick = wanted - w
-        shift = goal - c
-    radius = radius_from[j] + fraction * (radius_to[j] - radius_from[j])
-    for k in range(n):
-        x[first + k] = x[first + k] + shift
-        v[first + k] = v[first + k] + kick
-    c += shift
-    # A ring that parts nothing is never closed: hands only need its middle.
-    if joint_parts[j] == 0:
-        ring_middle[j] = c
-        ring_speed[j] = w + kick
-        hand_load[j] = load
-        return
-    if hand[j] != CLASP:
-        ring_axes[j] = regular_ring(x, first, n, c)
-    a = wp.vec3(0.0)
-    if radius_to[j] > 0.0:
-        axes = ring_axes[j]
-        normal = wp.cross(axes * wp.vec2(1.0, 0.0), axes * wp.vec2(0.0, 1.0))
-        step = 2.0 * wp.pi / float(n)
-        turn = wp.vec2(wp.cos(step), wp.sin(step))
-        corner = wp.vec2(radius, 0.0)
-        push = wp.vec3(0.0)
-        twist = wp.vec3(0.0)
-        for k in range(n):
-            arm = axes * corner
-            corner = turned(corner, turn)
-            moved = c + arm - x[first + k]
-            push += moved
-            twist += wp.cross(arm, moved) / dt + wp.cross(moved, v[first + k] - w - kick)
-            v[first + k] = v[first + k] + moved / dt
-            x[first + k] = c + arm
-        # Its shape must neither push nor turn a free ring, not even by rounding: over a second that adds up.
-        push = push / (float(n) * dt)
-        spin = wp.vec3(0.0)
-        if hand[j] != CLASP:
-            # Moments of inertia of a ring: 1/2 about its diameters, 1 about its axis.
-            spin = (2.0 * twist - wp.dot(twist, normal) * normal) / (float(n) * radius * radius)
-        for k in range(n):
-            v[first + k] = v[first + k] - push - wp.cross(spin, x[first + k] - c)
-        a = (float(n) * turn[1] * radius * radius) * normal
-    else:
-        last = x[first + n - 1] - c
-        for k in range(n):
-            here = x[first + k] - c
-            a += wp.cross(last, here)
-            last = here
-    ring_middle[j] = c
-    ring_area[j] = 0.5 * a
-    ring_speed[j] = w + kick
-    hand_load[j] = load
+    """Hold, lead and close the ring of every joint."""
+    move_joint(
+        wp.tid(),
+        0,
+        1,
+        joint_first,
+        joint_around,
+        joint_parts,
+        joint_struts,
+        joint_mass,
+        dt,
+        frame_seconds,
+        fraction,
+        hand,
+        hand_from,
+        hand_to,
+        hand_free,
+        hand_force,
+        hand_stiffness,
+        radius_from,
+        radius_to,
+        strut_force,
+        x,
+        v,
+        ring_middle,
+        ring_area,
+        ring_axes,
+        ring_speed,
+        hand_load,
+    )
 
 
 @wp.func
@@ -188,6 +282,46 @@ def pair_shift(here: wp.vec3, there: wp.vec3, share: float, gap: float, reach: f
     d = here - there
     far = wp.max(wp.length(d), 1.0e-9)
     return d * (share * (wp.clamp(far, gap, reach) / far - 1.0))
+
+
+@wp.func
+def hold_weld(
+    g: int,
+    lane: int,
+    lanes: int,
+    weld_joint: wp.array2d[int],
+    weld_size: wp.array[int],
+    weld_reach: wp.array[float],
+    weld_gap: wp.array[float],
+    joint_first: wp.array[int],
+    joint_around: wp.array[int],
+    joint_mass: wp.array[float],
+    hand: wp.array[int],
+    dt: float,
+    ring_middle: wp.array[wp.vec3],
+    x: wp.array[wp.vec3],
+    v: wp.array[wp.vec3],
+):
+    """Keep the necks of a weld side by side: each pair at least its gap (m) and at most its reach (m)
+    apart.
+    """
+    size = weld_size[g]
+    for k in range(size):
+        j = weld_joint[g, k]
+        if held(hand[j]) == 0:
+            shift = wp.vec3(0.0)
+            for m in range(size):
+                if m != k:
+                    other = weld_joint[g, m]
+                    share = float(1.0)
+                    if held(hand[other]) == 0:
+                        share = joint_mass[other] / (joint_mass[j] + joint_mass[other])
+                    shift += pair_shift(ring_middle[j], ring_middle[other], share, weld_gap[g], weld_reach[g])
+            shift = shift / wp.max(float(size - 1), 1.0)
+            for m in range(lane, joint_around[j], lanes):
+                i = joint_first[j] + m
+                x[i] = x[i] + shift
+                v[i] = v[i] + shift / dt
 
 
 @wp.kernel
@@ -205,27 +339,43 @@ def hold_welds(
     x: wp.array[wp.vec3],
     v: wp.array[wp.vec3],
 ):
-    """Keep the necks of every weld side by side: each pair at least its gap (m) and at most its reach (m)
-    apart.
-    """
-    g = wp.tid()
-    size = weld_size[g]
-    for k in range(size):
-        j = weld_joint[g, k]
-        if held(hand[j]) == 0:
-            shift = wp.vec3(0.0)
-            for m in range(size):
-                if m != k:
-                    other = weld_joint[g, m]
-                    share = float(1.0)
-                    if held(hand[other]) == 0:
-                        share = joint_mass[other] / (joint_mass[j] + joint_mass[other])
-                    shift += pair_shift(ring_middle[j], ring_middle[other], share, weld_gap[g], weld_reach[g])
-            shift = shift / wp.max(float(size - 1), 1.0)
-            for m in range(joint_around[j]):
-                i = joint_first[j] + m
-                x[i] = x[i] + shift
-                v[i] = v[i] + shift / dt
+    """Keep the necks of every weld side by side."""
+    hold_weld(
+        wp.tid(),
+        0,
+        1,
+        weld_joint,
+        weld_size,
+        weld_reach,
+        weld_gap,
+        joint_first,
+        joint_around,
+        joint_mass,
+        hand,
+        dt,
+        ring_middle,
+        x,
+        v,
+    )
+
+
+@wp.func
+def weld_middle(
+    j: int,
+    lane: int,
+    lanes: int,
+    joint_first: wp.array[int],
+    joint_around: wp.array[int],
+    x: wp.array[wp.vec3],
+    ring_middle: wp.array[wp.vec3],
+):
+    """Write the middle (m) of a welded ring again, after it was moved."""
+    c = wp.vec3(0.0)
+    for m in range(lane, joint_around[j], lanes):
+        c += x[joint_first[j] + m]
+    c = lanes_sum3(c) / float(joint_around[j])
+    if lane == 0:
+        ring_middle[j] = c
 
 
 @wp.kernel
@@ -240,15 +390,12 @@ def weld_middles(
     """Write the middles (m) of welded rings again, after they were moved."""
     g, k = wp.tid()
     if k < weld_size[g]:
-        j = weld_joint[g, k]
-        c = wp.vec3(0.0)
-        for m in range(joint_around[j]):
-            c += x[joint_first[j] + m]
-        ring_middle[j] = c / float(joint_around[j])
+        weld_middle(weld_joint[g, k], 0, 1, joint_first, joint_around, x, ring_middle)
 
 
-@wp.kernel
-def load_struts(
+@wp.func
+def load_strut(
+    s: int,
     strut_joint: wp.array[wp.vec2i],
     strut_stiffness: wp.array[float],
     strut_damping: wp.array[float],
@@ -258,8 +405,7 @@ def load_struts(
     strut_length: wp.array[float],
     strut_force: wp.array[wp.vec3],
 ):
-    """Write the force (N) on the first end of every strut; beyond its yield force it gives way for good."""
-    s = wp.tid()
+    """Write the force (N) on the first end of a strut; beyond its yield force it gives way for good."""
     ends = strut_joint[s]
     pull = wp.vec3(0.0)
     if ends[0] >= 0:
@@ -276,3 +422,28 @@ def load_struts(
         tension += strut_damping[s] * wp.dot(ring_speed[ends[1]] - ring_speed[ends[0]], along)
         pull = tension * along
     strut_force[s] = pull
+
+
+@wp.kernel
+def load_struts(
+    strut_joint: wp.array[wp.vec2i],
+    strut_stiffness: wp.array[float],
+    strut_damping: wp.array[float],
+    strut_yield: wp.array[float],
+    ring_middle: wp.array[wp.vec3],
+    ring_speed: wp.array[wp.vec3],
+    strut_length: wp.array[float],
+    strut_force: wp.array[wp.vec3],
+):
+    """Load every strut."""
+    load_strut(
+        wp.tid(),
+        strut_joint,
+        strut_stiffness,
+        strut_damping,
+        strut_yield,
+        ring_middle,
+        ring_speed,
+        strut_length,
+        strut_force,
+    )

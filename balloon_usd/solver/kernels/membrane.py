@@ -12,8 +12,9 @@ TINY = wp.constant(1.0e-16)
 """Squared length of the side of a collapsed quad (m2)."""
 
 
-@wp.kernel
-def quad_forces(
+@wp.func
+def quad_force(
+    q: int,
     quads: wp.array[wp.vec4i],
     quad_segment: wp.array[int],
     quad_law: wp.array[int],
@@ -28,8 +29,7 @@ def quad_forces(
     peak_energy: wp.array[float],
     corner_force: wp.array2d[wp.vec3],
 ):
-    """Write the force (N) of wall and gas on the four corners of every quad."""
-    q = wp.tid()
+    """Write the force (N) of wall and gas on the four corners of a quad."""
     c = quads[q]
     law = laws[quad_law[q]]
     x0 = x[c[0]]
@@ -126,6 +126,41 @@ def quad_forces(
     corner_force[q, 1] = fa
     corner_force[q, 2] = fb
     corner_force[q, 3] = fc
+
+
+@wp.kernel
+def quad_forces(
+    quads: wp.array[wp.vec4i],
+    quad_segment: wp.array[int],
+    quad_law: wp.array[int],
+    to_rest: wp.array[wp.mat22],
+    hourglass: wp.array[wp.vec4],
+    rubber_volume: wp.array[float],
+    laws: wp.array[Law],
+    pressure: wp.array[float],
+    x: wp.array[wp.vec3],
+    v: wp.array[wp.vec3],
+    softening_rate: wp.array[float],
+    peak_energy: wp.array[float],
+    corner_force: wp.array2d[wp.vec3],
+):
+    """Write the force (N) of wall and gas on the four corners of every quad."""
+    quad_force(
+        wp.tid(),
+        quads,
+        quad_segment,
+        quad_law,
+        to_rest,
+        hourglass,
+        rubber_volume,
+        laws,
+        pressure,
+        x,
+        v,
+        softening_rate,
+        peak_energy,
+        corner_force,
+    )
 
 
 @wp.kernel

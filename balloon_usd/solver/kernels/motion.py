@@ -19,8 +19,9 @@ class Spin:
     """A point of the axis, m."""
 
 
-@wp.kernel
-def move_vertices(
+@wp.func
+def move_vertex(
+    i: int,
     corners: wp.array[wp.vec4i],
     vertex_joint: wp.array[int],
     vertex_balloon: wp.array[int],
@@ -44,8 +45,7 @@ def move_vertices(
     x_next: wp.array[wp.vec3],
     v: wp.array[wp.vec3],
 ):
-    """Gather the forces on every vertex and move it by symplectic Euler (Kosaka 2008, eqs. 3.22 and 3.23)."""
-    i = wp.tid()
+    """Gather the forces on a vertex and move it by symplectic Euler (Kosaka 2008, eqs. 3.22 and 3.23)."""
     f = wp.vec3(0.0)
     slots = corners[i]
     for k in range(4):
@@ -79,3 +79,56 @@ def move_vertices(
         speed = wp.quat_rotate(r, speed)
     x_next[i] = p
     v[i] = speed
+
+
+@wp.kernel
+def move_vertices(
+    corners: wp.array[wp.vec4i],
+    vertex_joint: wp.array[int],
+    vertex_balloon: wp.array[int],
+    joint_first: wp.array[int],
+    joint_around: wp.array[int],
+    joint_segment: wp.array[wp.vec2i],
+    vertex_along: wp.array[float],
+    mass: wp.array[float],
+    weight: wp.array[float],
+    gravity: wp.array[float],
+    drag: wp.array[float],
+    dt: float,
+    spin: wp.array[Spin],
+    target: wp.array2d[int],
+    contact_force: wp.array2d[wp.vec3],
+    corner_force: wp.array2d[wp.vec3],
+    pressure: wp.array[float],
+    ring_middle: wp.array[wp.vec3],
+    ring_area: wp.array[wp.vec3],
+    x: wp.array[wp.vec3],
+    x_next: wp.array[wp.vec3],
+    v: wp.array[wp.vec3],
+):
+    """Gather the forces on every vertex and move it by symplectic Euler (Kosaka 2008, eqs. 3.22 and 3.23)."""
+    move_vertex(
+        wp.tid(),
+        corners,
+        vertex_joint,
+        vertex_balloon,
+        joint_first,
+        joint_around,
+        joint_segment,
+        vertex_along,
+        mass,
+        weight,
+        gravity,
+        drag,
+        dt,
+        spin,
+        target,
+        contact_force,
+        corner_force,
+        pressure,
+        ring_middle,
+        ring_area,
+        x,
+        x_next,
+        v,
+    )
