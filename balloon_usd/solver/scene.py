@@ -73,6 +73,10 @@ class Scene:
             self.segment_start[body] + self.bodies[body].spare_segments, self.segment_start[body + 1]
         )
 
+    def world_of_joint(self, joint: int) -> int:
+        """Sculpture of a ring."""
+        return self.worlds[int(np.searchsorted(self.joint_start, joint, side="right")) - 1]
+
     def put(self, host: Arrays) -> None:
         """Put host arrays on the device under their names."""
         for name, values in host.items():
@@ -139,6 +143,8 @@ def _hand_arrays(scene: Scene, welds: int) -> None:
     scene.zeros("weld_size", welds, int)
     scene.zeros("weld_reach", welds, float)
     scene.zeros("weld_gap", welds, float)
+    scene.zeros("joint_weld", joints, int)
+    scene.zeros("world_welds", max(scene.worlds) + 1, int)
 
 
 _VECTORS = {

@@ -2,10 +2,21 @@
 other. On the CPU every lane is alone.
 """
 
+from collections.abc import Callable
+from typing import TypeVar, cast
+
 import warp as wp
+
+Stub = TypeVar("Stub")
 
 WARP = 32
 """Lanes of a warp."""
+
+
+def _native(snippet: str) -> Callable[[Stub], Stub]:
+    """Return the decorator that gives a stub its code, with the stub's own type."""
+    return cast("Callable[[Stub], Stub]", wp.func_native(snippet))
+
 
 _SUM = """
 #if defined(__CUDA_ARCH__)
@@ -19,15 +30,15 @@ return value;
 """
 
 
-@wp.func_native(
+@_native(
     _SUM.format(type="float", add="total += __shfl_xor_sync(0xffffffffu, total, step);"),
 )
 def lanes_sum(value: float) -> float:
     """Return the sum over the lanes of a warp, in a fixed order."""
-    ...
+    return value
 
 
-@wp.func_native(
+@_native(
     _SUM.format(
         type="wp::vec_t<3, float>",
         add="for (int k = 0; k < 3; ++k) total[k] += __shfl_xor_sync(0xffffffffu, total[k], step);",
@@ -35,10 +46,10 @@ def lanes_sum(value: float) -> float:
 )
 def lanes_sum3(value: wp.vec3) -> wp.vec3:
     """Return the sum over the lanes of a warp, in a fixed order."""
-    ...
+    return value
 
 
-@wp.func_native("""
+@_native("""
 #if defined(__CUDA_ARCH__)
 __syncwarp();
 #endif
@@ -48,7 +59,7 @@ def lanes_meet():
     ...
 
 
-@wp.func_native("""
+@_native("""
 #if defined(__CUDA_ARCH__)
 __syncthreads();
 #endif
@@ -58,7 +69,7 @@ def block_meets():
     ...
 
 
-@wp.func_native("""
+@_native("""
 #if defined(__CUDA_ARCH__)
 __syncthreads();
 if (blocks > 1) {

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import warp as wp
+
 from balloon_usd.solver.kernels.contact import press_back, press_walls
 from balloon_usd.solver.kernels.fingers import press_fingers
 from balloon_usd.solver.kernels.gas import balloon_gas, segment_volumes
 from balloon_usd.solver.kernels.joints import hold_welds, load_struts, move_joints, weld_middles
 from balloon_usd.solver.kernels.membrane import quad_forces, vertex_stretch
 from balloon_usd.solver.kernels.motion import move_vertices
+from balloon_usd.solver.latex.crew import Crew
 from balloon_usd.solver.launch import Launcher
 from balloon_usd.solver.search_grid import SearchGrid
 from balloon_usd.solver.wall_search import WallSearch
@@ -45,6 +48,7 @@ class Stepper:
         self._launch = self._launcher.launch
         self._grid = SearchGrid(scene, reach, len(scene.quads))
         self._search = WallSearch(self._launcher, self._grid)
+        self._crew = Crew(scene) if wp.get_device(scene.device).is_cuda else None
         self._start()
 
     def _start(self) -> None:
@@ -69,6 +73,19 @@ class Stepper:
         self._launch(vertex_stretch, len(self.scene.x))
 
     def _frame(self, *, contact: bool, fingers: bool) -> None:
+        if self._crew is None:
+            self._step_by_step(contact=contact, fingers=fingers)
+            return
+        stride = SEARCH_EVERY if contact else self.substeps
+        for begin in range(0, self.substeps, stride):
+            if contact:
+                self._search.sort_quads(self.scene.x)
+                self._search.find(self.scene.x)
+            end = min(begin + stride, self.substeps)
+            self._crew.advance(self._launcher, self.substeps, begin, end, contact=contact, fingers=fingers)
+
+    def _step_by_step(self, *, contact: bool, fingers: bool) -> None:
+        """Advance by one frame, one kernel after the other."""
         s = self.scene
         here, there = s.x, s.x_next
         for k in range(self.substeps):

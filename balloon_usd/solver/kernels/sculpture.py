@@ -1,0 +1,345 @@
+"""Whole substeps of sculptures in one launch, for GPUs: blocks of lanes that share one sculpture and wait for
+each other, in place of a launch for each kernel.
+"""
+
+import warp as wp
+
+from balloon_usd.solver.kernels.contact import Touch, press_quad_back, press_wall
+from balloon_usd.solver.kernels.fingers import Finger, press_finger
+from balloon_usd.solver.kernels.gas import Air, advance_gas, share_of_volume, volume_of_fans
+from balloon_usd.solver.kernels.joints import Axes, hold_weld, load_strut, move_joint, weld_middle
+from balloon_usd.solver.kernels.lanes import WARP, block_meets, blocks_meet, lanes_meet, lanes_sum
+from balloon_usd.solver.kernels.membrane import quad_force
+from balloon_usd.solver.kernels.motion import Spin, move_vertex
+from balloon_usd.solver.kernels.rubber import Law
+
+LANES = 256
+"""Lanes of a block."""
+ALL = wp.constant(WARP)
+"""Lanes that share a joint or a segment."""
+
+
+@wp.kernel
+def advance_sculptures(
+    crew: int,
+    substeps: int,
+    begin: int,
+    end: int,
+    walls: int,
+    pressing: int,
+    world_balloon: wp.array[int],
+    world_quad: wp.array[int],
+    world_vertex: wp.array[int],
+    world_segment: wp.array[int],
+    world_joint: wp.array[int],
+    world_welds: wp.array[int],
+    joint_weld: wp.array[int],
+    quads: wp.array[wp.vec4i],
+    corners: wp.array[wp.vec4i],
+    quad_segment: wp.array[int],
+    quad_law: wp.array[int],
+    segment_quad: wp.array[int],
+    segment_quad_end: wp.array[int],
+    segment_origin: wp.array[int],
+    start_joint: wp.array[int],
+    end_joint: wp.array[int],
+    balloon_segment: wp.array[int],
+    balloon_segment_end: wp.array[int],
+    inlet: wp.array[int],
+    vertex_joint: wp.array[int],
+    vertex_balloon: wp.array[int],
+    vertex_along: wp.array[float],
+    joint_first: wp.array[int],
+    joint_around: wp.array[int],
+    joint_parts: wp.array[int],
+    joint_segment: wp.array[wp.vec2i],
+    joint_struts: wp.array2d[int],
+    strut_joint: wp.array[wp.vec2i],
+    weld_joint: wp.array2d[int],
+    weld_size: wp.array[int],
+    to_rest: wp.array[wp.mat22],
+    hourglass: wp.array[wp.vec4],
+    rubber_volume: wp.array[float],
+    laws: wp.array[Law],
+    softening_rate: wp.array[float],
+    mass: wp.array[float],
+    weight: wp.array[float],
+    joint_mass: wp.array[float],
+    gravity: wp.array[float],
+    drag: wp.array[float],
+    friction: wp.array[float],
+    air: Air,
+    touch: Touch,
+    strut_stiffness: wp.array[float],
+    strut_damping: wp.array[float],
+    strut_yield: wp.array[float],
+    weld_reach: wp.array[float],
+    weld_gap: wp.array[float],
+    dt: float,
+    frame_seconds: float,
+    hand: wp.array[int],
+    hand_from: wp.array[wp.vec3],
+    hand_to: wp.array[wp.vec3],
+    hand_free: wp.array[wp.vec3],
+    hand_force: wp.array[float],
+    hand_stiffness: wp.array[float],
+    radius_from: wp.array[float],
+    radius_to: wp.array[float],
+    open_from: wp.array[float],
+    open_to: wp.array[float],
+    pump_flow: wp.array[float],
+    pump_limit: wp.array[float],
+    pump_goal: wp.array[wp.float64],
+    spin: wp.array[Spin],
+    fingers: wp.array[Finger],
+    finger_share: wp.array[float],
+    x: wp.array[wp.vec3],
+    ring_middle: wp.array[wp.vec3],
+    ring_area: wp.array[wp.vec3],
+    volume: wp.array[float],
+    amount: wp.array[wp.float64],
+    pressure: wp.array[float],
+    area: wp.array[float],
+    quad_area: wp.array[wp.vec3],
+    target: wp.array2d[int],
+    hit_count: wp.array[int],
+    v: wp.array[wp.vec3],
+    slip: wp.array2d[wp.vec3],
+    contact_force: wp.array2d[wp.vec3],
+    contact_share: wp.array2d[wp.vec4],
+    hits: wp.array2d[int],
+    corner_force: wp.array2d[wp.vec3],
+    ring_speed: wp.array[wp.vec3],
+    strut_length: wp.array[float],
+    strut_force: wp.array[wp.vec3],
+    ring_axes: wp.array[Axes],
+    hand_load: wp.array[wp.vec3],
+    peak_energy: wp.array[float],
+    x_next: wp.array[wp.vec3],
+    gates: wp.array[int],
+):
+    """Advance every sculpture from substep `begin` to `end` of its frame.
+
+    `crew`: blocks of one sculpture, all of which must run at once. `walls`: 1 where walls can touch;
+    `pressing`: 1 where a finger presses. `gates`: zeros, at which its blocks meet.
+    """
+    tile, lane = wp.tid()
+    w = tile // crew
+    block = tile % crew
+    lanes = crew * wp.block_dim()
+    me = block * wp.block_dim() + lane
+    one = lane % ALL
+    warps = lanes // ALL
+    warp = me // ALL
+    # The first block sees to the gas; where there are others, these see to the walls meanwhile.
+    others = wp.max(lanes - wp.block_dim(), wp.min(lanes, wp.block_dim()))
+    other = wp.where(crew > 1, me - wp.block_dim(), me)
+    goal = int(0)
+    for k in range(begin, end):
+        fraction = float(k + 1) / float(substeps)
+        if pressing == 1:
+            for i in range(world_vertex[w] + me, world_vertex[w + 1], lanes):
+                press_finger(i, vertex_balloon, mass, fingers, finger_share, dt, fraction, x, v)
+            goal += crew
+            blocks_meet(gates, w, crew, goal, lane)
+        if block == 0:
+            for s in range(world_segment[w] + warp, world_segment[w + 1], wp.block_dim() // ALL):
+                o = x[segment_origin[s]]
+                total = lanes_sum(share_of_volume(s, one, ALL, quads, segment_quad, segment_quad_end, o, x))
+                if one == 0:
+                    volume[s] = total + volume_of_fans(s, start_joint, end_joint, ring_middle, ring_area, o)
+            block_meets()
+            for b in range(world_balloon[w] + lane, world_balloon[w + 1], wp.block_dim()):
+                advance_gas(
+                    b,
+                    balloon_segment,
+                    balloon_segment_end,
+                    end_joint,
+                    inlet,
+                    air,
+                    dt,
+                    fraction,
+                    open_from,
+                    open_to,
+                    pump_flow,
+                    pump_limit,
+                    pump_goal,
+                    volume,
+                    amount,
+                    pressure,
+                )
+        if other >= 0:
+            if walls == 1:
+                for i in range(world_vertex[w] + other, world_vertex[w + 1], others):
+                    press_wall(
+                        i,
+                        quads,
+                        mass,
+                        touch,
+                        friction,
+                        vertex_balloon,
+                        dt,
+                        area,
+                        quad_area,
+                        target,
+                        hit_count,
+                        x,
+                        v,
+                        slip,
+                        contact_force,
+                        contact_share,
+                    )
+            slots = joint_struts.shape[1]
+            for at in range(world_joint[w] * slots + other, world_joint[w + 1] * slots, others):
+                strut = joint_struts[at // slots, at % slots]
+                if strut > 0:
+                    load_strut(
+                        strut - 1,
+                        strut_joint,
+                        strut_stiffness,
+                        strut_damping,
+                        strut_yield,
+                        ring_middle,
+                        ring_speed,
+                        strut_length,
+                        strut_force,
+                    )
+        goal += crew
+        blocks_meet(gates, w, crew, goal, lane)
+        for q in range(world_quad[w] + me, world_quad[w + 1], lanes):
+            quad_force(
+                q,
+                quads,
+                quad_segment,
+                quad_law,
+                to_rest,
+                hourglass,
+                rubber_volume,
+                laws,
+                pressure,
+                x,
+                v,
+                softening_rate,
+                peak_energy,
+                corner_force,
+            )
+            if walls == 1:
+                press_quad_back(q, quads, hit_count, hits, contact_force, contact_share, x, corner_force)
+        goal += crew
+        blocks_meet(gates, w, crew, goal, lane)
+        for j in range(world_joint[w] + warp, world_joint[w + 1], warps):
+            first = joint_first[j]
+            for m in range(one, joint_around[j], ALL):
+                move_vertex(
+                    first + m,
+                    corners,
+                    vertex_joint,
+                    vertex_balloon,
+                    joint_first,
+                    joint_around,
+                    joint_segment,
+                    vertex_along,
+                    mass,
+                    weight,
+                    gravity,
+                    drag,
+                    dt,
+                    spin,
+                    target,
+                    contact_force,
+                    corner_force,
+                    pressure,
+                    ring_middle,
+                    ring_area,
+                    x,
+                    x_next,
+                    v,
+                )
+            lanes_meet()
+            move_joint(
+                j,
+                one,
+                ALL,
+                joint_first,
+                joint_around,
+                joint_parts,
+                joint_struts,
+                joint_mass,
+                dt,
+                frame_seconds,
+                fraction,
+                hand,
+                hand_from,
+                hand_to,
+                hand_free,
+                hand_force,
+                hand_stiffness,
+                radius_from,
+                radius_to,
+                strut_force,
+                x_next,
+                v,
+                ring_middle,
+                ring_area,
+                ring_axes,
+                ring_speed,
+                hand_load,
+            )
+            lanes_meet()
+            for m in range(one, joint_around[j], ALL):
+                x[first + m] = x_next[first + m]
+        for i in range(world_vertex[w] + lanes - 1 - me, world_vertex[w + 1], lanes):
+            if vertex_joint[i] < 0:
+                move_vertex(
+                    i,
+                    corners,
+                    vertex_joint,
+                    vertex_balloon,
+                    joint_first,
+                    joint_around,
+                    joint_segment,
+                    vertex_along,
+                    mass,
+                    weight,
+                    gravity,
+                    drag,
+                    dt,
+                    spin,
+                    target,
+                    contact_force,
+                    corner_force,
+                    pressure,
+                    ring_middle,
+                    ring_area,
+                    x,
+                    x,
+                    v,
+                )
+        goal += crew
+        blocks_meet(gates, w, crew, goal, lane)
+        if world_welds[w] > 0:
+            for j in range(world_joint[w] + warp, world_joint[w + 1], warps):
+                g = joint_weld[j] - 1
+                if g >= 0:
+                    hold_weld(
+                        g,
+                        one,
+                        ALL,
+                        weld_joint,
+                        weld_size,
+                        weld_reach,
+                        weld_gap,
+                        joint_first,
+                        joint_around,
+                        joint_mass,
+                        hand,
+                        dt,
+                        ring_middle,
+                        x,
+                        v,
+                    )
+                    lanes_meet()
+                    for m in range(weld_size[g]):
+                        weld_middle(weld_joint[g, m], one, ALL, joint_first, joint_around, x, ring_middle)
+            goal += crew
+            blocks_meet(gates, w, crew, goal, lane)

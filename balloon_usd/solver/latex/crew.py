@@ -1,0 +1,57 @@
+"""The crew of a GPU: how many blocks of lanes work on each sculpture, and on which part of the flat state."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import warp as wp
+
+from balloon_usd.solver.kernels.sculpture import LANES, advance_sculptures
+
+if TYPE_CHECKING:
+    from balloon_usd.solver.latex.scene import LatexScene
+    from balloon_usd.solver.launch import Launcher
+
+
+class Crew:
+    """Advances all sculptures of a scene by several substeps in one launch."""
+
+    def __init__(self, scene: LatexScene) -> None:
+        """Share out a GPU: as many blocks a sculpture as its quads fill and as run at once."""
+        self.scene = scene
+        worlds = max(scene.worlds) + 1
+        body = np.searchsorted(np.asarray(scene.worlds), np.arange(worlds + 1))
+        most = 0
+        for name, starts in (
+            ("balloon", np.arange(len(scene.bodies) + 1)),
+            ("quad", scene.quad_start),
+            ("vertex", scene.vertex_start),
+            ("segment", scene.segment_start),
+            ("joint", scene.joint_start),
+        ):
+            bounds = np.asarray(starts)[body].astype(np.int32)
+            scene.put({f"world_{name}": bounds})
+            if name == "quad":
+                most = int(np.diff(bounds).max())
+        at_once = wp.get_device(scene.device).sm_count // worlds
+        self.blocks = max(1, min(-(-most // LANES), at_once))
+        scene.zeros("gates", worlds, int)
+
+    def advance(
+        self, launcher: Launcher, substeps: int, begin: int, end: int, *, contact: bool, fingers: bool
+    ) -> None:
+        """Advance from one substep of a frame of so many to another."""
+        worlds = max(self.scene.worlds) + 1
+        self.scene.gates.zero_()
+        launcher.launch_tiled(
+            advance_sculptures,
+            worlds * self.blocks,
+            lanes=LANES,
+            crew=self.blocks,
+            substeps=substeps,
+            begin=begin,
+            end=end,
+            walls=int(contact),
+            pressing=int(fingers),
+        )
