@@ -242,11 +242,12 @@ def move_joints(
     ring_speed: wp.array[wp.vec3],
     hand_load: wp.array[wp.vec3],
 ):
-    """Hold, lead and close the ring of every joint."""
+    """Hold, lead and close the ring of every joint; a warp of lanes each on a GPU."""
+    j, lane = wp.tid()
     move_joint(
-        wp.tid(),
-        0,
-        1,
+        j,
+        lane,
+        wp.block_dim(),
         joint_first,
         joint_around,
         joint_parts,
@@ -339,11 +340,12 @@ def hold_welds(
     x: wp.array[wp.vec3],
     v: wp.array[wp.vec3],
 ):
-    """Keep the necks of every weld side by side."""
+    """Keep the necks of every weld side by side; a warp of lanes each on a GPU."""
+    g, lane = wp.tid()
     hold_weld(
-        wp.tid(),
-        0,
-        1,
+        g,
+        lane,
+        wp.block_dim(),
         weld_joint,
         weld_size,
         weld_reach,
@@ -388,9 +390,9 @@ def weld_middles(
     ring_middle: wp.array[wp.vec3],
 ):
     """Write the middles (m) of welded rings again, after they were moved."""
-    g, k = wp.tid()
-    if k < weld_size[g]:
-        weld_middle(weld_joint[g, k], 0, 1, joint_first, joint_around, x, ring_middle)
+    g, lane = wp.tid()
+    for k in range(weld_size[g]):
+        weld_middle(weld_joint[g, k], lane, wp.block_dim(), joint_first, joint_around, x, ring_middle)
 
 
 @wp.func

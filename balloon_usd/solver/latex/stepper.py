@@ -10,6 +10,7 @@ from balloon_usd.solver.kernels.contact import press_back, press_walls
 from balloon_usd.solver.kernels.fingers import press_fingers
 from balloon_usd.solver.kernels.gas import balloon_gas, segment_volumes
 from balloon_usd.solver.kernels.joints import hold_welds, load_struts, move_joints, weld_middles
+from balloon_usd.solver.kernels.lanes import WARP
 from balloon_usd.solver.kernels.membrane import quad_forces, vertex_stretch
 from balloon_usd.solver.kernels.motion import move_vertices
 from balloon_usd.solver.latex.crew import Crew
@@ -54,7 +55,7 @@ class Stepper:
     def _start(self) -> None:
         """Give rings their middles and chambers their gas before the first substep."""
         s = self.scene
-        self._launch(move_joints, len(s.joint_first), fraction=1.0)
+        self._launch_lanes(move_joints, len(s.joint_first), fraction=1.0)
         self._volumes()
         volume = s.volume.numpy().astype(float)
         amount = (s.start_gauge.numpy() + s.settings.atmosphere) * volume / float(s.air.molar_energy)
@@ -110,9 +111,12 @@ class Stepper:
             self._launch(press_back, quads, x=x)
         self._launch(move_vertices, vertices, x=x, x_next=x_next)
         self._launch(load_struts, len(s.strut_joint))
-        self._launch(move_joints, len(s.joint_first), x=x_next, fraction=fraction)
-        self._launch(hold_welds, len(s.weld_size), x=x_next)
-        self._launch(weld_middles, s.weld_joint.shape, x=x_next)
+        self._launch_lanes(move_joints, len(s.joint_first), x=x_next, fraction=fraction)
+        self._launch_lanes(hold_welds, len(s.weld_size), x=x_next)
+        self._launch_lanes(weld_middles, len(s.weld_size), x=x_next)
+
+    def _launch_lanes(self, kernel: Any, blocks: int, **changing: Any) -> None:
+        self._launcher.launch_tiled(kernel, blocks, lanes=WARP, **changing)
 
     def _volumes(self, **changing: Any) -> None:
         self._launcher.launch_tiled(segment_volumes, len(self.scene.segment_quad), **changing)
