@@ -168,12 +168,12 @@ class Hands:
         joint = np.zeros((rows, WELD_SLOTS), dtype=np.int32)
         size = np.zeros(rows, dtype=np.int32)
         reach, gap = np.zeros(rows, dtype=np.float32), np.zeros(rows, dtype=np.float32)
-        first = np.zeros(len(self.mode), dtype=np.int32)
+        of_joint = np.zeros(len(self.mode), dtype=np.int32)
         of_world = np.zeros(max(s.worlds) + 1, dtype=np.int32)
         for k, group in enumerate(self.welds):
             joint[k, : len(group)] = group
             size[k] = len(group)
-            first[group[0]] = k + 1
+            of_joint[list(group)] = k + 1
             of_world[s.world_of_joint(group[0])] += 1
             neck = float(self.neck[list(group)].mean())
             gap[k], reach[k] = 2.0 * neck, 2.0 * neck / np.sin(np.pi / max(len(group), 2))
@@ -182,7 +182,7 @@ class Hands:
             ("weld_size", size),
             ("weld_reach", reach),
             ("weld_gap", gap),
-            ("joint_weld", first),
+            ("joint_weld", of_joint),
             ("world_welds", of_world),
         ):
             s.arrays[name].assign(values)

@@ -144,6 +144,7 @@ def _hand_arrays(scene: Scene, welds: int) -> None:
     scene.zeros("weld_reach", welds, float)
     scene.zeros("weld_gap", welds, float)
     scene.zeros("joint_weld", joints, int)
+    scene.zeros("weld_shift", joints, wp.vec3)
     scene.zeros("world_welds", max(scene.worlds) + 1, int)
 
 

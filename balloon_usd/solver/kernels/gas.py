@@ -2,6 +2,8 @@
 
 import warp as wp
 
+from balloon_usd.solver.kernels.lanes import lanes_meet
+
 
 @wp.func
 def patch_volume(x0: wp.vec3, x1: wp.vec3, x2: wp.vec3, x3: wp.vec3):
@@ -11,19 +13,24 @@ def patch_volume(x0: wp.vec3, x1: wp.vec3, x2: wp.vec3, x3: wp.vec3):
 
 
 @wp.func
-def share_of_volume(
-    s: int,
+def chunk_volume(
+    chunk: int,
     lane: int,
     lanes: int,
     quads: wp.array[wp.vec4i],
-    segment_quad: wp.array[int],
-    segment_quad_end: wp.array[int],
-    o: wp.vec3,
+    quad_segment: wp.array[int],
+    chunk_quad: wp.array[int],
+    segment_origin: wp.array[int],
     x: wp.array[wp.vec3],
 ):
-    """Return a lane's share of the volume (m3) between a segment's wall and a point."""
+    """Return a lane's share of the volume (m3) between a chunk of a segment's wall and the segment's
+    origin.
+    """
     total = float(0.0)
-    for q in range(segment_quad[s] + lane, segment_quad_end[s], lanes):
+    begin = chunk_quad[chunk]
+    end = chunk_quad[chunk + 1]
+    o = x[segment_origin[quad_segment[begin]]]
+    for q in range(begin + lane, end, lanes):
         c = quads[q]
         total += patch_volume(x[c[0]] - o, x[c[1]] - o, x[c[2]] - o, x[c[3]] - o)
     return total
@@ -65,7 +72,10 @@ def segment_volumes(
     """
     s, lane = wp.tid()
     o = x[segment_origin[s]]
-    total = share_of_volume(s, lane, wp.block_dim(), quads, segment_quad, segment_quad_end, o, x)
+    total = float(0.0)
+    for q in range(segment_quad[s] + lane, segment_quad_end[s], wp.block_dim()):
+        c = quads[q]
+        total += patch_volume(x[c[0]] - o, x[c[1]] - o, x[c[2]] - o, x[c[3]] - o)
     sums = wp.tile_sum(wp.tile(total))
     if lane == 0:
         volume[s] = sums[0] + volume_of_fans(s, start_joint, end_joint, ring_middle, ring_area, o)
@@ -93,8 +103,110 @@ class Air:
 
 
 @wp.func
+def passage_of(joint: int, fraction: float, open_from: wp.array[float], open_to: wp.array[float]):
+    """Return the open area (m2) of the joint that ends a segment; 0 where there is none."""
+    if joint < 0:
+        return float(0.0)
+    return open_from[joint] + fraction * (open_to[joint] - open_from[joint])
+
+
+@wp.func
+def chamber_end(
+    segment: int,
+    fraction: float,
+    end_joint: wp.array[int],
+    open_from: wp.array[float],
+    open_to: wp.array[float],
+):
+    """Return the last segment of the chamber that a segment lies in."""
+    s = int(segment)
+    while passage_of(end_joint[s], fraction, open_from, open_to) >= WIDE_OPEN:
+        s += 1
+    return s
+
+
+@wp.func
+def begins_chamber(
+    s: int,
+    first: int,
+    fraction: float,
+    end_joint: wp.array[int],
+    open_from: wp.array[float],
+    open_to: wp.array[float],
+):
+    """Return whether a chamber begins at a segment."""
+    if s == first:
+        return True
+    return passage_of(end_joint[s - 1], fraction, open_from, open_to) < WIDE_OPEN
+
+
+@wp.func
+def press_chamber(
+    b: int,
+    begin: int,
+    end: int,
+    inlet: wp.array[int],
+    air: Air,
+    dt: float,
+    pump_flow: wp.array[float],
+    pump_limit: wp.array[float],
+    pump_goal: wp.array[wp.float64],
+    volume: wp.array[float],
+    room: wp.array[float],
+    amount: wp.array[wp.float64],
+    pressure: wp.array[float],
+):
+    """Pump gas into a chamber of segments and write its room (m3) and gauge pressure (Pa): ideal,
+    isothermal, p V = n R T. A chamber without gas of its own is open to the air (the nozzle's lip) and keeps
+    its pressure.
+    """
+    space = float(0.0)
+    gas = wp.float64(0.0)
+    for k in range(begin, end + 1):
+        space += volume[k]
+        gas += amount[k]
+    if begin <= inlet[b] and inlet[b] <= end and gas < pump_goal[b]:
+        here = float(gas * air.molar_energy) / space - air.atmosphere
+        inflow = wp.min(
+            pump_flow[b], pump_flow[b] * wp.max(pump_limit[b] - here, 0.0) / (0.1 * pump_limit[b])
+        )
+        added = wp.min(wp.float64(inflow * dt), pump_goal[b] - gas)
+        amount[inlet[b]] = amount[inlet[b]] + added
+        gas += added
+    if gas > wp.float64(0.0):
+        now = float(gas * air.molar_energy) / space - air.atmosphere
+        for k in range(begin, end + 1):
+            pressure[k] = now
+    room[end] = space
+
+
+@wp.func
+def blow_through(
+    s: int,
+    end: int,
+    gap: float,
+    air: Air,
+    dt: float,
+    room: wp.array[float],
+    pressure: wp.array[float],
+):
+    """Return the gas (mol) that flows in a substep through the neck behind segment `s`, an orifice of area
+    `gap` (m2), into the chamber that ends with segment `end`.
+    """
+    difference = pressure[s] - pressure[end]
+    speed = wp.sqrt(2.0 * wp.abs(difference) / air.density)
+    blown = air.discharge * gap * speed * dt * (pressure[end] + air.atmosphere)
+    # No more than a share of what would even out both chambers, were their walls rigid.
+    both = room[s] * room[end] / (room[s] + room[end])
+    most = air.equalise * wp.abs(difference) * both
+    return wp.float64(wp.sign(difference) * wp.min(blown, most)) / air.molar_energy
+
+
+@wp.func
 def advance_gas(
     b: int,
+    lane: int,
+    lanes: int,
     balloon_segment: wp.array[int],
     balloon_segment_end: wp.array[int],
     end_joint: wp.array[int],
@@ -108,60 +220,38 @@ def advance_gas(
     pump_limit: wp.array[float],
     pump_goal: wp.array[wp.float64],
     volume: wp.array[float],
+    room: wp.array[float],
+    flow: wp.array[wp.float64],
     amount: wp.array[wp.float64],
     pressure: wp.array[float],
 ):
-    """Advance one balloon's gas: pump, flow through closing necks, gauge pressure (Pa) of every chamber.
+    """Advance one balloon's gas: pump, gauge pressure (Pa) of every chamber, flow through closing necks.
 
-    Segments whose common neck is fully open form one chamber of ideal, isothermal gas, p V = n R T; a neck
-    that closes is an orifice. A chamber without gas of its own is open to the air (the nozzle's lip) and
-    keeps its pressure.
+    Segments whose common neck is fully open form one chamber; a neck that closes is an orifice.
     """
     first = balloon_segment[b]
     last = balloon_segment_end[b]
-    begin = int(first)
-    previous = int(-1)
-    room_before = float(0.0)
-    for s in range(first, last):
-        joint = end_joint[s]
-        passage = float(0.0)
-        if joint >= 0:
-            passage = open_from[joint] + fraction * (open_to[joint] - open_from[joint])
-        if passage < WIDE_OPEN:
-            room = float(0.0)
-            gas = wp.float64(0.0)
-            for k in range(begin, s + 1):
-                room += volume[k]
-                gas += amount[k]
-            if begin <= inlet[b] and inlet[b] <= s:
-                here = float(gas * air.molar_energy) / room - air.atmosphere
-                if gas < pump_goal[b]:
-                    inflow = wp.min(
-                        pump_flow[b], pump_flow[b] * wp.max(pump_limit[b] - here, 0.0) / (0.1 * pump_limit[b])
-                    )
-                    added = wp.min(wp.float64(inflow * dt), pump_goal[b] - gas)
-                    amount[inlet[b]] = amount[inlet[b]] + added
-                    gas += added
-            now = float(gas * air.molar_energy) / room - air.atmosphere
-            if gas > wp.float64(0.0):
-                for k in range(begin, s + 1):
-                    pressure[k] = now
-            if previous >= 0:
-                neck = end_joint[previous]
-                gap = open_from[neck] + fraction * (open_to[neck] - open_from[neck])
-                if gap > 0.0:
-                    difference = pressure[previous] - now
-                    speed = wp.sqrt(2.0 * wp.abs(difference) / air.density)
-                    blown = air.discharge * gap * speed * dt * (now + air.atmosphere)
-                    # No more than a share of what would even out both chambers, were their walls rigid.
-                    both = room_before * room / (room_before + room)
-                    most = air.equalise * wp.abs(difference) * both
-                    moved = wp.float64(wp.sign(difference) * wp.min(blown, most)) / air.molar_energy
-                    amount[previous] = amount[previous] - moved
-                    amount[s] = amount[s] + moved
-            previous = s
-            room_before = room
-            begin = s + 1
+    for s in range(first + lane, last, lanes):
+        if begins_chamber(s, first, fraction, end_joint, open_from, open_to):
+            end = chamber_end(s, fraction, end_joint, open_from, open_to)
+            press_chamber(
+                b, s, end, inlet, air, dt, pump_flow, pump_limit, pump_goal, volume, room, amount, pressure
+            )
+    lanes_meet()
+    for s in range(first + lane, last, lanes):
+        gap = passage_of(end_joint[s], fraction, open_from, open_to)
+        flow[s] = wp.float64(0.0)
+        if gap > 0.0 and gap < WIDE_OPEN:
+            end = chamber_end(s + 1, fraction, end_joint, open_from, open_to)
+            flow[s] = blow_through(s, end, gap, air, dt, room, pressure)
+    lanes_meet()
+    for s in range(first + lane, last, lanes):
+        # What a neck lets through leaves one chamber's last segment for the next one's.
+        if begins_chamber(s, first, fraction, end_joint, open_from, open_to):
+            end = chamber_end(s, fraction, end_joint, open_from, open_to)
+            if s > first:
+                amount[end] = amount[end] + flow[s - 1]
+            amount[end] = amount[end] - flow[end]
 
 
 @wp.kernel
@@ -179,12 +269,16 @@ def balloon_gas(
     pump_limit: wp.array[float],
     pump_goal: wp.array[wp.float64],
     volume: wp.array[float],
+    room: wp.array[float],
+    flow: wp.array[wp.float64],
     amount: wp.array[wp.float64],
     pressure: wp.array[float],
 ):
     """Advance the gas of every balloon."""
     advance_gas(
         wp.tid(),
+        0,
+        1,
         balloon_segment,
         balloon_segment_end,
         end_joint,
@@ -198,6 +292,8 @@ def balloon_gas(
         pump_limit,
         pump_goal,
         volume,
+        room,
+        flow,
         amount,
         pressure,
     )

@@ -165,12 +165,13 @@ def move_joint(
     c = lanes_sum3(c) / float(n)
     w = lanes_sum3(w) / float(n)
     force = wp.vec3(0.0)
-    for k in range(joint_struts.shape[1]):
+    for k in range(lane, joint_struts.shape[1], lanes):
         s = joint_struts[j, k]
         if s > 0:
             force += strut_force[s - 1]
         elif s < 0:
             force -= strut_force[-s - 1]
+    force = lanes_sum3(force)
     goal = hand_from[j] + fraction * (hand_to[j] - hand_from[j])
     wanted = (hand_to[j] - hand_from[j]) / frame_seconds
     load = wp.vec3(0.0)
@@ -286,10 +287,11 @@ def pair_shift(here: wp.vec3, there: wp.vec3, share: float, gap: float, reach: f
 
 
 @wp.func
-def hold_weld(
-    g: int,
+def weld_joint_to_others(
+    j: int,
     lane: int,
     lanes: int,
+    joint_weld: wp.array[int],
     weld_joint: wp.array2d[int],
     weld_size: wp.array[int],
     weld_reach: wp.array[float],
@@ -302,31 +304,34 @@ def hold_weld(
     ring_middle: wp.array[wp.vec3],
     x: wp.array[wp.vec3],
     v: wp.array[wp.vec3],
+    weld_shift: wp.array[wp.vec3],
 ):
-    """Keep the necks of a weld side by side: each pair at least its gap (m) and at most its reach (m)
-    apart.
+    """Keep the neck of a joint beside the others of its weld, each pair at least its gap (m) and at most its
+    reach (m) apart; write how far it moves (m).
     """
-    size = weld_size[g]
-    for k in range(size):
-        j = weld_joint[g, k]
-        if held(hand[j]) == 0:
-            shift = wp.vec3(0.0)
-            for m in range(size):
-                if m != k:
-                    other = weld_joint[g, m]
-                    share = float(1.0)
-                    if held(hand[other]) == 0:
-                        share = joint_mass[other] / (joint_mass[j] + joint_mass[other])
-                    shift += pair_shift(ring_middle[j], ring_middle[other], share, weld_gap[g], weld_reach[g])
-            shift = shift / wp.max(float(size - 1), 1.0)
-            for m in range(lane, joint_around[j], lanes):
-                i = joint_first[j] + m
-                x[i] = x[i] + shift
-                v[i] = v[i] + shift / dt
+    g = joint_weld[j] - 1
+    if g >= 0 and held(hand[j]) == 0:
+        size = weld_size[g]
+        shift = wp.vec3(0.0)
+        for m in range(lane, size, lanes):
+            other = weld_joint[g, m]
+            if other != j:
+                share = float(1.0)
+                if held(hand[other]) == 0:
+                    share = joint_mass[other] / (joint_mass[j] + joint_mass[other])
+                shift += pair_shift(ring_middle[j], ring_middle[other], share, weld_gap[g], weld_reach[g])
+        shift = lanes_sum3(shift) / wp.max(float(size - 1), 1.0)
+        for m in range(lane, joint_around[j], lanes):
+            i = joint_first[j] + m
+            x[i] = x[i] + shift
+            v[i] = v[i] + shift / dt
+        if lane == 0:
+            weld_shift[j] = shift
 
 
 @wp.kernel
 def hold_welds(
+    joint_weld: wp.array[int],
     weld_joint: wp.array2d[int],
     weld_size: wp.array[int],
     weld_reach: wp.array[float],
@@ -339,13 +344,15 @@ def hold_welds(
     ring_middle: wp.array[wp.vec3],
     x: wp.array[wp.vec3],
     v: wp.array[wp.vec3],
+    weld_shift: wp.array[wp.vec3],
 ):
-    """Keep the necks of every weld side by side; a warp of lanes each on a GPU."""
-    g, lane = wp.tid()
-    hold_weld(
-        g,
+    """Keep the necks of every weld side by side; a warp of lanes for each joint on a GPU."""
+    j, lane = wp.tid()
+    weld_joint_to_others(
+        j,
         lane,
         wp.block_dim(),
+        joint_weld,
         weld_joint,
         weld_size,
         weld_reach,
@@ -358,41 +365,21 @@ def hold_welds(
         ring_middle,
         x,
         v,
+        weld_shift,
     )
 
 
 @wp.func
-def weld_middle(
-    j: int,
-    lane: int,
-    lanes: int,
-    joint_first: wp.array[int],
-    joint_around: wp.array[int],
-    x: wp.array[wp.vec3],
-    ring_middle: wp.array[wp.vec3],
-):
-    """Write the middle (m) of a welded ring again, after it was moved."""
-    c = wp.vec3(0.0)
-    for m in range(lane, joint_around[j], lanes):
-        c += x[joint_first[j] + m]
-    c = lanes_sum3(c) / float(joint_around[j])
-    if lane == 0:
-        ring_middle[j] = c
+def shift_middle(j: int, weld_shift: wp.array[wp.vec3], ring_middle: wp.array[wp.vec3]):
+    """Move the middle (m) of a ring as its weld has moved the ring."""
+    ring_middle[j] = ring_middle[j] + weld_shift[j]
+    weld_shift[j] = wp.vec3(0.0)
 
 
 @wp.kernel
-def weld_middles(
-    weld_joint: wp.array2d[int],
-    weld_size: wp.array[int],
-    joint_first: wp.array[int],
-    joint_around: wp.array[int],
-    x: wp.array[wp.vec3],
-    ring_middle: wp.array[wp.vec3],
-):
-    """Write the middles (m) of welded rings again, after they were moved."""
-    g, lane = wp.tid()
-    for k in range(weld_size[g]):
-        weld_middle(weld_joint[g, k], lane, wp.block_dim(), joint_first, joint_around, x, ring_middle)
+def shift_middles(weld_shift: wp.array[wp.vec3], ring_middle: wp.array[wp.vec3]):
+    """Move the middles (m) of all rings as their welds have moved these."""
+    shift_middle(wp.tid(), weld_shift, ring_middle)
 
 
 @wp.func

@@ -6,8 +6,8 @@ import warp as wp
 
 from balloon_usd.solver.kernels.contact import Touch, press_quad_back, press_wall
 from balloon_usd.solver.kernels.fingers import Finger, press_finger
-from balloon_usd.solver.kernels.gas import Air, advance_gas, share_of_volume, volume_of_fans
-from balloon_usd.solver.kernels.joints import Axes, hold_weld, load_strut, move_joint, weld_middle
+from balloon_usd.solver.kernels.gas import Air, advance_gas, chunk_volume, volume_of_fans
+from balloon_usd.solver.kernels.joints import Axes, load_strut, move_joint, shift_middle, weld_joint_to_others
 from balloon_usd.solver.kernels.lanes import WARP, block_meets, blocks_meet, lanes_meet, lanes_sum
 from balloon_usd.solver.kernels.membrane import quad_force
 from balloon_usd.solver.kernels.motion import Spin, move_vertex
@@ -16,7 +16,7 @@ from balloon_usd.solver.kernels.rubber import Law
 LANES = 256
 """Lanes of a block."""
 ALL = wp.constant(WARP)
-"""Lanes that share a joint or a segment."""
+"""Lanes that share a joint, a chunk or a segment."""
 
 
 @wp.kernel
@@ -33,14 +33,14 @@ def advance_sculptures(
     world_segment: wp.array[int],
     world_joint: wp.array[int],
     world_welds: wp.array[int],
-    joint_weld: wp.array[int],
+    world_chunk: wp.array[int],
+    segment_chunk: wp.array[int],
     quads: wp.array[wp.vec4i],
     corners: wp.array[wp.vec4i],
     quad_segment: wp.array[int],
     quad_law: wp.array[int],
-    segment_quad: wp.array[int],
-    segment_quad_end: wp.array[int],
     segment_origin: wp.array[int],
+    chunk_quad: wp.array[int],
     start_joint: wp.array[int],
     end_joint: wp.array[int],
     balloon_segment: wp.array[int],
@@ -55,6 +55,7 @@ def advance_sculptures(
     joint_segment: wp.array[wp.vec2i],
     joint_struts: wp.array2d[int],
     strut_joint: wp.array[wp.vec2i],
+    joint_weld: wp.array[int],
     weld_joint: wp.array2d[int],
     weld_size: wp.array[int],
     to_rest: wp.array[wp.mat22],
@@ -97,6 +98,8 @@ def advance_sculptures(
     ring_middle: wp.array[wp.vec3],
     ring_area: wp.array[wp.vec3],
     volume: wp.array[float],
+    room: wp.array[float],
+    flow: wp.array[wp.float64],
     amount: wp.array[wp.float64],
     pressure: wp.array[float],
     area: wp.array[float],
@@ -114,8 +117,10 @@ def advance_sculptures(
     strut_force: wp.array[wp.vec3],
     ring_axes: wp.array[Axes],
     hand_load: wp.array[wp.vec3],
+    weld_shift: wp.array[wp.vec3],
     peak_energy: wp.array[float],
     x_next: wp.array[wp.vec3],
+    chunk_share: wp.array[float],
     gates: wp.array[int],
 ):
     """Advance every sculpture from substep `begin` to `end` of its frame.
@@ -142,16 +147,27 @@ def advance_sculptures(
                 press_finger(i, vertex_balloon, mass, fingers, finger_share, dt, fraction, x, v)
             goal += crew
             blocks_meet(gates, w, crew, goal, lane)
+        for c in range(world_chunk[w] + warp, world_chunk[w + 1], warps):
+            share = lanes_sum(chunk_volume(c, one, ALL, quads, quad_segment, chunk_quad, segment_origin, x))
+            if one == 0:
+                chunk_share[c] = share
+        goal += crew
+        blocks_meet(gates, w, crew, goal, lane)
         if block == 0:
             for s in range(world_segment[w] + warp, world_segment[w + 1], wp.block_dim() // ALL):
-                o = x[segment_origin[s]]
-                total = lanes_sum(share_of_volume(s, one, ALL, quads, segment_quad, segment_quad_end, o, x))
+                total = float(0.0)
+                for c in range(segment_chunk[s] + one, segment_chunk[s + 1], ALL):
+                    total += chunk_share[c]
+                total = lanes_sum(total)
                 if one == 0:
+                    o = x[segment_origin[s]]
                     volume[s] = total + volume_of_fans(s, start_joint, end_joint, ring_middle, ring_area, o)
             block_meets()
-            for b in range(world_balloon[w] + lane, world_balloon[w + 1], wp.block_dim()):
+            for b in range(world_balloon[w] + warp, world_balloon[w + 1], wp.block_dim() // ALL):
                 advance_gas(
                     b,
+                    one,
+                    ALL,
                     balloon_segment,
                     balloon_segment_end,
                     end_joint,
@@ -165,6 +181,8 @@ def advance_sculptures(
                     pump_limit,
                     pump_goal,
                     volume,
+                    room,
+                    flow,
                     amount,
                     pressure,
                 )
@@ -319,27 +337,26 @@ def advance_sculptures(
         blocks_meet(gates, w, crew, goal, lane)
         if world_welds[w] > 0:
             for j in range(world_joint[w] + warp, world_joint[w + 1], warps):
-                g = joint_weld[j] - 1
-                if g >= 0:
-                    hold_weld(
-                        g,
-                        one,
-                        ALL,
-                        weld_joint,
-                        weld_size,
-                        weld_reach,
-                        weld_gap,
-                        joint_first,
-                        joint_around,
-                        joint_mass,
-                        hand,
-                        dt,
-                        ring_middle,
-                        x,
-                        v,
-                    )
-                    lanes_meet()
-                    for m in range(weld_size[g]):
-                        weld_middle(weld_joint[g, m], one, ALL, joint_first, joint_around, x, ring_middle)
+                weld_joint_to_others(
+                    j,
+                    one,
+                    ALL,
+                    joint_weld,
+                    weld_joint,
+                    weld_size,
+                    weld_reach,
+                    weld_gap,
+                    joint_first,
+                    joint_around,
+                    joint_mass,
+                    hand,
+                    dt,
+                    ring_middle,
+                    x,
+                    v,
+                    weld_shift,
+                )
             goal += crew
             blocks_meet(gates, w, crew, goal, lane)
+            for j in range(world_joint[w] + me, world_joint[w + 1], lanes):
+                shift_middle(j, weld_shift, ring_middle)

@@ -7,9 +7,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 import warp as wp
 
+from balloon_usd.solver.kernels.lanes import WARP
 from balloon_usd.solver.kernels.sculpture import LANES, advance_sculptures
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from balloon_usd.solver.latex.scene import LatexScene
     from balloon_usd.solver.launch import Launcher
 
@@ -22,6 +25,9 @@ class Crew:
         self.scene = scene
         worlds = max(scene.worlds) + 1
         body = np.searchsorted(np.asarray(scene.worlds), np.arange(worlds + 1))
+        chunks, first_chunk = _chunks(scene.segment_quad.numpy(), scene.segment_quad_end.numpy())
+        scene.put({"chunk_quad": chunks, "segment_chunk": first_chunk})
+        scene.zeros("chunk_share", len(chunks) - 1, float)
         most = 0
         for name, starts in (
             ("balloon", np.arange(len(scene.bodies) + 1)),
@@ -29,6 +35,7 @@ class Crew:
             ("vertex", scene.vertex_start),
             ("segment", scene.segment_start),
             ("joint", scene.joint_start),
+            ("chunk", first_chunk[np.asarray(scene.segment_start)]),
         ):
             bounds = np.asarray(starts)[body].astype(np.int32)
             scene.put({f"world_{name}": bounds})
@@ -55,3 +62,15 @@ class Crew:
             walls=int(contact),
             pressing=int(fingers),
         )
+
+
+def _chunks(begin: NDArray[np.int32], end: NDArray[np.int32]) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Cut segments, from quad `begin` to `end` (S,) each, into chunks that a warp measures at once.
+
+    Returns the first quad of every chunk (C + 1,), and the first chunk of every segment (S + 1,).
+    """
+    count = -(-(end - begin) // WARP)
+    first = np.concatenate([[0], np.cumsum(count)]).astype(np.int32)
+    within = np.arange(first[-1]) - np.repeat(first[:-1], count)
+    starts = np.repeat(begin, count) + WARP * within
+    return np.append(starts, end[-1]).astype(np.int32), first

@@ -97,7 +97,9 @@ def _state_arrays(scene: LatexScene, strut_count: int) -> None:
     a["peak_energy"] = wp.array(worked, dtype=float, device=scene.device)
     a["softening_rate"] = wp.full(balloons, 1.0, dtype=float, device=scene.device)
     scene.zeros("pressure", segments, float)
-    scene.zeros("amount", segments, wp.float64)
+    scene.zeros("room", segments, float)
+    for name in ("amount", "flow"):
+        scene.zeros(name, segments, wp.float64)
     scene.zeros("corner_force", (quads, 4), wp.vec3)
     for name in ("open_from", "open_to"):
         scene.zeros(name, joints, float)

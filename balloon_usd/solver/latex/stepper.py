@@ -9,7 +9,7 @@ import warp as wp
 from balloon_usd.solver.kernels.contact import press_back, press_walls
 from balloon_usd.solver.kernels.fingers import press_fingers
 from balloon_usd.solver.kernels.gas import balloon_gas, segment_volumes
-from balloon_usd.solver.kernels.joints import hold_welds, load_struts, move_joints, weld_middles
+from balloon_usd.solver.kernels.joints import hold_welds, load_struts, move_joints, shift_middles
 from balloon_usd.solver.kernels.lanes import WARP
 from balloon_usd.solver.kernels.membrane import quad_forces, vertex_stretch
 from balloon_usd.solver.kernels.motion import move_vertices
@@ -21,8 +21,8 @@ from balloon_usd.solver.wall_search import WallSearch
 if TYPE_CHECKING:
     from balloon_usd.solver.latex.scene import LatexScene
 
-SEARCH_EVERY = 10
-"""Substeps between two searches for facing walls."""
+SEARCH_SECONDS = 1.0 / 240.0
+"""Time between two searches for facing walls, s."""
 
 
 class Stepper:
@@ -45,6 +45,7 @@ class Stepper:
         self.substeps = substeps
         dt = scene.settings.dt
         values: dict[str, Any] = {"dt": dt, "frame_seconds": dt * substeps, "air": scene.air}
+        self._search_every = max(1, round(SEARCH_SECONDS / dt))
         self._launcher = Launcher(scene, values)
         self._launch = self._launcher.launch
         self._grid = SearchGrid(scene, reach, len(scene.quads))
@@ -77,7 +78,7 @@ class Stepper:
         if self._crew is None:
             self._step_by_step(contact=contact, fingers=fingers)
             return
-        stride = SEARCH_EVERY if contact else self.substeps
+        stride = self._search_every if contact else self.substeps
         for begin in range(0, self.substeps, stride):
             if contact:
                 self._search.sort_quads(self.scene.x)
@@ -90,7 +91,7 @@ class Stepper:
         s = self.scene
         here, there = s.x, s.x_next
         for k in range(self.substeps):
-            if contact and k % SEARCH_EVERY == 0:
+            if contact and k % self._search_every == 0:
                 self._search.sort_quads(here)
                 self._search.find(here)
             fraction = (k + 1) / self.substeps
@@ -112,8 +113,8 @@ class Stepper:
         self._launch(move_vertices, vertices, x=x, x_next=x_next)
         self._launch(load_struts, len(s.strut_joint))
         self._launch_lanes(move_joints, len(s.joint_first), x=x_next, fraction=fraction)
-        self._launch_lanes(hold_welds, len(s.weld_size), x=x_next)
-        self._launch_lanes(weld_middles, len(s.weld_size), x=x_next)
+        self._launch_lanes(hold_welds, len(s.joint_first), x=x_next)
+        self._launch(shift_middles, len(s.joint_first))
 
     def _launch_lanes(self, kernel: Any, blocks: int, **changing: Any) -> None:
         self._launcher.launch_tiled(kernel, blocks, lanes=WARP, **changing)
