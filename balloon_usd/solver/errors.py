@@ -11,18 +11,21 @@ if TYPE_CHECKING:
 class SimulationFailed(Exception):  # noqa: N818
     """The physics of a sculpture broke down; the message says when, during what, and why."""
 
-    def __init__(self, step: str, time: float, cause: str) -> None:
+    def __init__(self, step: str, time: float, cause: str, frame: int | None = None) -> None:
         """Say what happened.
 
         Args:
             step: what the hands were doing.
             time: since the start of the animation (s).
-            cause: what was found, one sentence.
+            cause: what was found, where, and what helps.
+            frame: the first frame that is wrong, counted from 1; None if that is not known.
         """
         self.step = step
         self.time = time
         self.cause = cause
-        super().__init__(f"at {time:.2f} s, {step}: {cause}")
+        self.frame = frame
+        place = "" if frame is None else f" (frame {frame})"
+        super().__init__(f"at {time:.2f} s{place}, {step}: {cause}")
 
 
 class DeviceUnavailable(Exception):  # noqa: N818

@@ -153,6 +153,7 @@ _VECTORS = {
     "corners": wp.vec4i,
     "to_rest": wp.mat22,
     "hourglass": wp.vec4,
+    "corner": wp.vec2,
     "joint_segment": wp.vec2i,
     "air": wp.vec3,
     "spring_ends": wp.vec4i,

@@ -47,7 +47,9 @@ class Simulation:
             tuple(mesh_of(strip, detail) for strip in plan.strips.values()) for plan in self.plans
         ]
         self.model: Model = MODELS[model](self.plans, self.meshes, self.fps, self.substeps, device)
-        self.watches = [Watch(plan, m, self.fps) for plan, m in zip(self.plans, self.meshes, strict=True)]
+        self.watches = [
+            Watch(plan, m, self.fps, self.substeps) for plan, m in zip(self.plans, self.meshes, strict=True)
+        ]
 
     @property
     def frame_counts(self) -> tuple[int, ...]:
@@ -82,7 +84,7 @@ class Simulation:
         if cause is None:
             return frame
         self.model.give_up(world)
-        return SimulationFailed(frame.doing, index / self.fps, cause)
+        return SimulationFailed(frame.doing, index / self.fps, cause, index + 1)
 
 
 def _the_one(what: str, values: Sequence[T]) -> T:

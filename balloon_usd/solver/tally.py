@@ -43,8 +43,8 @@ class Tally:
 
     @property
     def bursts(self) -> bool:
-        """Whether latex would not have borne the highest stretch."""
-        return self.highest_stretch > BURST_STRETCH
+        """Whether latex would not have borne the highest stretch; springs do not burst."""
+        return self._plan.recipe.physics.model == "latex" and self.highest_stretch > BURST_STRETCH
 
     @property
     def tails_left(self) -> dict[str, float]:

@@ -8,15 +8,21 @@ import numpy as np
 
 from balloon_usd.balloon.rubber import BURST_STRETCH
 from balloon_usd.solver.kernels.contact import HITS
+from balloon_usd.solver.remedy import steadier
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from numpy.typing import NDArray
+
     from balloon_usd.balloon.tube_mesh import BalloonMesh
-    from balloon_usd.plan import Plan
+    from balloon_usd.plan import Plan, Strip
     from balloon_usd.solver.frame import Frame
 
 FASTEST = 5.0
 """Speed that no part of a balloon reaches between two frames unless the run has gone unstable, m/s."""
-STEADIER = "more substeps (physics: substeps) or a longer step (seconds) make the run steadier"
+FARTHEST = 1.0e3
+"""Distance beyond which nothing is told any more, m: what has exploded is everywhere."""
 LOWEST_PRESSURE = -20.0e3
 """Gauge pressure that no bubble of a balloon reaches, Pa: hands do not suck."""
 
@@ -24,14 +30,15 @@ LOWEST_PRESSURE = -20.0e3
 class Watch:
     """Checks the frames of one sculpture, one after another."""
 
-    def __init__(self, plan: Plan, meshes: tuple[BalloonMesh, ...], fps: float) -> None:
+    def __init__(self, plan: Plan, meshes: tuple[BalloonMesh, ...], fps: float, substeps: int) -> None:
         self._plan = plan
         self._meshes = meshes
         self._fps = fps
+        self._substeps = substeps
         self._last: Frame | None = None
 
     def failure(self, frame: Frame) -> str | None:
-        """Return what is wrong with a frame, one sentence, or None."""
+        """Return what is wrong with a frame, where and what helps, or None."""
         cause = (
             self._not_finite(frame) or self._impossible(frame) or self._too_fast(frame) or self._burst(frame)
         )
@@ -39,10 +46,24 @@ class Watch:
         return cause
 
     def _not_finite(self, frame: Frame) -> str | None:
-        for points, strip in zip(frame.points, self._plan.strips.values(), strict=True):
-            if not np.isfinite(points).all():
-                return f"balloon {strip.balloon} has flown apart; {STEADIER}"
+        """Tell of a wall, stretch or gas that is no number any more."""
+        for index, (strip, mesh, points) in enumerate(self._balloons(frame)):
+            lost = ~(np.isfinite(points).all(axis=1) & np.isfinite(frame.stretch[index]))
+            if lost.any():
+                share = f"{lost.sum()} of {len(lost)} vertices are no numbers any more"
+                where = self._begun(index) if lost.all() else self._name(strip, mesh, int(np.argmax(lost)))
+                return f"{where} has flown apart: {share}; {self._steadier()}"
+        for bubble, volume in zip(self._plan.bubbles, frame.volume, strict=True):
+            if not np.isfinite(volume):
+                return f"the gas of {bubble.name} is no number any more; {self._steadier()}"
         return None
+
+    def _begun(self, index: int) -> str:
+        """Return where a balloon that is wholly lost was stretched most in the frame before."""
+        strip, mesh = list(self._plan.strips.values())[index], self._meshes[index]
+        if self._last is None:
+            return f"balloon {strip.balloon}"
+        return self._name(strip, mesh, int(np.argmax(self._last.stretch[index])))
 
     def _impossible(self, frame: Frame) -> str | None:
         """Tell of a bubble that has turned inside out: what follows would be no physics."""
@@ -54,21 +75,38 @@ class Watch:
     def _too_fast(self, frame: Frame) -> str | None:
         if self._last is None:
             return None
-        pairs = zip(frame.points, self._last.points, strict=True)
-        fastest = max(float(np.abs(now - then).max()) for now, then in pairs) * self._fps
-        if fastest <= FASTEST:
+        worst, where = 0.0, ""
+        for (strip, mesh, now), then in zip(self._balloons(frame), self._last.points, strict=True):
+            moved = np.abs(now - then).max(axis=1)
+            vertex = int(np.argmax(moved))
+            if moved[vertex] > worst:
+                worst, where = float(moved[vertex]), self._name(strip, mesh, vertex)
+        if worst * self._fps <= FASTEST:
             return None
-        return f"a part moves at {fastest:.1f} m/s, faster than hands can move it; {STEADIER}"
+        if worst > FARTHEST:
+            return f"{where} has flown apart; {self._steadier()}"
+        speed = f"{worst * self._fps:.1f} m/s"
+        return f"a part of {where} moves at {speed}, faster than hands can move it; {self._steadier()}"
 
     def _burst(self, frame: Frame) -> str | None:
         if self._plan.recipe.physics.burst != "stop":
             return None
-        for stretch, mesh, strip in zip(frame.stretch, self._meshes, self._plan.strips.values(), strict=True):
+        for (strip, mesh, _), stretch in zip(self._balloons(frame), frame.stretch, strict=True):
             worst = int(np.argmax(stretch))
             if stretch[worst] > BURST_STRETCH:
-                bubble = strip.bubble_at(float(mesh.along[worst])).name
+                bubble = self._name(strip, mesh, worst)
                 return f"{bubble} bursts: stretch {stretch[worst]:.1f}, latex bears {BURST_STRETCH:.1f}"
         return None
+
+    def _balloons(self, frame: Frame) -> Iterator[tuple[Strip, BalloonMesh, NDArray[np.float32]]]:
+        return zip(self._plan.strips.values(), self._meshes, frame.points, strict=True)
+
+    def _name(self, strip: Strip, mesh: BalloonMesh, vertex: int) -> str:
+        """Return the bubble that a vertex belongs to."""
+        return strip.bubble_at(float(mesh.along[vertex])).name
+
+    def _steadier(self) -> str:
+        return steadier(self._plan.recipe, self._substeps)
 
 
 def crowded(most_hits: int) -> str | None:

@@ -43,32 +43,25 @@ Axes = wp.types.matrix(shape=(3, 2), dtype=float)
 
 
 @wp.func
-def turned(p: wp.vec2, turn: wp.vec2):
-    """Return a plane vector turned by the angle whose cosine and sine are given."""
-    return wp.vec2(p[0] * turn[0] - p[1] * turn[1], p[0] * turn[1] + p[1] * turn[0])
-
-
-@wp.func
-def direction(angle: float):
-    """Return the cosine and sine of an angle (radians)."""
-    return wp.vec2(wp.cos(angle), wp.sin(angle))
-
-
-@wp.func
-def regular_ring(x: wp.array[wp.vec3], first: int, around: int, c: wp.vec3, lane: int, lanes: int):
+def regular_ring(
+    x: wp.array[wp.vec3],
+    corner: wp.array[wp.vec2],
+    first: int,
+    around: int,
+    c: wp.vec3,
+    lane: int,
+    lanes: int,
+):
     """Return the two in-plane axes of the regular polygon nearest to a ring, as columns (polar
     decomposition).
     """
     a = wp.vec3(0.0)
     b = wp.vec3(0.0)
-    step = 2.0 * wp.pi / float(around)
-    turn = direction(step * float(lanes))
-    at = direction(step * float(lane))
     for k in range(lane, around, lanes):
         d = x[first + k] - c
+        at = corner[first + k]
         a += d * at[0]
         b += d * at[1]
-        at = turned(at, turn)
     a = wp.normalize(lanes_sum3(a))
     b = wp.normalize(lanes_sum3(b))
     s = wp.normalize(a + b)
@@ -88,6 +81,7 @@ def close_ring(
     axes: Axes,
     lane: int,
     lanes: int,
+    corner: wp.array[wp.vec2],
     x: wp.array[wp.vec3],
     v: wp.array[wp.vec3],
 ):
@@ -97,14 +91,10 @@ def close_ring(
     rounding, which over a second adds up.
     """
     normal = wp.cross(axes * wp.vec2(1.0, 0.0), axes * wp.vec2(0.0, 1.0))
-    step = 2.0 * wp.pi / float(n)
-    turn = direction(step * float(lanes))
-    corner = radius * direction(step * float(lane))
     push = wp.vec3(0.0)
     twist = wp.vec3(0.0)
     for k in range(lane, n, lanes):
-        arm = axes * corner
-        corner = turned(corner, turn)
+        arm = axes * (radius * corner[first + k])
         moved = c + arm - x[first + k]
         push += moved
         twist += wp.cross(arm, moved) / dt + wp.cross(moved, v[first + k] - speed)
@@ -118,7 +108,9 @@ def close_ring(
         spin = (2.0 * twist - wp.dot(twist, normal) * normal) / (float(n) * radius * radius)
     for k in range(lane, n, lanes):
         v[first + k] = v[first + k] - push - wp.cross(spin, x[first + k] - c)
-    return (0.5 * float(n) * wp.sin(step) * radius * radius) * normal
+    # The sine of the angle between two corners.
+    sine = corner[first + 1][1]
+    return (0.5 * float(n) * sine * radius * radius) * normal
 
 
 @wp.func
@@ -131,6 +123,7 @@ def move_joint(
     joint_parts: wp.array[int],
     joint_struts: wp.array2d[int],
     joint_mass: wp.array[float],
+    corner: wp.array[wp.vec2],
     dt: float,
     frame_seconds: float,
     fraction: float,
@@ -190,8 +183,11 @@ def move_joint(
     c += shift
     # A ring that parts nothing is never closed: hands only need its middle.
     if joint_parts[j] == 1:
+        axes = ring_axes[j]
+        turns = int(0)
         if hand[j] != CLASP:
-            axes = regular_ring(x, first, n, c, lane, lanes)
+            axes = regular_ring(x, corner, first, n, c, lane, lanes)
+            turns = 1
             if lane == 0:
                 ring_axes[j] = axes
         lanes_meet()
@@ -200,7 +196,9 @@ def move_joint(
             turns = int(1)
             if hand[j] == CLASP:
                 turns = 0
-            area = close_ring(first, n, radius, turns, dt, c, w + kick, ring_axes[j], lane, lanes, x, v)
+            area = close_ring(
+                first, n, radius, turns, dt, c, w + kick, ring_axes[j], lane, lanes, corner, x, v
+            )
             if lane == 0:
                 ring_area[j] = area
         else:
@@ -223,6 +221,7 @@ def move_joints(
     joint_parts: wp.array[int],
     joint_struts: wp.array2d[int],
     joint_mass: wp.array[float],
+    corner: wp.array[wp.vec2],
     dt: float,
     frame_seconds: float,
     fraction: float,
@@ -254,6 +253,7 @@ def move_joints(
         joint_parts,
         joint_struts,
         joint_mass,
+        corner,
         dt,
         frame_seconds,
         fraction,

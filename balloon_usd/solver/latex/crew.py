@@ -21,14 +21,16 @@ class Crew:
     """Advances all sculptures of a scene by several substeps in one launch."""
 
     def __init__(self, scene: LatexScene) -> None:
-        """Share out a GPU: as many blocks a sculpture as its quads fill and as run at once."""
+        """Share out a GPU: as many blocks a sculpture as its vertices and joints fill, and as run
+        at once.
+        """
         self.scene = scene
         worlds = max(scene.worlds) + 1
         body = np.searchsorted(np.asarray(scene.worlds), np.arange(worlds + 1))
         chunks, first_chunk = _chunks(scene.segment_quad.numpy(), scene.segment_quad_end.numpy())
         scene.put({"chunk_quad": chunks, "segment_chunk": first_chunk})
         scene.zeros("chunk_share", len(chunks) - 1, float)
-        most = 0
+        need = np.zeros(worlds, dtype=int)
         for name, starts in (
             ("balloon", np.arange(len(scene.bodies) + 1)),
             ("quad", scene.quad_start),
@@ -39,10 +41,11 @@ class Crew:
         ):
             bounds = np.asarray(starts)[body].astype(np.int32)
             scene.put({f"world_{name}": bounds})
-            if name == "quad":
-                most = int(np.diff(bounds).max())
+            if name in ("vertex", "joint"):
+                # Those that look after a ring's joint have no vertices besides.
+                need += np.diff(bounds) * (WARP if name == "joint" else 1)
         at_once = wp.get_device(scene.device).sm_count // worlds
-        self.blocks = max(1, min(-(-most // LANES), at_once))
+        self.blocks = max(1, min(-(-int(need.max()) // LANES), at_once))
         scene.zeros("gates", worlds, int)
 
     def advance(
