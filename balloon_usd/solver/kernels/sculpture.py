@@ -13,6 +13,9 @@ from balloon_usd.solver.kernels.membrane import quad_force
 from balloon_usd.solver.kernels.motion import Spin, move_vertex
 from balloon_usd.solver.kernels.rubber import Law
 
+# Half of the code of its many divisions is for numbers that cannot occur, and a GPU has to load it all.
+wp.set_module_options({"fast_math": True})
+
 LANES = 256
 """Lanes of a block."""
 ALL = wp.constant(WARP)

@@ -21,7 +21,7 @@ from balloon_usd.solver.wall_search import WallSearch
 if TYPE_CHECKING:
     from balloon_usd.solver.latex.scene import LatexScene
 
-SEARCH_SECONDS = 1.0 / 240.0
+SEARCH_SECONDS = 1.0 / 120.0
 """Time between two searches for facing walls, s."""
 
 
