@@ -17,6 +17,7 @@ from balloon_usd.plan import plan as plan_recipe
 from balloon_usd.recipe import Recipe
 from balloon_usd.solver import kernels
 from balloon_usd.solver.latex.body import tube_body
+from balloon_usd.solver.latex.crew import Crew
 from balloon_usd.solver.latex.scene import build_scene
 from balloon_usd.solver.settings import SceneSettings
 from balloon_usd.solver.simulation import simulate_many
@@ -32,6 +33,11 @@ CHANGING = {
     "quad_half",
     "substeps",
     "interval",
+    "crew",
+    "begin",
+    "end",
+    "walls",
+    "pressing",
 }
 """Arguments that are no arrays of the scene."""
 
@@ -62,7 +68,9 @@ def arrays():
     size = size_named("260")
     mesh = tube_mesh(size, detail_named("draft"), (0.03,), (0.03, size.length))
     body = tube_body(mesh, rubber_named(), size.radius, size.thickness, (0.03,), (), 5000.0)
-    return build_scene([body], [0], SceneSettings(dt=4e-4), "cpu", 1, 1).arrays | kosaka_arrays()
+    scene = build_scene([body], [0], SceneSettings(dt=4e-4), "cpu", 1, 1)
+    Crew(scene)
+    return scene.arrays | kosaka_arrays()
 
 
 def kosaka_arrays():

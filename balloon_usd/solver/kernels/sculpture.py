@@ -19,7 +19,6 @@ wp.set_module_options({"fast_math": True})
 LANES = 256
 """Lanes of a block."""
 ALL = wp.constant(WARP)
-"""Lanes that share a joint, a chunk or a segment."""
 
 
 @wp.kernel
@@ -137,9 +136,11 @@ def advance_sculptures(
     block = tile % crew
     lanes = crew * wp.block_dim()
     me = block * wp.block_dim() + lane
-    one = lane % ALL
-    warps = lanes // ALL
-    warp = me // ALL
+    # Lanes that share a joint, a chunk or a segment: a warp; on the CPU one.
+    gang = wp.min(ALL, wp.block_dim())
+    one = lane % gang
+    warps = lanes // gang
+    warp = me // gang
     # The first block sees to the gas; where there are others, these see to the walls meanwhile.
     others = wp.max(lanes - wp.block_dim(), wp.min(lanes, wp.block_dim()))
     other = wp.where(crew > 1, me - wp.block_dim(), me)
@@ -152,26 +153,26 @@ def advance_sculptures(
             goal += crew
             blocks_meet(gates, w, crew, goal, lane)
         for c in range(world_chunk[w] + warp, world_chunk[w + 1], warps):
-            share = lanes_sum(chunk_volume(c, one, ALL, quads, quad_segment, chunk_quad, segment_origin, x))
+            share = lanes_sum(chunk_volume(c, one, gang, quads, quad_segment, chunk_quad, segment_origin, x))
             if one == 0:
                 chunk_share[c] = share
         goal += crew
         blocks_meet(gates, w, crew, goal, lane)
         if block == 0:
-            for s in range(world_segment[w] + warp, world_segment[w + 1], wp.block_dim() // ALL):
+            for s in range(world_segment[w] + warp, world_segment[w + 1], wp.block_dim() // gang):
                 total = float(0.0)
-                for c in range(segment_chunk[s] + one, segment_chunk[s + 1], ALL):
+                for c in range(segment_chunk[s] + one, segment_chunk[s + 1], gang):
                     total += chunk_share[c]
                 total = lanes_sum(total)
                 if one == 0:
                     o = x[segment_origin[s]]
                     volume[s] = total + volume_of_fans(s, start_joint, end_joint, ring_middle, ring_area, o)
             block_meets()
-            for b in range(world_balloon[w] + warp, world_balloon[w + 1], wp.block_dim() // ALL):
+            for b in range(world_balloon[w] + warp, world_balloon[w + 1], wp.block_dim() // gang):
                 advance_gas(
                     b,
                     one,
-                    ALL,
+                    gang,
                     balloon_segment,
                     balloon_segment_end,
                     end_joint,
@@ -251,7 +252,7 @@ def advance_sculptures(
         blocks_meet(gates, w, crew, goal, lane)
         for j in range(world_joint[w] + warp, world_joint[w + 1], warps):
             first = joint_first[j]
-            for m in range(one, joint_around[j], ALL):
+            for m in range(one, joint_around[j], gang):
                 move_vertex(
                     first + m,
                     corners,
@@ -281,7 +282,7 @@ def advance_sculptures(
             move_joint(
                 j,
                 one,
-                ALL,
+                gang,
                 joint_first,
                 joint_around,
                 joint_parts,
@@ -309,7 +310,7 @@ def advance_sculptures(
                 hand_load,
             )
             lanes_meet()
-            for m in range(one, joint_around[j], ALL):
+            for m in range(one, joint_around[j], gang):
                 x[first + m] = x_next[first + m]
         for i in range(world_vertex[w] + lanes - 1 - me, world_vertex[w + 1], lanes):
             if vertex_joint[i] < 0:
@@ -345,7 +346,7 @@ def advance_sculptures(
                 weld_joint_to_others(
                     j,
                     one,
-                    ALL,
+                    gang,
                     joint_weld,
                     weld_joint,
                     weld_size,

@@ -27,7 +27,7 @@ class Crew:
         self.scene = scene
         worlds = max(scene.worlds) + 1
         body = np.searchsorted(np.asarray(scene.worlds), np.arange(worlds + 1))
-        chunks, first_chunk = _chunks(scene.segment_quad.numpy(), scene.segment_quad_end.numpy())
+        chunks, first_chunk = chunks_of(scene.segment_quad.numpy(), scene.segment_quad_end.numpy())
         scene.put({"chunk_quad": chunks, "segment_chunk": first_chunk})
         scene.zeros("chunk_share", len(chunks) - 1, float)
         need = np.zeros(worlds, dtype=int)
@@ -44,7 +44,8 @@ class Crew:
             if name in ("vertex", "joint"):
                 # Those that look after a ring's joint have no vertices besides.
                 need += np.diff(bounds) * (WARP if name == "joint" else 1)
-        at_once = wp.get_device(scene.device).sm_count // worlds
+        device = wp.get_device(scene.device)
+        at_once = device.sm_count // worlds if device.is_cuda else 1
         self.blocks = max(1, min(-(-int(need.max()) // LANES), at_once))
         scene.zeros("gates", worlds, int)
 
@@ -67,7 +68,9 @@ class Crew:
         )
 
 
-def _chunks(begin: NDArray[np.int32], end: NDArray[np.int32]) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+def chunks_of(
+    begin: NDArray[np.int32], end: NDArray[np.int32]
+) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Cut segments, from quad `begin` to `end` (S,) each, into chunks that a warp measures at once.
 
     Returns the first quad of every chunk (C + 1,), and the first chunk of every segment (S + 1,).

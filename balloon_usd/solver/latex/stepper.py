@@ -13,12 +13,12 @@ from balloon_usd.solver.kernels.joints import hold_welds, load_struts, move_join
 from balloon_usd.solver.kernels.lanes import WARP
 from balloon_usd.solver.kernels.membrane import quad_forces, vertex_stretch
 from balloon_usd.solver.kernels.motion import move_vertices
-from balloon_usd.solver.latex.crew import Crew
 from balloon_usd.solver.launch import Launcher
 from balloon_usd.solver.search_grid import SearchGrid
 from balloon_usd.solver.wall_search import WallSearch
 
 if TYPE_CHECKING:
+    from balloon_usd.solver.latex.crew import Crew
     from balloon_usd.solver.latex.scene import LatexScene
 
 SEARCH_SECONDS = 1.0 / 120.0
@@ -50,7 +50,7 @@ class Stepper:
         self._launch = self._launcher.launch
         self._grid = SearchGrid(scene, reach, len(scene.quads))
         self._search = WallSearch(self._launcher, self._grid)
-        self._crew = Crew(scene) if wp.get_device(scene.device).is_cuda else None
+        self._crew = _crew_of(scene) if wp.get_device(scene.device).is_cuda else None
         self._start()
 
     def _start(self) -> None:
@@ -121,3 +121,10 @@ class Stepper:
 
     def _volumes(self, **changing: Any) -> None:
         self._launcher.launch_tiled(segment_volumes, len(self.scene.segment_quad), **changing)
+
+
+def _crew_of(scene: LatexScene) -> Crew:
+    # Its large kernel is loaded with the first graph, wherever it is imported.
+    from balloon_usd.solver.latex.crew import Crew  # noqa: PLC0415
+
+    return Crew(scene)
