@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan, Strip
+    from balloon_usd.recipe import Recipe
     from balloon_usd.stage import StageFrame, WrittenStage
 
 SOLVERS = {"latex": "latex 1", "kosaka": "kosaka 1"}
@@ -64,14 +65,20 @@ def describe_stage(plan: Plan, meshes: Sequence[BalloonMesh]) -> StageDescriptio
             for strip, mesh in zip(plan.strips.values(), meshes, strict=True)
         ),
         bubble_names=tuple(bubble.name for bubble in plan.bubbles),
-        provenance={
-            "recipe": Path(recipe.file).name,
-            "recipe_sha256": recipe.sha256,
-            "solver": SOLVERS[recipe.physics.model],
-        },
+        provenance=provenance_of(recipe),
         twists=moves_in_time(plan),
         airs=_describe_airs(plan),
     )
+
+
+def provenance_of(recipe: Recipe) -> dict[str, str]:
+    """Return where results of a recipe come from: its file, the hash of its text, the solver's version."""
+    return {
+        # Stages hold text, which the name of a file need not be.
+        "recipe": Path(recipe.file).name.encode("utf-8", "surrogateescape").decode("utf-8", "replace"),
+        "recipe_sha256": recipe.sha256,
+        "solver": SOLVERS[recipe.physics.model],
+    }
 
 
 def _describe_airs(plan: Plan) -> tuple[AirDescription, ...]:

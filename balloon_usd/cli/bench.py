@@ -52,7 +52,7 @@ physics: {{model: kosaka}}
 LENGTHS = (20.0, 40.0, 80.0, 150.0)
 """Lengths of capsules that are measured, cm: the thesis's up to a whole 260."""
 KOSAKA_FRAMES = 481
-"""Frames of a capsule that are measured unless others are asked for: 20 s, in most of which the air is at rest."""
+"""Frames of a capsule that are measured unless others are asked for: 20 s, mostly with the air at rest."""
 
 
 @dataclass(frozen=True)

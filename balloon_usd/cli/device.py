@@ -46,7 +46,8 @@ def start_device(name: str) -> str:
     """Start Warp and return the name of the device that was asked for.
 
     Raises:
-        Failure: there is no such device; the message lists those that there are.
+        Failure: there is no such device; the message lists those that there are. Or the folder for compiled
+            kernels cannot be made.
     """
     import warp as wp  # noqa: PLC0415
 
@@ -54,12 +55,39 @@ def start_device(name: str) -> str:
     from balloon_usd.solver.errors import DeviceUnavailable  # noqa: PLC0415
 
     wp.config.log_level = wp.LOG_WARNING
-    with _without_driver_warning():
-        wp.get_devices()
+    try:
+        with _without_driver_warning():
+            wp.get_devices()
+    except OSError as error:
+        raise _no_cache(error) from error
     try:
         return device_named(name)
     except DeviceUnavailable as error:
         raise Failure(str(error), ExitCode.BAD_INPUT) from error
+
+
+@contextmanager
+def compiling() -> Iterator[None]:
+    """Tell in one line when the block cannot write compiled kernels.
+
+    Raises:
+        Failure: their folder cannot be written, or its disk is full.
+    """
+    import warp as wp  # noqa: PLC0415
+
+    try:
+        yield
+    except OSError as error:
+        cache = wp.config.kernel_cache_dir
+        if cache is None or not str(error.filename or "").startswith(str(cache)):
+            raise
+        raise _no_cache(error) from error
+
+
+def _no_cache(error: OSError) -> Failure:
+    place = f"{error.filename}: " if error.filename else ""
+    text = f"{place}compiled kernels cannot be kept here ({error.strerror or error})"
+    return Failure(f"{text}, set WARP_CACHE_PATH to a folder that can be written", ExitCode.BAD_INPUT)
 
 
 @contextmanager

@@ -16,8 +16,9 @@ def require_writable(folder: Path) -> None:
     """Make the folder if need be and try to write in it.
 
     Raises:
-        Failure: that is not possible.
+        Failure: that is not possible, or its name is none that USD can read.
     """
+    require_readable_name(folder)
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
@@ -28,18 +29,38 @@ def require_writable(folder: Path) -> None:
         ) from error
 
 
+def require_readable_name(path: Path) -> None:
+    """Refuse a path that is no text, as USD opens files by text in UTF-8.
+
+    Raises:
+        Failure: bytes of the path are not UTF-8.
+    """
+    try:
+        str(path.absolute()).encode("utf-8")
+    except UnicodeEncodeError as error:
+        shown = str(path).encode("utf-8", "backslashreplace").decode()
+        raise Failure(f"{shown}: the path is not UTF-8, which USD needs", ExitCode.BAD_INPUT) from error
+
+
 def stage_path(folder: Path, name: str, *, flat: bool) -> Path:
     """Return the file of a sculpture's stage that people open."""
     return folder / f"{name}.usdc" if flat else folder / name / f"{name}.usda"
 
 
-def require_free(folder: Path, names: Iterable[str], *, flat: bool) -> None:
+def sheet_path(folder: Path, name: str) -> Path:
+    """Return the file of a sculpture's contact sheet."""
+    return folder / f"{name}.png"
+
+
+def require_free(folder: Path, names: Iterable[str], *, flat: bool, files: Iterable[Path] = ()) -> None:
     """Check that no file stands where a folder must go, nor a folder where a file must.
+
+    `files`: what is written besides the stages of these names.
 
     Raises:
         Failure: with all that are in the way.
     """
-    in_the_way = []
+    in_the_way = [f"{file}: a folder is in the way" for file in files if file.is_dir()]
     for name in names:
         stage = stage_path(folder, name, flat=flat)
         if flat and stage.is_dir():

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections import defaultdict
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from balloon_usd.cli.failure import ExitCode, Failure
 from balloon_usd.cli.progress import progress_bar
 from balloon_usd.cli.stage_writer import stage_writers
+from balloon_usd.report import History
 from balloon_usd.solver.errors import SimulationFailed
 from balloon_usd.solver.frame import Frame
 from balloon_usd.solver.simulation import simulate_many
@@ -38,12 +39,22 @@ class Order:
     frames: FrameRange
 
 
+class _Seen(NamedTuple):
+    """What has been seen of a plan so far."""
+
+    plan: Plan
+    tally: Tally
+    history: History
+
+
 @dataclass(frozen=True)
 class Outcome:
     """What became of one plan."""
 
     plan: Plan
     tally: Tally
+    history: History
+    """The frames that were written."""
     written: WrittenStage | None = None
     failed: SimulationFailed | None = None
 
@@ -79,15 +90,16 @@ def _stream(
 ) -> list[Outcome]:
     """Pass frames on until every plan has its last one wanted, or has failed."""
     outcomes: list[Outcome | None] = [None] * len(plans)
-    tallies = [Tally(plan, meshes) for plan, meshes in zip(plans, simulation.meshes, strict=True)]
+    seen = [
+        _Seen(plan, Tally(plan, meshes), History(plan, meshes))
+        for plan, meshes in zip(plans, simulation.meshes, strict=True)
+    ]
     with progress_bar(sum(codes[-1] for codes in wanted)) as bar:
         for frames in simulation.frames():
             advanced = [frame for frame in frames if isinstance(frame, Frame)]
             for world, frame in enumerate(frames):
                 if outcomes[world] is None:
-                    outcomes[world] = _pass_on(
-                        tallies[world], plans[world], frame, wanted[world], writers[world]
-                    )
+                    outcomes[world] = _pass_on(seen[world], frame, wanted[world], writers[world])
             running = sum(outcome is None for outcome in outcomes)
             bar.advance(_doing(advanced, running), len(advanced))
             if running == 0:
@@ -96,21 +108,22 @@ def _stream(
 
 
 def _pass_on(
-    tally: Tally, plan: Plan, frame: Frame | SimulationFailed | None, wanted: range, writer: StageWriter
+    seen: _Seen, frame: Frame | SimulationFailed | None, wanted: range, writer: StageWriter
 ) -> Outcome | None:
     """Hand a frame to its writer; return the outcome when it was the last."""
     if isinstance(frame, SimulationFailed):
         writer.stop()
-        return Outcome(plan, tally, failed=frame)
+        return Outcome(*seen, failed=frame)
     if frame is None:
         return None
-    tally.add(frame)
+    seen.tally.add(frame)
     try:
         if frame.time_code in wanted:
+            seen.history.add(frame)
             writer.put(frame)
-        return Outcome(plan, tally, written=writer.finish()) if frame.time_code == wanted[-1] else None
+        return Outcome(*seen, written=writer.finish()) if frame.time_code == wanted[-1] else None
     except StageError as error:
-        raise Failure(f"{plan.recipe.file}: {error}", ExitCode.NOT_WRITTEN) from error
+        raise Failure(f"{seen.plan.recipe.file}: {error}", ExitCode.NOT_WRITTEN) from error
 
 
 def _doing(frames: Sequence[Frame], running: int) -> str:

@@ -10,6 +10,8 @@ import click
 from balloon_usd.cli.device import device_option, start_device
 from balloon_usd.cli.failure import EXIT_CODES_HELP, ExitCode, Failure
 from balloon_usd.cli.frame_range import FrameRange, moments
+from balloon_usd.cli.output import require_readable_name
+from balloon_usd.cli.sources import is_folder
 
 if TYPE_CHECKING:
     from balloon_usd.preview import View
@@ -103,7 +105,8 @@ def _stage_and_picture(stage: str) -> tuple[Path, Path]:
         path = path.resolve()
     if not stage or not path.name:
         raise Failure(f'"{stage}" is no stage, expected a USD file or a folder', ExitCode.BAD_INPUT)
-    file = path / f"{path.name}.usda" if path.is_dir() else path
+    require_readable_name(path)
+    file = path / f"{path.name}.usda" if is_folder(path) else path
     return file, path.with_suffix(".png")
 
 

@@ -1,4 +1,4 @@
-"""`balloon-usd run`: recipes in, stages and contact sheets out."""
+"""`balloon-usd run`: recipes in, stages, contact sheets and reports out."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 import click
 
-from balloon_usd.cli.device import device_option, start_device
+from balloon_usd.cli.device import compiling, device_option, start_device
 from balloon_usd.cli.failure import EXIT_CODES_HELP, ExitCode, Failure
 from balloon_usd.cli.frame_range import FrameRange, frame_range
-from balloon_usd.cli.output import require_free, require_writable, stage_path
+from balloon_usd.cli.output import require_free, require_writable, sheet_path, stage_path
 from balloon_usd.cli.sources import plans_of, recipe_files
 
 if TYPE_CHECKING:
@@ -48,6 +48,7 @@ DETAILS = ("draft", "preview", "full")
     help="Write only these frames, counted from 1; A: and :B leave an end open.",
 )
 @click.option("--no-preview", is_flag=True, help="Draw no contact sheet.")
+@click.option("--no-report", is_flag=True, help="Write no report.")
 def run(
     recipes: tuple[Path, ...],
     output: Path,
@@ -56,20 +57,27 @@ def run(
     flat: bool,
     frames: FrameRange | None,
     no_preview: bool,
+    no_report: bool,
 ) -> None:
-    """Make sculptures: simulate recipes and write a USD stage and a contact sheet of each.
+    """Make sculptures: simulate recipes and write a USD stage, a contact sheet and a report of each.
 
     RECIPE is a recipe file, or a folder whose recipes (*.yaml) are all made. All sculptures advance together.
     If a recipe is wrong nothing is run, and all problems of all recipes are listed.
 
-    Writes OUTPUT/NAME/NAME.usda with its payload, and OUTPUT/NAME.png, where NAME is the recipe's name.
+    Writes OUTPUT/NAME/NAME.usda with its payload, OUTPUT/NAME.png, OUTPUT/NAME.report.json and its figure
+    OUTPUT/NAME.report.png, where NAME is the recipe's name.
     """
     plans = plans_of(recipe_files(recipes))
     require_writable(output)
-    require_free(output, [plan.recipe.name for plan in plans], flat=flat)
+    names = [plan.recipe.name for plan in plans]
+    sheets = [] if no_preview else [sheet_path(output, name) for name in names]
+    reports = [] if no_report else _report_paths(output, names)
+    require_free(output, names, flat=flat, files=[*sheets, *reports])
     used = start_device(device)
     _print_cautions(plans)
     outcomes = _perform_all(plans, output, detail, used, flat=flat, frames=frames or FrameRange())
+    if not no_report:
+        _report(outcomes, output, detail)
     if not no_preview:
         _draw(outcomes, output, used, flat=flat)
     failed = [f"{o.plan.recipe.file}: simulation failed {o.failed}" for o in outcomes if o.failed]
@@ -92,9 +100,31 @@ def _perform_all(
 
     order = Order(output, detail, device, flat, frames)
     begin = time.perf_counter()
-    outcomes = [outcome for group in together(plans) for outcome in perform(group, order)]
+    with compiling():
+        outcomes = [outcome for group in together(plans) for outcome in perform(group, order)]
     print_summary(outcomes, time.perf_counter() - begin, detail, device)
     return outcomes
+
+
+def _report_paths(output: Path, names: Sequence[str]) -> list[Path]:
+    from balloon_usd.report import report_files  # noqa: PLC0415
+
+    return [file for name in names for file in report_files(output, name)]
+
+
+def _report(outcomes: Sequence[Outcome], output: Path, detail: str) -> None:
+    from balloon_usd.report import ReportError, write_report  # noqa: PLC0415
+    from balloon_usd.staging import provenance_of  # noqa: PLC0415
+
+    for outcome in outcomes:
+        if outcome.written is None:
+            continue
+        origin = provenance_of(outcome.plan.recipe)
+        try:
+            numbers, _ = write_report(outcome.history, output, detail=detail, provenance=origin)
+        except ReportError as error:
+            raise Failure(str(error), ExitCode.NOT_WRITTEN) from error
+        click.echo(f"report {numbers}")
 
 
 def _draw(outcomes: Sequence[Outcome], output: Path, device: str, *, flat: bool) -> None:
@@ -106,7 +136,7 @@ def _draw(outcomes: Sequence[Outcome], output: Path, device: str, *, flat: bool)
         name = outcome.plan.recipe.name
         try:
             sheet = draw_contact_sheet(
-                stage_path(output, name, flat=flat), output / f"{name}.png", device=device
+                stage_path(output, name, flat=flat), sheet_path(output, name), device=device
             )
         except PreviewError as error:
             raise Failure(str(error), ExitCode.NOT_WRITTEN) from error

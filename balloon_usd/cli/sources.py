@@ -24,16 +24,37 @@ def recipe_files(paths: Iterable[Path]) -> list[Path]:
     """
     files: dict[Path, Path] = {}
     for path in paths:
-        found = _files_in(path) if path.is_dir() else [path]
+        found = _files_in(path) if is_folder(path) else [path]
         if not found:
             raise Failure(f"{path}: no recipes (*.yaml) in this folder", ExitCode.BAD_INPUT)
         for file in found:
-            files.setdefault(file.resolve(), file)
+            files.setdefault(_place(file), file)
     return list(files.values())
 
 
+def is_folder(path: Path) -> bool:
+    """Whether a path leads to a folder; one that leads nowhere, as too long a name does, is none."""
+    try:
+        return path.is_dir()
+    except OSError:
+        return False
+
+
 def _files_in(folder: Path) -> list[Path]:
-    return sorted(file for file in folder.iterdir() if file.suffix in SUFFIXES and file.is_file())
+    try:
+        entries = sorted(folder.iterdir())
+    except OSError as error:
+        raise Failure(f"{folder}: cannot be read ({error.strerror or error})", ExitCode.BAD_INPUT) from error
+    return [file for file in entries if file.suffix in SUFFIXES and file.is_file()]
+
+
+def _place(file: Path) -> Path:
+    """Return where a file is, by which two names of it are known as one."""
+    try:
+        return file.resolve()
+    except (OSError, RuntimeError):
+        # Links that lead in a circle: reading it will tell.
+        return file.absolute()
 
 
 def plans_of(files: Sequence[Path]) -> list[Plan]:

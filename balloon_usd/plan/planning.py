@@ -11,6 +11,8 @@ from balloon_usd.plan.judgement import cautions_of
 from balloon_usd.plan.laying import lay_strips
 from balloon_usd.plan.model import Plan
 from balloon_usd.plan.rings import RingTable
+from balloon_usd.plan.settings import pace_problems, settings_problems
+from balloon_usd.recipe.problem import RecipeError
 
 if TYPE_CHECKING:
     from balloon_usd.recipe import Recipe
@@ -20,11 +22,20 @@ def plan(recipe: Recipe) -> Plan:
     """Return the plan of a recipe: strips, graph, budgets, cautions and choreography.
 
     Raises:
-        RecipeError: the recipe asks for what a balloon cannot give, with the places in its file.
+        RecipeError: the recipe asks for what a balloon cannot give or no run can do, with the places in its
+            file.
     """
-    strips = lay_strips(recipe)
+    problems = settings_problems(recipe)
+    try:
+        strips = lay_strips(recipe)
+    except RecipeError as error:
+        raise RecipeError([*problems, *error.problems]) from None
     graph = sculpture_graph(recipe, strips)
     budgets = {name: budget_of(strip) for name, strip in strips.items() if not strip.capsule}
     table = RingTable(strips)
     cautions = cautions_of(recipe, strips, graph, budgets)
-    return Plan(recipe, strips, graph, budgets, cautions, table, choreograph(recipe, strips, table))
+    choreography = choreograph(recipe, strips, table)
+    problems += pace_problems(recipe, choreography)
+    if problems:
+        raise RecipeError(problems)
+    return Plan(recipe, strips, graph, budgets, cautions, table, choreography)

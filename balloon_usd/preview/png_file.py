@@ -18,11 +18,15 @@ def require_place(path: Path) -> None:
     """Look before anything is drawn whether a file may stand at a path.
 
     Raises:
-        PreviewError: a folder is in the way, or there is no folder to put it in.
+        PreviewError: a folder is in the way, there is no folder to put it in, or its name is too long.
     """
-    if path.is_dir():
+    try:
+        in_the_way, has_home = path.is_dir(), path.parent.is_dir()
+    except OSError as error:
+        raise PreviewError(f"{path} cannot be written: {error.strerror or error}") from error
+    if in_the_way:
         raise PreviewError(f"{path} cannot be written: a folder is in the way")
-    if not path.parent.is_dir():
+    if not has_home:
         raise PreviewError(f"{path} cannot be written: {path.parent} is not a folder")
 
 

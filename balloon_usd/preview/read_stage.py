@@ -70,7 +70,7 @@ def read_stage(path: str | Path, look: str | None = None) -> StageScene:
     Raises:
         PreviewError: the file is not there, is no USD file, has no such look, or shows no mesh.
     """
-    if not Path(path).is_file():
+    if not _is_file(Path(path)):
         raise PreviewError(f"{path} is not a file")
     try:
         stage = Usd.Stage.Open(str(path))
@@ -111,3 +111,11 @@ def _is_drawn(prim: Any) -> bool:
     image = UsdGeom.Imageable(prim)
     shown = image.ComputePurpose() in {UsdGeom.Tokens.default_, UsdGeom.Tokens.render}
     return shown and image.ComputeVisibility() != UsdGeom.Tokens.invisible
+
+
+def _is_file(path: Path) -> bool:
+    """Whether a path leads to a file; too long a name leads nowhere."""
+    try:
+        return path.is_file()
+    except OSError:
+        return False

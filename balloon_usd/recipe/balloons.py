@@ -36,7 +36,7 @@ class Balloon(BaseModel):
     """Length of the inflated part, instead of tail; m in Python."""
     capsule: Length | None = None
     """Length of a closed capsule before it is twisted, instead of one with knot and tail; m in Python."""
-    radius: Annotated[float, LengthWithin(0.0005, 0.1)] | None = None
+    radius: Annotated[float, LengthWithin(0.001, 0.1, low_included=True)] | None = None
     """Unstressed radius, where a brand differs; m in Python."""
     length: Length | None = None
     """Unstressed length, where a brand differs; m in Python."""

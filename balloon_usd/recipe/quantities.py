@@ -149,9 +149,11 @@ class Between:
         if isinstance(value, bool) or not isinstance(value, kinds):
             kind = "whole number" if self.whole else "number"
             raise ValueError(f"{quoted(value)} is no {kind}, expected {wanted}")
+        if math.isnan(value):
+            raise ValueError(f"nan is no number, expected {wanted}")
         in_steps = self.step is None or not math.isfinite(value) or value % self.step == 0
         if not (self.low <= value <= self.high and in_steps):
-            clamped = min(max(value, self.low), self.high) if math.isfinite(value) else self.low
+            clamped = min(max(value, self.low), self.high)
             near = round(clamped / self.step) * self.step if self.step else clamped
             raise ValueError(f"{value:g} is out of range, expected {wanted}, the nearest is {near:g}")
         return value

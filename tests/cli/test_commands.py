@@ -74,7 +74,7 @@ def test_preview_draws_a_stage_and_puts_the_sheet_beside_it(cli, solver, write_r
 
 
 def test_preview_draws_the_frames_that_are_asked_for(cli, solver, write_recipe, left):
-    cli("run", write_recipe(), "-o", "out", "--flat", "--no-preview")
+    cli("run", write_recipe(), "-o", "out", "--flat", "--no-preview", "--no-report")
     for frames in ("1,3,6", "2:4"):
         result = cli("preview", "out/snake.usdc", "-o", "out/a.png", "--frames", frames, "--size", 48, 32)
         assert result.exit_code == 0, result.output

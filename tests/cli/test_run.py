@@ -1,9 +1,13 @@
 from __future__ import annotations
 
+import json
+from pathlib import Path
+
 import pytest
 from PIL import Image
 from pxr import Usd, UsdGeom
 
+from balloon_usd.report import ReportError
 from balloon_usd.solver.errors import SimulationFailed
 from balloon_usd.stage import StageError
 
@@ -14,13 +18,14 @@ ASSET = [
     "snake/payload/materials.usda",
     "snake/snake.usda",
 ]
+REPORT = ["snake.report.json", "snake.report.png"]
 BURST = SimulationFailed("pinch: nose", 1.25, "the wall is not finite")
 
 
-def test_a_recipe_becomes_a_stage_and_a_contact_sheet(cli, solver, write_recipe, left):
+def test_a_recipe_becomes_a_stage_a_contact_sheet_and_a_report(cli, solver, write_recipe, left):
     result = cli("run", write_recipe(), "-o", "out", "--device", "cpu")
     assert result.exit_code == 0, result.output
-    assert left() == ["snake.png", *ASSET]
+    assert left() == ["snake.png", *REPORT, *ASSET]
     with Image.open("out/snake.png") as sheet:
         assert sheet.width > 1000
     assert "snake" in result.stdout
@@ -42,12 +47,64 @@ def test_the_stage_says_what_it_shows(cli, solver, write_recipe):
 
 def test_no_preview_draws_none(cli, solver, write_recipe, left):
     assert cli("run", write_recipe(), "-o", "out", "--no-preview").exit_code == 0
+    assert left() == [*REPORT, *ASSET]
+
+
+def test_no_report_writes_none(cli, solver, write_recipe, left):
+    result = cli("run", write_recipe(), "-o", "out", "--no-report", "--no-preview")
+    assert result.exit_code == 0
     assert left() == ASSET
+    assert "report" not in result.stdout
+
+
+def test_a_report_says_what_every_bubble_did(cli, solver, write_recipe):
+    result = cli("run", write_recipe(), "-o", "out", "--no-preview", "--detail", "preview")
+    assert "report out/snake.report.json" in result.stdout
+    report = json.loads(Path("out/snake.report.json").read_text(encoding="utf-8"))
+    assert (report["name"], report["recipe"], report["detail"]) == ("snake", "snake.yaml", "preview")
+    assert report["solver"] == "latex 1"
+    assert report["time_code"] == [1, 2, 3, 4, 5, 6]
+    assert [bubble["name"] for bubble in report["bubbles"]] == ["nose", "middle", "tail"]
+    assert report["bubbles"][1]["pressure"] == [1000.0] * 6
+    with Image.open("out/snake.report.png") as figure:
+        assert figure.width > 1000
+
+
+def test_a_report_shows_the_frames_that_were_written(cli, solver, write_recipe):
+    cli("run", write_recipe(), "-o", "out", "--frames", "2:4", "--no-preview", "--flat")
+    assert json.loads(Path("out/snake.report.json").read_text())["time_code"] == [2, 3, 4]
+
+
+def test_every_sculpture_of_a_batch_has_its_report(cli, solver, write_recipe, left):
+    cli("run", write_recipe("one"), write_recipe("two", fps=30), "-o", "out", "--no-preview", "--flat")
+    assert [file for file in left() if file.endswith("report.json")] == ["one.report.json", "two.report.json"]
+
+
+def test_a_report_that_cannot_be_written_has_its_own_exit_code(cli, solver, write_recipe, left, monkeypatch):
+    def full(*_, **__):
+        raise ReportError("out/snake.report.json cannot be written: No space left on device")
+
+    monkeypatch.setattr("balloon_usd.report.write_report", full)
+    result = cli("run", write_recipe(), "-o", "out", "--no-preview")
+    assert result.exit_code == 1
+    assert "snake.report.json cannot be written" in result.stderr
+    assert left() == ASSET
+
+
+@pytest.mark.parametrize("name", ["snake.report.json", "snake.report.png", "snake.png"])
+def test_a_folder_where_a_file_must_go_is_named_before_the_simulation(
+    cli, solver, write_recipe, tmp_path, name
+):
+    (tmp_path / "out" / name).mkdir(parents=True)
+    result = cli("run", write_recipe(), "-o", "out")
+    assert result.exit_code == 2
+    assert f"{name}: a folder is in the way" in result.stderr
+    assert solver.calls == []
 
 
 def test_flat_writes_one_file(cli, solver, write_recipe, left):
     assert cli("run", write_recipe(), "-o", "out", "--flat").exit_code == 0
-    assert left() == ["snake.png", "snake.usdc"]
+    assert left() == ["snake.png", *REPORT, "snake.usdc"]
 
 
 def test_without_an_output_folder_files_go_here(cli, solver, write_recipe, tmp_path):
@@ -167,7 +224,7 @@ def test_one_failed_sculpture_does_not_take_the_others_along(cli, solver, write_
     solver.trouble = {"bad": BURST}
     result = cli("run", write_recipe("bad"), write_recipe("snake"), "-o", "out", "--no-preview")
     assert result.exit_code == 3
-    assert left() == ASSET
+    assert left() == [*REPORT, *ASSET]
     assert "bad.yaml: simulation failed" in result.stderr
     assert "failed" in result.stdout
 

@@ -1,12 +1,18 @@
 """General set-ups for verification: a few meshes, a rig that runs the real stepper on them, and settling.
 
-A new case takes a mesh (`plate`, `cube_sphere`, `tube`), makes it a `Rig`, settles it and measures.
+A new case takes a mesh, makes it a `Rig`, settles it and measures:
+
+- `plate`: a flat sheet; `cube_sphere`: a sphere, one chamber.
+- `tube` with `parts=()`: a closed tube, one chamber; with `parts=(k,)`: two chambers with ring k between them.
+- `tube` as it is: an open tube, its gas in chamber 1; with `Rig.hold_length` a piece of an endless one.
+- `revolved`: any other body of rings.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 import warp as wp
@@ -24,7 +30,7 @@ from balloon_usd.solver.settings import SceneSettings
 
 Floats = NDArray[np.float64]
 
-wp.config.quiet = True
+wp.config.log_level = wp.LOG_WARNING
 
 STEP = 1.0e-4
 """Time step of quasi-static cases, s; with scaled masses its size does not matter."""
@@ -72,6 +78,7 @@ class Rig:
         drag: float = 0.0,
         gravity: float = 0.0,
         scale_mass: bool = True,
+        inertia: float = 1.0,
     ) -> None:
         wp.init()
         wall = np.full(len(mesh.quads), thickness)
@@ -101,12 +108,14 @@ class Rig:
             dt=dt, atmosphere=atmosphere, drag=drag, gravity=gravity, scale_mass=scale_mass
         )
         self.scene = build_scene([self.body], [0], settings, "cpu", 1, 1)
+        # Masses are scaled for rubber like latex; one that stiffens a hundredfold needs more.
+        self.scene.mass.assign((inertia * self.array("mass")).astype(np.float32))
         self.stepper = Stepper(self.scene, substeps, 10.0 * mesh.radius)
         self.hands = LatexHands(self.scene)
         # Chambers exchange no gas, although their rings are wide open.
         self.hands.passage[:] = self.hands.passage_goal[:] = 0.0
 
-    def array(self, name: str) -> NDArray[np.generic]:
+    def array(self, name: str) -> NDArray[Any]:
         """A copy of one of the scene's arrays, floats as float64."""
         values = self.scene.arrays[name].numpy()
         return values.astype(np.float64) if values.dtype.kind == "f" else values.copy()
@@ -134,6 +143,17 @@ class Rig:
             (self.scene.settings.atmosphere + pressure) * volume[chamber] / (GAS_CONSTANT * ROOM_TEMPERATURE)
         )
         self.scene.amount.assign(amount)
+
+    def press(self, chamber: int, pressure: float) -> None:
+        """Set the gauge pressure (Pa) of a vented chamber."""
+        pressures = self.array("pressure")
+        pressures[chamber] = pressure
+        self.scene.pressure.assign(pressures.astype(np.float32))
+
+    def hold_length(self) -> None:
+        """Hold the middles of all rings for hands where they are: an open tube then is a piece of an endless one."""
+        for ring in range(len(self.mesh.rings)):
+            self.hands.grip(ring, self.array("ring_middle").astype(np.float32))
 
     def advance(self) -> None:
         """Advance by one frame of the rig's substeps."""
@@ -220,32 +240,39 @@ def cube_sphere(radius: float, cells: int) -> Mesh:
 
 
 def tube(radius: float, around: int, stations: Floats, parts: tuple[int, ...] = (0, -1)) -> Mesh:
-    """A closed tube along x with its rings at `stations` (m); the rings `parts` border chambers and can be held.
+    """A tube along x with its rings at `stations` (m); the rings `parts` border chambers and can be held.
 
-    The cross-section is circumscribed to the circle, as that of a balloon is. An end cap is of gossamer where its ring
-    is a border: the tube then is open, with a chamber of nothing at its end.
+    An end cap is of gossamer where its ring is a border: the tube then is open, with a chamber of nothing at its end.
     """
-    corner = radius / math.cos(math.pi / around)
+    return revolved(np.full(len(stations), radius), around, stations, parts)
+
+
+def revolved(radii: Floats, around: int, stations: Floats, parts: tuple[int, ...] = ()) -> Mesh:
+    """A body of revolution along x, its rings of `radii` (m) at `stations` (m), and flat caps; `parts` as in a tube.
+
+    The cross-section is circumscribed to the circle, as that of a balloon is.
+    """
     angle = 2.0 * math.pi * np.arange(around) / around
-    circle = corner * np.stack([0.0 * angle, np.cos(angle), np.sin(angle)], axis=1)
-    wall = np.concatenate([circle + [s, 0.0, 0.0] for s in stations])
-    flat = _disc(around, circle)
-    points = np.concatenate([wall, flat + [stations[0], 0.0, 0.0], flat + [stations[-1], 0.0, 0.0]])
+    circle = np.stack([0.0 * angle, np.cos(angle), np.sin(angle)], axis=1) / math.cos(math.pi / around)
+    along = np.array([1.0, 0.0, 0.0])
+    wall = np.concatenate([r * circle + s * along for r, s in zip(radii, stations, strict=True)])
+    flat = [_disc(around, radii[k] * circle) + stations[k] * along for k in (0, -1)]
+    points = np.concatenate([wall, *flat])
     ring = np.arange(len(wall), dtype=np.int32).reshape(-1, around)
     first = _cap(ring[0], len(wall))[:, ::-1]
-    last = _cap(ring[-1], len(wall) + len(flat))
+    last = _cap(ring[-1], len(wall) + len(flat[0]))
     # Rows of a sheet's grid run round the tube; sheets follow each other along it.
     closed = np.concatenate([ring, ring[:, :1]], axis=1)
     sheets = [_quads(closed[k : k + 2].T) for k in range(len(ring) - 1)]
     quads = np.concatenate([first, *sheets, last]).astype(np.int32)
     borders = sorted(p % len(ring) for p in parts)
     caps = np.zeros(len(quads), dtype=bool)
-    caps[: len(first)] = borders[0] == 0
-    caps[-len(last) :] = borders[-1] == len(ring) - 1
+    caps[: len(first)] = 0 in borders
+    caps[-len(last) :] = len(ring) - 1 in borders
     return Mesh(
         points=points,
         quads=quads,
-        radius=radius,
+        radius=float(radii.max()),
         rings=tuple(RingSpec(int(ring[b, 0]), around, parts=True) for b in borders),
         mesh_rings=tuple((int(f), around) for f in ring[:, 0]),
         segment_ends=(*(len(first) + around * b for b in borders), len(quads)),

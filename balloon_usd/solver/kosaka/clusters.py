@@ -30,6 +30,11 @@ class Clusters:
         self._frozen = scene.frozen.numpy().astype(bool)
         self._ends = scene.end_joint.numpy()
 
+    @property
+    def closed(self) -> bool:
+        """Whether any ring is frozen."""
+        return bool(self._frozen.any())
+
     def part(self, closing: NDArray[np.bool_]) -> None:
         """Part the clusters at rings that have frozen since; `closing`: rings being drawn together, (J,)."""
         if not (closing & ~self._frozen).any():

@@ -105,6 +105,7 @@ class KosakaModel:
             contact=bool(self.hands.touching.any()),
             fingers=self.hands.pressing,
             searches=self._searches(end - begin, handled=handled),
+            rings=self.clusters.closed or bool(self.hands.mode.any() or self.hands.radius_goal.any()),
         )
         self.hands.arrived()
         self.clusters.part(self.hands.radius_goal > 0.0)

@@ -65,16 +65,16 @@ class KosakaStepper:
         self._walls = WallSearch(self._launcher, self._grid)
         self._launch_lanes(hold_rings, len(scene.joint_first), fraction=1.0)
 
-    def advance(self, *, contact: bool, fingers: bool, searches: int) -> None:
+    def advance(self, *, contact: bool, fingers: bool, searches: int, rings: bool = True) -> None:
         """Advance by one frame.
 
         `contact`: walls can touch. `fingers`: some press. `searches`: how often neighbours are looked for
-        anew; 0 where the lists of the frame before still hold.
+        anew; 0 where the lists of the frame before still hold. `rings`: some are held, closing or frozen.
         """
         self._grid.claim()
         self._launcher.replay(
-            (contact, fingers, searches),
-            lambda: self._frame(contact=contact, fingers=fingers, searches=searches),
+            (contact, fingers, searches, rings),
+            lambda: self._frame(contact=contact, fingers=fingers, searches=searches, rings=rings),
         )
 
     def find_lost(self) -> None:
@@ -97,7 +97,7 @@ class KosakaStepper:
         self._launch(fastest_air, len(self.scene.air))
         self._mirror.copy()
 
-    def _frame(self, *, contact: bool, fingers: bool, searches: int) -> None:
+    def _frame(self, *, contact: bool, fingers: bool, searches: int, rings: bool) -> None:
         s = self.scene
         s.face_hits.zero_()
         search_every = -(-self.substeps // max(searches, 1))
@@ -108,12 +108,13 @@ class KosakaStepper:
                 self._launch(cluster_drift, len(s.segment_quad), interval=search_every * self._dt)
             if fingers:
                 self._launch(press_fingers, len(s.x), fraction=(k + 1) / self.substeps)
-            self._substep((k + 1) / self.substeps, contact=contact)
+            # Their middles are wanted in the end, whatever happens to them.
+            self._substep((k + 1) / self.substeps, contact=contact, rings=rings or k + 1 == self.substeps)
         # What leaked in the last step comes back before it is seen.
         self._launch(face_surface, len(s.face_normal))
         self._launch_lanes(press_air, len(s.air))
 
-    def _substep(self, fraction: float, *, contact: bool) -> None:
+    def _substep(self, fraction: float, *, contact: bool, rings: bool) -> None:
         """One time step in the order of fig. 3.8."""
         s = self.scene
         vertices, particles = len(s.x), len(s.air)
@@ -133,7 +134,8 @@ class KosakaStepper:
             self._launch(move_air, particles)
         self._launch(move_rubber, vertices, fraction=fraction)
         self._launch(limit_elongation, vertices, x=s.x_next, x_next=s.x)
-        self._launch_lanes(hold_rings, len(s.joint_first), fraction=fraction)
+        if rings:
+            self._launch_lanes(hold_rings, len(s.joint_first), fraction=fraction)
         self._launcher.join()
 
     def _find_neighbours(self, *, contact: bool) -> None:

@@ -1,0 +1,98 @@
+"""Settings with which no run can work: each is refused with the reason and a value that does.
+
+The recipe's own ranges catch what makes no sense by itself. Here is what depends on two entries, or on the
+size of a balloon. Limits were measured: beyond them balloons shrink, tremble or fly apart.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from balloon_usd.balloon.sizes import size_named
+from balloon_usd.plan.choreography import Inflate
+from balloon_usd.plan.settings_kosaka import kosaka_problems
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from balloon_usd.plan.choreography import Choreography
+    from balloon_usd.recipe import Recipe
+    from balloon_usd.recipe.problem import Problem
+
+THICKEST = 0.25
+"""Thickness of a wall in radii of its tube, up to which it bends and stretches as a membrane."""
+WAVE = 200.0
+"""Radii of the tube times time steps in a second that unscaled masses need at least, m/s: in that time a
+wave must not cross a face of the draft mesh.
+"""
+SLOWEST = 400.0
+"""Time steps in a second with which scaled masses still follow the hands."""
+MOST_SUBSTEPS = 2000
+"""Substeps in a frame that a recipe can ask for."""
+FEWEST_FRAMES = 6
+"""Frames in which a balloon can be blown up: the pump's flow changes from frame to frame."""
+
+
+def settings_problems(recipe: Recipe) -> list[Problem]:
+    """Return what is wrong with the physics and the balloons of a recipe, at its places in the file."""
+    if recipe.physics.model == "kosaka":
+        return kosaka_problems(recipe)
+    return [*_thick_walls(recipe), *_slow_steps(recipe), *_unscaled_masses(recipe)]
+
+
+def pace_problems(recipe: Recipe, choreography: Choreography) -> list[Problem]:
+    """Return whether balloons are blown up in too few frames."""
+    seconds = min((m.seconds for m in choreography.moves if isinstance(m, Inflate)), default=math.inf)
+    if seconds * recipe.fps >= FEWEST_FRAMES:
+        return []
+    frames = math.floor(seconds * recipe.fps)
+    text = (
+        f"{recipe.fps:g} frames/s leave {frames} for the {seconds:.1f} s in which a balloon is blown up, "
+        f"expected at least {math.ceil(FEWEST_FRAMES / seconds)} frames/s"
+    )
+    return [recipe.problem(("fps",), text)]
+
+
+def _thick_walls(recipe: Recipe) -> Iterator[Problem]:
+    for name, balloon in recipe.balloons.items():
+        size = size_named(balloon.size).with_overrides(balloon.radius, balloon.length, balloon.thickness)
+        if size.thickness > THICKEST * size.radius * (1.0 + 1e-9):
+            key = "radius" if balloon.thickness is None else "thickness"
+            # Rounded to hundredths of a millimetre, so that what is written works.
+            least = math.ceil(1e5 * size.thickness / THICKEST - 1e-6) / 100.0
+            most = math.floor(1e5 * size.radius * THICKEST + 1e-6) / 100.0
+            expected = f"at least {least:g} mm" if key == "radius" else f"at most {most:g} mm"
+            text = (
+                f"a wall of {1e3 * size.thickness:g} mm is no thin skin round a tube of "
+                f"{1e3 * size.radius:g} mm radius, expected {expected}"
+            )
+            yield recipe.problem(("balloons", name, key), text)
+
+
+def _slow_steps(recipe: Recipe) -> Iterator[Problem]:
+    given, least = recipe.physics.substeps, math.ceil(SLOWEST / recipe.fps)
+    if given is not None and given < least:
+        text = (
+            f"{given} at {recipe.fps:g} frames/s are too few to follow the hands, expected at least {least}"
+        )
+        yield recipe.problem(("physics", "substeps"), text)
+
+
+def _unscaled_masses(recipe: Recipe) -> Iterator[Problem]:
+    physics = recipe.physics
+    if physics.mass_scaling != "none":
+        return
+    radius = min(b.radius or size_named(b.size).radius for b in recipe.balloons.values())
+    needed = 50 * math.ceil(WAVE / radius / recipe.fps / 50.0)
+    if (physics.substeps or 0) >= needed or (physics.substeps or math.inf) < SLOWEST / recipe.fps:
+        return
+    if needed > MOST_SUBSTEPS:
+        more_frames = math.ceil(WAVE / radius / MOST_SUBSTEPS)
+        expected = f"mass_scaling: selective, or fps: {more_frames} and substeps: {MOST_SUBSTEPS}"
+    else:
+        expected = f"substeps: {needed} or more (finer details need more), or mass_scaling: selective"
+    given = "the usual time steps" if physics.substeps is None else f"{physics.substeps} substeps"
+    text = f"{given} are too long for rubber of its true mass, expected {expected}"
+    key = "mass_scaling" if physics.substeps is None else "substeps"
+    yield recipe.problem(("physics", key), text)

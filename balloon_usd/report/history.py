@@ -1,0 +1,127 @@
+"""What every bubble and every flat tail did, frame after frame."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from balloon_usd.plan.choreography import Pinch
+from balloon_usd.report.step_marks import step_marks
+from balloon_usd.solver.tally import flat_tail
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from balloon_usd.balloon.tube_mesh import BalloonMesh
+    from balloon_usd.plan import Plan, Strip
+    from balloon_usd.report.step_marks import StepMark
+    from balloon_usd.solver.frame import Frame
+
+    Floats = NDArray[np.float64]
+
+
+class History:
+    """Gathers the frames of one sculpture into a few numbers each; no mesh is kept."""
+
+    def __init__(self, plan: Plan, meshes: Sequence[BalloonMesh]) -> None:
+        """Begin with nothing seen; one mesh a balloon, in the order of `Plan.strips`."""
+        self.plan = plan
+        self._tubes = [
+            (index, strip, mesh)
+            for index, (strip, mesh) in enumerate(zip(plan.strips.values(), meshes, strict=True))
+            if not strip.capsule
+        ]
+        self._necks = [_necks(plan, balloon) for balloon in plan.strips]
+        self._owners = _owners(plan, meshes)
+        self._time_codes: list[int] = []
+        self._pressure: list[Floats] = []
+        self._volume: list[Floats] = []
+        self._stretch: list[Floats] = []
+        self._tail: list[list[float]] = []
+
+    def add(self, frame: Frame) -> None:
+        """Take in the next frame; it may be changed or thrown away afterwards."""
+        self._time_codes.append(frame.time_code)
+        self._pressure.append(frame.pressure.astype(np.float64))
+        self._volume.append(frame.volume.astype(np.float64))
+        highest = np.zeros(len(self.plan.bubbles))
+        for stretch, owner in zip(frame.stretch, self._owners, strict=True):
+            np.maximum.at(highest, owner, stretch)
+        self._stretch.append(highest)
+        self._tail.append([self._tail_in(frame, *tube) for tube in self._tubes])
+
+    def _tail_in(self, frame: Frame, index: int, strip: Strip, mesh: BalloonMesh) -> float:
+        """Return the flat rubber (m) at the tip of a tube, as far as its gas or its last neck."""
+        time = (frame.time_code - 1) / self.plan.recipe.fps
+        neck = max((along for begin, along in self._necks[index] if begin <= time), default=0.0)
+        return flat_tail(mesh, frame.points[index], neck, strip.size.radius)
+
+    @property
+    def time_codes(self) -> tuple[int, ...]:
+        """Numbers of the frames, from 1 for the first of the animation."""
+        return tuple(self._time_codes)
+
+    @property
+    def times(self) -> Floats:
+        """Time of every frame since the start of the animation, (N,) float64, s."""
+        return (np.array(self._time_codes, dtype=np.float64) - 1.0) / self.plan.recipe.fps
+
+    @property
+    def bubble_names(self) -> tuple[str, ...]:
+        """Bubbles in plan order, as the columns of what follows."""
+        return tuple(bubble.name for bubble in self.plan.bubbles)
+
+    @property
+    def pressure(self) -> Floats:
+        """Gauge pressure of every bubble, (N, bubbles) float64, Pa."""
+        return np.array(self._pressure).reshape(len(self._time_codes), -1)
+
+    @property
+    def volume(self) -> Floats:
+        """Gas of every bubble, (N, bubbles) float64, m3."""
+        return np.array(self._volume).reshape(len(self._time_codes), -1)
+
+    @property
+    def stretch(self) -> Floats:
+        """Largest principal stretch in the wall of every bubble, (N, bubbles) float64."""
+        return np.array(self._stretch).reshape(len(self._time_codes), -1)
+
+    @property
+    def tail_names(self) -> tuple[str, ...]:
+        """Balloons that have a tail: a capsule has none."""
+        return tuple(strip.balloon for _, strip, _ in self._tubes)
+
+    @property
+    def tail(self) -> Floats:
+        """Flat rubber at the tip of every such balloon, (N, tails) float64, m."""
+        return np.array(self._tail).reshape(len(self._time_codes), len(self._tubes))
+
+    @property
+    def marks(self) -> tuple[StepMark, ...]:
+        """Steps that are seen in the frames; the first of them may have begun before."""
+        if not self._time_codes:
+            return ()
+        first, last = self._time_codes[0], self._time_codes[-1]
+        marks = [mark for mark in step_marks(self.plan) if mark.time_code <= last]
+        over = [mark for mark in marks if mark.time_code <= first]
+        return tuple(marks[max(len(over) - 1, 0) :])
+
+
+def _owners(plan: Plan, meshes: Sequence[BalloonMesh]) -> list[NDArray[np.int64]]:
+    """Return the bubble (V,) in plan order that every vertex of every balloon belongs to."""
+    owners, before = [], 0
+    for strip, mesh in zip(plan.strips.values(), meshes, strict=True):
+        ends = np.array([bubble.rest_end for bubble in strip.bubbles[:-1]])
+        owners.append(before + np.searchsorted(ends, mesh.along, side="left"))
+        before += len(strip.bubbles)
+    return owners
+
+
+def _necks(plan: Plan, balloon: str) -> list[tuple[float, float]]:
+    """Return when each neck of a balloon begins to close (s), and how far from the knot it is (m)."""
+    pinches = [move for move in plan.choreography.moves if isinstance(move, Pinch)]
+    rings = [(move.start, plan.table.rings[move.ring]) for move in pinches]
+    return [(start, ring.along) for start, ring in rings if ring.balloon == balloon]

@@ -1,0 +1,63 @@
+"""Putting a report where it was asked for, whole or not at all."""
+
+from __future__ import annotations
+
+import secrets
+from contextlib import suppress
+from io import BytesIO
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from balloon_usd.report.document import report_data, report_text
+from balloon_usd.report.error import ReportError
+from balloon_usd.report.figure import draw_figure
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from os import PathLike
+
+    from balloon_usd.report.history import History
+
+
+def report_files(folder: str | PathLike[str], name: str) -> tuple[Path, Path]:
+    """Return where the numbers and the figure of a sculpture go: NAME.report.json and NAME.report.png."""
+    return Path(folder, f"{name}.report.json"), Path(folder, f"{name}.report.png")
+
+
+def write_report(
+    history: History, folder: str | PathLike[str], *, detail: str, provenance: Mapping[str, str]
+) -> tuple[Path, Path]:
+    """Write the numbers and the figure of a run and return their files; see `report_data`.
+
+    Both files are written beside their final names before either gets it.
+
+    Raises:
+        ReportError: nothing was seen, the disk is full, or the folder cannot be written.
+    """
+    if not history.time_codes:
+        raise ReportError(f"{history.plan.recipe.name}: there is nothing to report, no frame was seen")
+    picture = BytesIO()
+    draw_figure(history, detail=detail).save(picture, format="PNG")
+    text = report_text(report_data(history, detail=detail, provenance=provenance))
+    numbers, figure = report_files(folder, history.plan.recipe.name)
+    _replace_all({numbers: text.encode("utf-8"), figure: picture.getvalue()})
+    return numbers, figure
+
+
+def _replace_all(contents: Mapping[Path, bytes]) -> None:
+    # Names of their own, since another run may write the same report.
+    mark = secrets.token_hex(4)
+    partial = {path: path.with_name(f".{path.name}.{mark}.partial") for path in contents}
+    path = next(iter(contents))
+    try:
+        for path, content in contents.items():
+            with partial[path].open("xb") as file:
+                file.write(content)
+        for path in contents:
+            partial[path].replace(path)
+    except OSError as error:
+        raise ReportError(f"{path} cannot be written: {error.strerror or error}") from error
+    finally:
+        for left in partial.values():
+            with suppress(OSError):
+                left.unlink(missing_ok=True)

@@ -1,0 +1,247 @@
+"""Reports: the numbers of a run, their file, and the figure."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from balloon_usd.balloon.detail import detail_named
+from balloon_usd.plan import plan as plan_of
+from balloon_usd.plan.meshing import mesh_of
+from balloon_usd.recipe import Recipe
+from balloon_usd.report import History, ReportError, draw_figure, report_data, report_text, write_report
+from balloon_usd.report.step_marks import step_marks
+from balloon_usd.solver.frame import Frame
+
+TUBE = """\
+format: 1
+name: snake
+title: A snake
+units: cm
+balloons:
+  main: {size: 260, length: 16, tail: 5}
+steps:
+  - bubbles: {nose: 8, middle: 10}
+  - lock: [nose, middle]
+  - rest: tail
+  - bend: {tail: 60}
+  - wait: 1.5
+"""
+CAPSULE = """\
+format: 1
+name: air
+units: cm
+balloons:
+  main: {size: 260, capsule: 20}
+steps:
+  - push: {bubble: main_rest, depth: 1}
+physics: {model: kosaka}
+"""
+ORIGIN = {"recipe": "snake.yaml", "recipe_sha256": "0" * 64, "solver": "latex 1"}
+
+
+def flat(text=TUBE):
+    """A plan and its meshes."""
+    plan = plan_of(Recipe.parse(text, file="snake.yaml"))
+    return plan, [mesh_of(strip, detail_named("draft")) for strip in plan.strips.values()]
+
+
+def frame(plan, meshes, code, wide=1.0):
+    """A frame of flat balloons, `wide` times as wide."""
+    bubbles = np.arange(1, len(plan.bubbles) + 1, dtype=np.float32)
+    return Frame(
+        code,
+        tuple(mesh.points * np.float32([1, wide, wide]) for mesh in meshes),
+        tuple(mesh.along + np.float32(2.0) for mesh in meshes),
+        1000.06 * bubbles,
+        1e-4 * bubbles,
+        "hold",
+    )
+
+
+def history_of(codes, text=TUBE):
+    plan, meshes = flat(text)
+    history = History(plan, meshes)
+    for code in codes:
+        history.add(frame(plan, meshes, code))
+    return history
+
+
+@pytest.fixture
+def history():
+    return history_of(range(1, 200))
+
+
+def test_every_bubble_has_a_column_in_plan_order(history):
+    assert history.bubble_names == ("nose", "middle", "tail")
+    assert history.pressure.shape == history.volume.shape == history.stretch.shape == (199, 3)
+    assert history.pressure[7] == pytest.approx([1000.06, 2000.12, 3000.18])
+
+
+def test_the_highest_stretch_is_that_of_the_bubbles_own_wall(history):
+    ends = [bubble.rest_end for bubble in history.plan.bubbles]
+    assert history.stretch[0, 0] == pytest.approx(2.0 + ends[0], abs=2e-4)
+    assert history.stretch[0, 1] == pytest.approx(2.0 + ends[1], abs=2e-4)
+    assert (np.diff(history.stretch[0]) > 0).all()
+
+
+def test_a_flat_balloon_is_all_tail_until_a_neck_closes(history):
+    assert history.tail_names == ("main",)
+    pinched = 1 + round(24 * next(m.start for m in history.plan.choreography.moves if "pinch" in m.text))
+    neck = history.plan.bubbles[0].rest_end
+    assert history.tail[0, 0] == pytest.approx(0.16, abs=0.001)
+    assert history.tail[pinched, 0] == pytest.approx(0.16 - neck, abs=0.003)
+
+
+def test_a_balloon_that_is_blown_up_has_no_tail():
+    plan, meshes = flat()
+    history = History(plan, meshes)
+    history.add(frame(plan, meshes, 1, wide=5.0))
+    assert history.tail.tolist() == [[0.0]]
+
+
+def test_a_capsule_has_no_tail():
+    history = history_of(range(1, 4), CAPSULE)
+    assert history.tail_names == ()
+    data = report_data(history, detail="draft", provenance=ORIGIN)
+    assert data["balloons"] == []
+    assert data["burst_stretch"] is None
+
+
+def test_steps_are_marked_where_they_begin_by_what_they_do():
+    texts = [mark.text for mark in step_marks(flat()[0])]
+    assert texts == [
+        "inflate: main",
+        "bubbles: nose, middle",
+        "lock: nose, middle",
+        "bend: tail",
+        "wait: 1.5 s",
+        "hold",
+    ]
+    codes = [mark.time_code for mark in step_marks(flat()[0])]
+    assert codes == sorted(set(codes))
+    assert codes[0] == 1
+
+
+def test_a_push_is_marked_by_its_bubble():
+    assert [mark.text for mark in step_marks(flat(CAPSULE)[0])][1] == "push: main_rest"
+
+
+def test_a_range_of_frames_has_the_steps_that_are_seen_in_it():
+    marks = step_marks(flat()[0])
+    history = history_of(range(marks[1].time_code + 3, marks[2].time_code + 3))
+    assert history.marks == marks[1:3]
+
+
+def test_the_document_has_its_keys_in_order_and_units_for_its_numbers(history):
+    data = json.loads(report_text(report_data(history, detail="draft", provenance=ORIGIN)))
+    assert list(data) == [
+        "format",
+        "name",
+        "title",
+        "recipe",
+        "recipe_sha256",
+        "solver",
+        "model",
+        "detail",
+        "fps",
+        "units",
+        "burst_stretch",
+        "steps",
+        "time_code",
+        "time",
+        "bubbles",
+        "balloons",
+    ]
+    assert data["format"] == 1
+    assert list(data["bubbles"][0]) == ["name", "balloon", "pressure", "volume", "stretch"]
+    assert {*data["units"]} == {"time", "pressure", "volume", "stretch", "tail"}
+    assert len(data["time"]) == len(data["bubbles"][2]["volume"]) == len(data["balloons"][0]["tail"]) == 199
+    assert data["time"][24] == 1.0
+
+
+def test_numbers_are_rounded_to_what_single_precision_means(history):
+    bubble = report_data(history, detail="draft", provenance=ORIGIN)["bubbles"][2]
+    assert bubble["pressure"][0] == 3000.2
+    assert bubble["volume"][0] == 0.0003
+
+
+def test_a_negative_zero_is_written_as_zero():
+    plan, meshes = flat()
+    history = History(plan, meshes)
+    one = frame(plan, meshes, 1)
+    one.pressure[:] = -0.01
+    history.add(one)
+    assert "-0.0" not in report_text(report_data(history, detail="draft", provenance=ORIGIN))
+
+
+def test_frames_may_change_after_they_were_taken_in():
+    plan, meshes = flat()
+    history = History(plan, meshes)
+    one = frame(plan, meshes, 1)
+    history.add(one)
+    for array in (one.pressure, one.volume, *one.stretch, *one.points):
+        array[:] = 0
+    assert history.pressure[0, 0] == pytest.approx(1000.06)
+
+
+def test_a_row_of_numbers_stays_on_one_line(history):
+    lines = report_text(report_data(history, detail="draft", provenance=ORIGIN)).splitlines()
+    assert len(lines) < 60
+    assert sum("pressure" in line for line in lines) == 1 + 3
+
+
+def test_equal_frames_give_equal_bytes(history, tmp_path):
+    (tmp_path / "again").mkdir()
+    first = write_report(history, tmp_path, detail="draft", provenance=ORIGIN)
+    again = write_report(history_of(range(1, 200)), tmp_path / "again", detail="draft", provenance=ORIGIN)
+    assert [file.name for file in first] == ["snake.report.json", "snake.report.png"]
+    assert [file.read_bytes() for file in first] == [file.read_bytes() for file in again]
+
+
+def test_a_report_that_cannot_be_written_leaves_nothing(history, tmp_path):
+    (tmp_path / "snake.report.json").mkdir()
+    with pytest.raises(ReportError, match=r"snake\.report\.json cannot be written"):
+        write_report(history, tmp_path, detail="draft", provenance=ORIGIN)
+    assert [path.name for path in tmp_path.iterdir()] == ["snake.report.json"]
+
+
+def test_a_full_disk_leaves_the_report_that_was_there(history, tmp_path, monkeypatch):
+    before = write_report(history, tmp_path, detail="draft", provenance=ORIGIN)[0].read_bytes()
+
+    def full(path, target):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("pathlib.Path.replace", full)
+    with pytest.raises(ReportError, match="No space left on device"):
+        write_report(history, tmp_path, detail="full", provenance=ORIGIN)
+    assert (tmp_path / "snake.report.json").read_bytes() == before
+    assert len(list(tmp_path.iterdir())) == 2
+
+
+def test_without_frames_there_is_nothing_to_report(tmp_path):
+    with pytest.raises(ReportError, match="no frame was seen"):
+        write_report(history_of([]), tmp_path, detail="draft", provenance=ORIGIN)
+
+
+@pytest.mark.parametrize("codes", [[5], [5, 6], range(1, 150)])
+@pytest.mark.parametrize("text", [TUBE, CAPSULE])
+def test_any_number_of_frames_is_drawn(codes, text):
+    picture = draw_figure(history_of(codes, text), detail="draft")
+    assert isinstance(picture, Image.Image)
+    assert picture.width > 1500
+    assert len({color for _, color in picture.getcolors(1 << 24)}) > 50
+
+
+def test_numbers_beyond_measure_are_drawn_too():
+    plan, meshes = flat()
+    history = History(plan, meshes)
+    for code, value in enumerate((0.0, -3e4, 1e9), start=1):
+        one = frame(plan, meshes, code)
+        one.pressure[:] = value
+        one.volume[:] = 0.0
+        history.add(one)
+    assert draw_figure(history, detail="draft").height > 500
