@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from balloon_usd.balloon.rubber import Rubber, rubber_named
-from balloon_usd.solver.kernels.gas import balloon_gas
+from tests.verification.lone_kernels import balloon_gas
 from tests.verification.setups import Rig, cube_sphere, plain, tube
 
 RADIUS, THICKNESS = 0.02, 0.2e-3

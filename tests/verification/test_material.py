@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from balloon_usd.balloon.rubber import rubber_named
-from balloon_usd.solver.kernels.membrane import quad_forces
+from tests.verification.lone_kernels import quad_forces
 from tests.verification.setups import Rig, plain, plate
 
 SIZE, THICKNESS = 0.01, 0.18e-3

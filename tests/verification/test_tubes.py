@@ -7,7 +7,7 @@ import pytest
 
 from balloon_usd.balloon.rubber import Rubber, rubber_named
 from balloon_usd.balloon.tube_theory import closed_tube_state
-from balloon_usd.solver.kernels.membrane import quad_forces
+from tests.verification.lone_kernels import quad_forces
 from tests.verification.setups import Rig, plain, ring_stretches, stretched, tube
 
 RADIUS, THICKNESS, AROUND = 4.5e-3, 0.18e-3, 28
@@ -35,13 +35,17 @@ def settled(rubber, hoop, axial, p_star, *, hold_length=False, stations=STATIONS
 @pytest.mark.parametrize(
     ("name", "hoop"),
     [(name, hoop) for name in LAWS for hoop in (1.2, 1.6)]
-    # Beyond the pressure maximum: as far as the law keeps a short tube even, or on the bulged branch.
+    # Beyond the pressure maximum, and on the bulged branch.
     + [("neo-hooke", 3.0), ("mooney-rivlin", 3.0), ("gent", 3.0), ("gent", 5.8), ("ogden", 5.6642)],
 )
 def test_a_closed_tube_has_the_pressure_and_the_length_of_its_width(verify, name, hoop):
     rubber = plain(rubber_named(name))
     theory = closed_tube_state(rubber, hoop)
-    p_star, a, b = settled(rubber, hoop, theory.b, theory.p_star)
+    # Between the pressure maximum and the bulged branch a tube stays even only if it is short.
+    unstable = hoop == 3.0
+    p_star, a, b = settled(
+        rubber, hoop, theory.b, theory.p_star, stations=STATIONS[:4] if unstable else STATIONS
+    )
     there = closed_tube_state(rubber, a)
     verify("V05", f"closed tube, {name}, hoop stretch {hoop}, p*, Pa", p_star, there.p_star, 1e-2)
     verify("V05", f"closed tube, {name}, hoop stretch {hoop}, axial", b, there.b, 1e-2)

@@ -302,45 +302,6 @@ def press_wall(
             contact_share[i, k] = s
 
 
-@wp.kernel
-def press_walls(
-    quads: wp.array[wp.vec4i],
-    mass: wp.array[float],
-    touch: Touch,
-    friction: wp.array[float],
-    vertex_balloon: wp.array[int],
-    dt: float,
-    area: wp.array[float],
-    quad_area: wp.array[wp.vec3],
-    target: wp.array2d[int],
-    hit_count: wp.array[int],
-    x: wp.array[wp.vec3],
-    v: wp.array[wp.vec3],
-    slip: wp.array2d[wp.vec3],
-    contact_force: wp.array2d[wp.vec3],
-    contact_share: wp.array2d[wp.vec4],
-):
-    """Write the contact force (N) on every touching vertex and how the quad that it touches shares it."""
-    press_wall(
-        wp.tid(),
-        quads,
-        mass,
-        touch,
-        friction,
-        vertex_balloon,
-        dt,
-        area,
-        quad_area,
-        target,
-        hit_count,
-        x,
-        v,
-        slip,
-        contact_force,
-        contact_share,
-    )
-
-
 @wp.func
 def balancing_turn(r0: wp.vec3, r1: wp.vec3, r2: wp.vec3, r3: wp.vec3, gap: wp.vec3, f: wp.vec3):
     """Return the vector whose cross products with a quad's corners balance a contact across a gap.
@@ -392,17 +353,3 @@ def press_quad_back(
     corner_force[q, 1] = f1
     corner_force[q, 2] = f2
     corner_force[q, 3] = f3
-
-
-@wp.kernel
-def press_back(
-    quads: wp.array[wp.vec4i],
-    hit_count: wp.array[int],
-    hits: wp.array2d[int],
-    contact_force: wp.array2d[wp.vec3],
-    contact_share: wp.array2d[wp.vec4],
-    x: wp.array[wp.vec3],
-    corner_force: wp.array2d[wp.vec3],
-):
-    """Take from the corners of every quad what the vertices that touch it felt, forces and torques."""
-    press_quad_back(wp.tid(), quads, hit_count, hits, contact_force, contact_share, x, corner_force)

@@ -254,51 +254,6 @@ def advance_gas(
             amount[end] = amount[end] - flow[end]
 
 
-@wp.kernel
-def balloon_gas(
-    balloon_segment: wp.array[int],
-    balloon_segment_end: wp.array[int],
-    end_joint: wp.array[int],
-    inlet: wp.array[int],
-    air: Air,
-    dt: float,
-    fraction: float,
-    open_from: wp.array[float],
-    open_to: wp.array[float],
-    pump_flow: wp.array[float],
-    pump_limit: wp.array[float],
-    pump_goal: wp.array[wp.float64],
-    volume: wp.array[float],
-    room: wp.array[float],
-    flow: wp.array[wp.float64],
-    amount: wp.array[wp.float64],
-    pressure: wp.array[float],
-):
-    """Advance the gas of every balloon."""
-    advance_gas(
-        wp.tid(),
-        0,
-        1,
-        balloon_segment,
-        balloon_segment_end,
-        end_joint,
-        inlet,
-        air,
-        dt,
-        fraction,
-        open_from,
-        open_to,
-        pump_flow,
-        pump_limit,
-        pump_goal,
-        volume,
-        room,
-        flow,
-        amount,
-        pressure,
-    )
-
-
 @wp.func
 def fan_gradient(arm: wp.vec3, chord: wp.vec3, area: wp.vec3, share: float):
     """Return the gradient (m2) of the volume on one side of a ring's fan by one of its vertices.

@@ -329,57 +329,11 @@ def weld_joint_to_others(
             weld_shift[j] = shift
 
 
-@wp.kernel
-def hold_welds(
-    joint_weld: wp.array[int],
-    weld_joint: wp.array2d[int],
-    weld_size: wp.array[int],
-    weld_reach: wp.array[float],
-    weld_gap: wp.array[float],
-    joint_first: wp.array[int],
-    joint_around: wp.array[int],
-    joint_mass: wp.array[float],
-    hand: wp.array[int],
-    dt: float,
-    ring_middle: wp.array[wp.vec3],
-    x: wp.array[wp.vec3],
-    v: wp.array[wp.vec3],
-    weld_shift: wp.array[wp.vec3],
-):
-    """Keep the necks of every weld side by side; a warp of lanes for each joint on a GPU."""
-    j, lane = wp.tid()
-    weld_joint_to_others(
-        j,
-        lane,
-        wp.block_dim(),
-        joint_weld,
-        weld_joint,
-        weld_size,
-        weld_reach,
-        weld_gap,
-        joint_first,
-        joint_around,
-        joint_mass,
-        hand,
-        dt,
-        ring_middle,
-        x,
-        v,
-        weld_shift,
-    )
-
-
 @wp.func
 def shift_middle(j: int, weld_shift: wp.array[wp.vec3], ring_middle: wp.array[wp.vec3]):
     """Move the middle (m) of a ring as its weld has moved the ring."""
     ring_middle[j] = ring_middle[j] + weld_shift[j]
     weld_shift[j] = wp.vec3(0.0)
-
-
-@wp.kernel
-def shift_middles(weld_shift: wp.array[wp.vec3], ring_middle: wp.array[wp.vec3]):
-    """Move the middles (m) of all rings as their welds have moved these."""
-    shift_middle(wp.tid(), weld_shift, ring_middle)
 
 
 @wp.func
@@ -411,28 +365,3 @@ def load_strut(
         tension += strut_damping[s] * wp.dot(ring_speed[ends[1]] - ring_speed[ends[0]], along)
         pull = tension * along
     strut_force[s] = pull
-
-
-@wp.kernel
-def load_struts(
-    strut_joint: wp.array[wp.vec2i],
-    strut_stiffness: wp.array[float],
-    strut_damping: wp.array[float],
-    strut_yield: wp.array[float],
-    ring_middle: wp.array[wp.vec3],
-    ring_speed: wp.array[wp.vec3],
-    strut_length: wp.array[float],
-    strut_force: wp.array[wp.vec3],
-):
-    """Load every strut."""
-    load_strut(
-        wp.tid(),
-        strut_joint,
-        strut_stiffness,
-        strut_damping,
-        strut_yield,
-        ring_middle,
-        ring_speed,
-        strut_length,
-        strut_force,
-    )

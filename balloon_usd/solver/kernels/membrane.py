@@ -129,41 +129,6 @@ def quad_force(
 
 
 @wp.kernel
-def quad_forces(
-    quads: wp.array[wp.vec4i],
-    quad_segment: wp.array[int],
-    quad_law: wp.array[int],
-    to_rest: wp.array[wp.mat22],
-    hourglass: wp.array[wp.vec4],
-    rubber_volume: wp.array[float],
-    laws: wp.array[Law],
-    pressure: wp.array[float],
-    x: wp.array[wp.vec3],
-    v: wp.array[wp.vec3],
-    softening_rate: wp.array[float],
-    peak_energy: wp.array[float],
-    corner_force: wp.array2d[wp.vec3],
-):
-    """Write the force (N) of wall and gas on the four corners of every quad."""
-    quad_force(
-        wp.tid(),
-        quads,
-        quad_segment,
-        quad_law,
-        to_rest,
-        hourglass,
-        rubber_volume,
-        laws,
-        pressure,
-        x,
-        v,
-        softening_rate,
-        peak_energy,
-        corner_force,
-    )
-
-
-@wp.kernel
 def vertex_stretch(
     corners: wp.array[wp.vec4i],
     quads: wp.array[wp.vec4i],

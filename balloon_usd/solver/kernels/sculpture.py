@@ -1,5 +1,5 @@
-"""Whole substeps of sculptures in one launch, for GPUs: blocks of lanes that share one sculpture and wait for
-each other, in place of a launch for each kernel.
+"""Whole substeps of sculptures in one launch: blocks of lanes that share one sculpture and wait for each
+other, in place of a launch for each law.
 """
 
 import warp as wp
@@ -12,9 +12,6 @@ from balloon_usd.solver.kernels.lanes import WARP, block_meets, blocks_meet, lan
 from balloon_usd.solver.kernels.membrane import quad_force
 from balloon_usd.solver.kernels.motion import Spin, move_vertex
 from balloon_usd.solver.kernels.rubber import Law
-
-# Half of the code of its many divisions is for numbers that cannot occur, and a GPU has to load it all.
-wp.set_module_options({"fast_math": True})
 
 LANES = 256
 """Lanes of a block."""

@@ -1,8 +1,12 @@
-"""The crew of a GPU: how many blocks of lanes work on each sculpture, and on which part of the flat state."""
+"""The crew: how many blocks of lanes work on each sculpture, and on which part of the flat state.
+
+On the CPU it is one lane for each sculpture.
+"""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from functools import cache
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import warp as wp
@@ -21,9 +25,7 @@ class Crew:
     """Advances all sculptures of a scene by several substeps in one launch."""
 
     def __init__(self, scene: LatexScene) -> None:
-        """Share out a GPU: as many blocks a sculpture as its vertices and joints fill, and as run
-        at once.
-        """
+        """Share out a device; a GPU in as many blocks a sculpture as this fills, and as run at once."""
         self.scene = scene
         worlds = max(scene.worlds) + 1
         body = np.searchsorted(np.asarray(scene.worlds), np.arange(worlds + 1))
@@ -45,6 +47,7 @@ class Crew:
                 # Those that look after a ring's joint have no vertices besides.
                 need += np.diff(bounds) * (WARP if name == "joint" else 1)
         device = wp.get_device(scene.device)
+        self._kernel = _quick_kernel() if device.is_cuda else advance_sculptures
         at_once = device.sm_count // worlds if device.is_cuda else 1
         self.blocks = max(1, min(-(-int(need.max()) // LANES), at_once))
         scene.zeros("gates", worlds, int)
@@ -56,7 +59,7 @@ class Crew:
         worlds = max(self.scene.worlds) + 1
         self.scene.gates.zero_()
         launcher.launch_tiled(
-            advance_sculptures,
+            self._kernel,
             worlds * self.blocks,
             lanes=LANES,
             crew=self.blocks,
@@ -66,6 +69,15 @@ class Crew:
             walls=int(contact),
             pressing=int(fingers),
         )
+
+
+@cache
+def _quick_kernel() -> Any:
+    """Return the kernel with approximate divisions and roots: half of the code of exact ones is for numbers
+    that cannot occur, and a GPU has to fetch it all in every substep.
+    """
+    make = wp.kernel(module="unique", module_options={"fast_math": True})
+    return make(advance_sculptures.func)
 
 
 def chunks_of(
