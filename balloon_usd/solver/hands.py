@@ -56,7 +56,11 @@ class Hands:
         """Share of a finger's force that every vertex takes."""
         self.pressing = False
         """Whether any finger is on a wall."""
+        self.places = scene.x.numpy()
+        """Where all vertices are, (V, 3), m, as last looked at."""
         self._sent: dict[str, NDArray[Any]] = {}
+        self._welded = False
+        """Whether joints were welded since the last upload."""
         self.welds: list[tuple[int, ...]] = []
 
     def grip(self, joint: int, middle: Floats) -> None:
@@ -133,10 +137,17 @@ class Hands:
         if len(merged) > WELD_SLOTS:
             raise ValueError(f"at most {WELD_SLOTS} joints can be twisted into one, got {len(merged)}")
         self.welds.append(tuple(sorted(merged)))
-        self._upload_welds()
+        self._welded = True
 
     def upload(self) -> None:
-        """Send the goals of the coming frame to the device; its starts are where the last frame ended."""
+        """Send the goals of the coming frame to the device; its starts are where the last frame ended.
+
+        Raises:
+            ValueError: more welds than there is room for.
+        """
+        if self._welded:
+            self._upload_welds()
+            self._welded = False
         for name, values in (
             ("hand", self.mode),
             ("hand_from", self.start),

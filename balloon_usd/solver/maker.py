@@ -36,6 +36,8 @@ class Maker(ABC):
         names = list(plan.strips)
         self.body = {name: first_body + k for k, name in enumerate(names)}
         self._ring = self._global_rings()
+        self._rings_of_scene = (scene.joint_first.numpy(), scene.joint_around.numpy())
+        """First vertex of every ring of the scene, and how many it has."""
         self._began: dict[int, NDArray[np.float64]] = {}
         """What a move found when it began, by index of the move."""
         self._patches: dict[int, Patch] = {}
@@ -223,8 +225,8 @@ class Maker(ABC):
 
     def _ring_width(self, joint: int) -> float:
         """Mean distance of a ring's vertices from their middle, m."""
-        first, n = int(self.scene.joint_first.numpy()[joint]), int(self.scene.joint_around.numpy()[joint])
-        ring = self.scene.x.numpy()[first : first + n]
+        first, n = (int(values[joint]) for values in self._rings_of_scene)
+        ring = self.hands.places[first : first + n]
         return float(np.linalg.norm(ring - ring.mean(axis=0), axis=1).mean())
 
     @abstractmethod

@@ -95,6 +95,7 @@ class KosakaModel:
     def advance(self, begin: float, end: float) -> None:
         """Let the makers act and the physics run from `begin` to `end` (s)."""
         middle = self._seen["ring_middle"].copy()
+        self.hands.places = self._seen["x"]
         self.hands.lift_fingers()
         for maker in self.makers:
             maker.act(begin, end, middle)

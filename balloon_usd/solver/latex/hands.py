@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
+import warp as wp
 
-from balloon_usd.solver.hands import Hands
+from balloon_usd.solver.hands import Floats, Hands
 from balloon_usd.solver.kernels.gas import OPEN_PASSAGE
 from balloon_usd.solver.kernels.motion import Spin
 
@@ -27,6 +28,8 @@ class LatexHands(Hands):
         self.pump_limit = np.ones(len(scene.bodies), dtype=np.float32)
         self.pump_goal = np.zeros(len(scene.bodies))
         self.spins = [Spin() for _ in scene.bodies]
+        self._spun = False
+        """Whether a spin has changed since the last upload."""
         self.upload()
 
     def squeeze(self, joint: int, radius: float, passage: float) -> None:
@@ -40,26 +43,26 @@ class LatexHands(Hands):
         rates[balloon] = rate
         self.scene.softening_rate.assign(rates)
 
-    def turn(self, balloon: int, joint: int, beyond: float, rate: float) -> None:
-        """Spin the part of a balloon farther than `beyond` (m along it) about its own axis in this frame,
-        at a rate (rad/s).
+    def turn(self, balloon: int, point: Floats, beyond: float, rate: float) -> None:
+        """Spin the part of a balloon farther than `beyond` (m along it) about its own axis through a point
+        (3,), m, in this frame, at a rate (rad/s).
         """
         s = self.scene
         span = slice(int(s.vertex_start[balloon]), int(s.vertex_start[balloon + 1]))
-        part = s.x.numpy()[span][s.bodies[balloon].along > beyond]
+        part = self.places[span][s.bodies[balloon].along > beyond]
         spin = Spin()
-        spin.point = s.ring_middle.numpy()[joint]
-        axis = part.mean(axis=0) - spin.point
+        spin.point = wp.vec3(*point)
+        axis = part.mean(axis=0) - point
         spin.axis = axis / max(float(np.linalg.norm(axis)), 1e-12)
         spin.beyond, spin.rate = beyond, rate
         self.spins[balloon] = spin
-        s.spin.assign(self.spins)
+        self._spun = True
 
     def stop_turning(self, balloon: int) -> None:
         """End the spin of a balloon."""
         if self.spins[balloon].rate:
             self.spins[balloon] = Spin()
-            self.scene.spin.assign(self.spins)
+            self._spun = True
 
     def split_gas(self, joint: int) -> None:
         """Share the gas of the open chambers by volume, before a neck between them begins to close."""
@@ -78,6 +81,9 @@ class LatexHands(Hands):
     def upload(self) -> None:
         """Send the goals of the coming frame to the device."""
         super().upload()
+        if self._spun:
+            self.scene.spin.assign(self.spins)
+            self._spun = False
         for name, values in (
             ("open_from", self.passage),
             ("open_to", self.passage_goal),

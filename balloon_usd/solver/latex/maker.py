@@ -75,7 +75,7 @@ class LatexMaker(Maker):
         else:
             super()._perform(k, move, share, fresh, middle)
             if isinstance(move, LetGo) and fresh:
-                self.struts.hold(friction_pairs(self.plan, self.hands, self._ring), middle)
+                self.struts.hold(friction_pairs(self.plan, self.hands, self._ring))
 
     def _inflate(self, move: Inflate, share: float, fresh: bool, middle: Floats) -> None:
         b = self.body[move.balloon]
@@ -140,7 +140,7 @@ class LatexMaker(Maker):
         self._steady(move.ring, middle)
         inside = max(0.0, min(end, move.end) - max(begin, move.start))
         rate = 2.0 * math.pi * move.turns / move.seconds * inside / (end - begin)
-        self.hands.turn(self.body[ring.balloon], self._ring[move.ring], ring.along + SPIN_CLEAR, rate)
+        self.hands.turn(self.body[ring.balloon], middle[self._ring[move.ring]], ring.along + SPIN_CLEAR, rate)
 
     def _keep_bend(self, bubble: str) -> None:
         body, faces = self._faces(bubble)

@@ -64,9 +64,9 @@ class LatexModel:
         self.scene = build_scene(bodies, worlds, settings, device, rings, STRUTS_PER_JOINT * rings)
         self.stepper = Stepper(self.scene, substeps, _reach(bodies, settings))
         self.hands = LatexHands(self.scene)
-        struts = Struts(self.scene, StrutLaw())
+        self._struts = Struts(self.scene, StrutLaw())
         self.makers = [
-            LatexMaker(plan, self.scene, self.hands, struts, run.start)
+            LatexMaker(plan, self.scene, self.hands, self._struts, run.start)
             for plan, run in zip(plans, self._bodies, strict=True)
         ]
         self._mirror = Mirror(self.scene, LOOKED_AT)
@@ -75,9 +75,11 @@ class LatexModel:
     def advance(self, begin: float, end: float) -> None:
         """Let the makers act and the physics run from `begin` to `end` (s)."""
         middle = self._seen["ring_middle"].copy()
+        self.hands.places = self._seen["x"]
         self.hands.lift_fingers()
         for maker in self.makers:
             maker.act(begin, end, middle)
+        self._struts.put(middle)
         self.hands.upload()
         self.stepper.advance(contact=bool(self.hands.touching.any()), fingers=self.hands.pressing)
         self.hands.arrived()

@@ -38,14 +38,22 @@ class Struts:
         self.law = law
         self.pairs: dict[tuple[int, int], int] = {}
         """Strut of every pair of joints."""
+        self._wanted: set[tuple[int, int]] = set()
 
-    def hold(self, pairs: set[tuple[int, int]], middle: Floats) -> None:
-        """Put a strut between every new pair of joints, at the distance that they have now.
+    def hold(self, pairs: set[tuple[int, int]]) -> None:
+        """Ask for a strut between every new pair of joints."""
+        self._wanted |= pairs
+
+    def put(self, middle: Floats) -> None:
+        """Put down the struts that were asked for, at the distances that their joints have now.
+
+        `middle`: of all joints, (J, 3), m.
 
         Raises:
             ValueError: there is no room for so many struts, or too many end at one joint.
         """
-        fresh = sorted(pairs - set(self.pairs))
+        fresh = sorted(self._wanted.difference(self.pairs))
+        self._wanted.clear()
         if not fresh:
             return
         s = self.scene
