@@ -48,8 +48,8 @@ class Watch:
     def _not_finite(self, frame: Frame) -> str | None:
         """Tell of a wall, stretch or gas that is no number any more."""
         for index, (strip, mesh, points) in enumerate(self._balloons(frame)):
-            lost = ~(np.isfinite(points).all(axis=1) & np.isfinite(frame.stretch[index]))
-            if lost.any():
+            if not (np.isfinite(points).all() and np.isfinite(frame.stretch[index]).all()):
+                lost = ~(np.isfinite(points).all(axis=1) & np.isfinite(frame.stretch[index]))
                 share = f"{lost.sum()} of {len(lost)} vertices are no numbers any more"
                 where = self._begun(index) if lost.all() else self._name(strip, mesh, int(np.argmax(lost)))
                 return f"{where} has flown apart: {share}; {self._steadier()}"
@@ -77,10 +77,10 @@ class Watch:
             return None
         worst, where = 0.0, ""
         for (strip, mesh, now), then in zip(self._balloons(frame), self._last.points, strict=True):
-            moved = np.abs(now - then).max(axis=1)
-            vertex = int(np.argmax(moved))
-            if moved[vertex] > worst:
-                worst, where = float(moved[vertex]), self._name(strip, mesh, vertex)
+            moved = np.abs(now - then).ravel()
+            most = int(np.argmax(moved))
+            if moved[most] > worst:
+                worst, where = float(moved[most]), self._name(strip, mesh, most // 3)
         if worst * self._fps <= FASTEST:
             return None
         if worst > FARTHEST:

@@ -64,6 +64,8 @@ class KosakaStepper:
         self._launch = self._launcher.launch
         self._walls = WallSearch(self._launcher, self._grid)
         self._launch_lanes(hold_rings, len(scene.joint_first), fraction=1.0)
+        # Nothing is lost yet: it is loaded now, not in the middle of a run.
+        self.find_lost()
 
     def advance(self, *, contact: bool, fingers: bool, searches: int, rings: bool = True) -> None:
         """Advance by one frame.
