@@ -26,8 +26,8 @@ steps:
   - rest: tail
 physics: {hold: 0.1}
 """
-CUDA = [device.alias for device in wp.get_cuda_devices()]
-"""GPUs of this machine."""
+DEVICES = ["cpu", *(device.alias for device in wp.get_cuda_devices())]
+"""Where simulations can run on this machine."""
 
 
 def head():
@@ -49,8 +49,7 @@ def test_segments_are_cut_into_chunks_that_do_not_cross_their_borders():
     assert first.tolist() == [0, 2, 5, 6]
 
 
-@pytest.mark.parametrize("device", CUDA)
-def test_the_size_of_a_crew_changes_no_bit(device):
-    one, many = performed(device, blocks=1), performed(device)
-    batch = performed(device, copies=3)
-    assert one.points[0].tobytes() == many.points[0].tobytes() == batch.points[0].tobytes()
+@pytest.mark.parametrize("device", DEVICES)
+def test_neither_the_size_of_a_crew_nor_its_company_changes_a_bit(device):
+    alone, one, batch = performed(device), performed(device, blocks=1), performed(device, copies=3)
+    assert alone.points[0].tobytes() == one.points[0].tobytes() == batch.points[0].tobytes()
