@@ -46,7 +46,7 @@ class Stepper:
     def _start(self) -> None:
         """Give rings their middles and chambers their gas before the first substep."""
         s = self.scene
-        self._launch_lanes(move_joints, len(s.joint_first), fraction=1.0)
+        self._launcher.launch_tiled(move_joints, len(s.joint_first), lanes=WARP, fraction=1.0)
         self._volumes()
         volume = s.volume.numpy().astype(float)
         amount = (s.start_gauge.numpy() + s.settings.atmosphere) * volume / float(s.air.molar_energy)
@@ -73,8 +73,5 @@ class Stepper:
             end = min(begin + stride, self.substeps)
             self._crew.advance(self._launcher, self.substeps, begin, end, contact=contact, fingers=fingers)
 
-    def _launch_lanes(self, kernel: Any, blocks: int, **changing: Any) -> None:
-        self._launcher.launch_tiled(kernel, blocks, lanes=WARP, **changing)
-
-    def _volumes(self, **changing: Any) -> None:
-        self._launcher.launch_tiled(segment_volumes, len(self.scene.segment_quad), **changing)
+    def _volumes(self) -> None:
+        self._launcher.launch_tiled(segment_volumes, len(self.scene.segment_quad))
