@@ -123,6 +123,7 @@ def _tube_limits(law: MembraneLaw) -> tuple[PressureLimit | None, PressureLimit 
     return _first_maximum_and_minimum(lambda a: closed_tube_pressure(law, a))
 
 
+@lru_cache(maxsize=64)
 def pressure_maximum(law: MembraneLaw) -> TubeState:
     """Return the state at which a closed tube begins to bulge: the first maximum of p* over a.
 

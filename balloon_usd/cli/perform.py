@@ -63,7 +63,7 @@ def together(plans: Iterable[Plan]) -> list[list[Plan]]:
     """Group plans that can advance in one simulation: one frame rate and one surrounding physics."""
     groups: dict[object, list[Plan]] = defaultdict(list)
     for plan in plans:
-        physics = plan.recipe.physics.model_dump(exclude={"hold", "rubber", "softening", "kosaka"})
+        physics = plan.recipe.physics.model_dump(exclude={"hold", "leak", "rubber", "softening", "kosaka"})
         groups[plan.recipe.fps, *physics.values()].append(plan)
     return list(groups.values())
 

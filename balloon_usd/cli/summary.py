@@ -52,6 +52,9 @@ def print_summary(outcomes: Sequence[Outcome], seconds: float, detail: str, devi
             console.print(
                 f"{name}: {bubble} would burst: use less gas, or make it longer or softer", soft_wrap=True
             )
+        if outcome.tally.undone:
+            name, undone = outcome.plan.recipe.name, ", ".join(outcome.tally.undone)
+            console.print(f"{name}: came undone: {undone}: lock them, with 2 turns or more", soft_wrap=True)
     rate = frames / max(seconds, 1e-9)
     console.print(f"{frames} frames in {seconds:.1f} s, {rate:.0f} frames/s, {detail} on {device}")
     for file in files:

@@ -154,11 +154,15 @@ class Weld(Move):
     """Twist joints that lie together into one."""
 
     rings: tuple[int, ...] = ()
+    turns: float = 0.0
 
 
 @dataclass(frozen=True)
 class LetGo(Move):
     """Take the hands away."""
+
+    for_good: bool = False
+    """Whether nothing is made any more: until then makers hold by hand what would come undone."""
 
 
 @dataclass(frozen=True)
@@ -213,7 +217,7 @@ def choreograph(recipe: Recipe, strips: Mapping[str, Strip], table: RingTable) -
         _STEPS[step.kind](score, step, index)
         if step.seconds is not None and step.kind not in {"push", "wait"}:
             _retime(score, first, begin, step.seconds)
-    score.add(LetGo(score.now, 0.0, len(recipe.steps), "let go"))
+    score.add(LetGo(score.now, 0.0, len(recipe.steps), "let go", for_good=True))
     score.add(Move(score.now, recipe.physics.hold, len(recipe.steps), "hold"))
     return Choreography(tuple(score.moves), score.now)
 
@@ -256,7 +260,7 @@ def _lock(score: _Score, step: Step, index: int) -> None:
     text = f"lock twist: {', '.join(str(end.bubble) for end in step.joints)}"
     for first, last in pairwise(found):
         _together(score, step, index, text, min(first, last), max(first, last))
-    _weld(score, index, text, tuple(found))
+    _weld(score, step, index, text, tuple(found))
 
 
 def _merge(score: _Score, step: Step, index: int) -> None:
@@ -266,7 +270,7 @@ def _merge(score: _Score, step: Step, index: int) -> None:
         if end is not None:
             text = f"{step.kind} twist: {bubble}"
             _together(score, step, index, text, start, end)
-            _weld(score, index, text, (start, end))
+            _weld(score, step, index, text, (start, end))
 
 
 def _together(score: _Score, step: Step, index: int, text: str, first: int, last: int) -> None:
@@ -288,8 +292,8 @@ def _together(score: _Score, step: Step, index: int, text: str, first: int, last
     score.add(Gather(score.now, seconds, index, text, corners=corners, cheeks=cheeks, point=point))
 
 
-def _weld(score: _Score, index: int, text: str, rings: tuple[int, ...]) -> None:
-    score.add(Weld(score.now, 0.0, index, text, rings=rings))
+def _weld(score: _Score, step: Step, index: int, text: str, rings: tuple[int, ...]) -> None:
+    score.add(Weld(score.now, 0.0, index, text, rings=rings, turns=step.turns))
     score.add(Move(score.now, SETTLE_SECONDS, index, text))
     score.add(LetGo(score.now, 0.0, index, "let go"))
 

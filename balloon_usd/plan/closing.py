@@ -57,30 +57,44 @@ def central_angles(lengths: Floats) -> Floats:
     return angles
 
 
-def closing_pose(lengths: Floats, progress: float, along: Floats, point: Floats, gap: float) -> Floats:
-    """Return the joints of a chain that closes, (sides + 1, 3) float64, m, relative to its held last joint.
+class ClosingChain:
+    """A chain of bubbles whose ends are brought together."""
 
-    `lengths`: of the sides from the first joint to the last, m. `progress`: 0 straight, 1 closed. `along`:
-    unit direction of the balloon beyond the held joint; `point`: unit direction, across `along`, to which the
-    chain rises. `gap`: distance that stays between first and last joint, m.
-    """
-    if len(lengths) == 2:
-        # Two sides lie on each other when closed: as unequal sides they would tilt.
-        lengths = np.full(2, lengths.mean())
-    share = min(max(progress, 0.0), 1.0) * (1.0 - 1e-4)
-    sides, angles = lengths[::-1], central_angles(lengths)[::-1]
-    flat = np.zeros((len(sides) + 1, 2))
-    heading = 0.0
-    for k, side in enumerate(sides):
-        if k:
-            heading -= share * 0.5 * (angles[k - 1] + angles[k])
-        flat[k + 1] = flat[k] + side * np.array([math.cos(heading), math.sin(heading)])
-    chord = flat[-1]
-    far = float(np.linalg.norm(chord))
-    e = chord / far
-    flat = np.stack([flat @ e, flat @ np.array([-e[1], e[0]])], axis=1)
-    if far < gap:
-        flat[:, 0] += (gap - far) * np.linspace(0.0, 1.0, len(flat))
-    turned = 0.5 * math.pi * smooth((share - TURN_ACROSS_FROM) / (1.0 - TURN_ACROSS_FROM))
-    across = math.cos(turned) * -along + math.sin(turned) * np.cross(point, -along)
-    return (flat[:, :1] * across + flat[:, 1:] * point)[::-1]
+    def __init__(self, lengths: Floats, along: Floats, point: Floats, gap: float) -> None:
+        """Take the sides from the first joint to the last, (sides,) m.
+
+        `along`: unit direction of the balloon beyond the held joint. `point`: unit direction, across `along`,
+        to which the chain rises. `gap`: distance that stays between first and last joint, m.
+        """
+        if len(lengths) == 2:
+            # Two sides lie on each other when closed: as unequal sides they would tilt.
+            lengths = np.full(2, lengths.mean())
+        self._sides: list[float] = lengths[::-1].tolist()
+        self._angles: list[float] = central_angles(lengths)[::-1].tolist()
+        self._back, self._point = -along, point
+        self._right = np.cross(point, -along)
+        self._gap = gap
+
+    def pose(self, progress: float) -> Floats:
+        """Return the joints, (sides + 1, 3) float64, m, relative to the held last one.
+
+        `progress`: 0 straight, 1 closed.
+        """
+        share = min(max(progress, 0.0), 1.0) * (1.0 - 1e-4)
+        x = y = heading = 0.0
+        joints = [(x, y)]
+        for k, side in enumerate(self._sides):
+            if k:
+                heading -= share * 0.5 * (self._angles[k - 1] + self._angles[k])
+            x, y = x + side * math.cos(heading), y + side * math.sin(heading)
+            joints.append((x, y))
+        flat = np.array(joints)
+        chord = flat[-1]
+        far = math.sqrt(chord.dot(chord))
+        e = chord / far
+        lengthwise, upwards = flat @ e, flat @ np.array([-e[1], e[0]])
+        if far < self._gap:
+            lengthwise += (self._gap - far) * np.linspace(0.0, 1.0, len(flat))
+        turned = 0.5 * math.pi * smooth((share - TURN_ACROSS_FROM) / (1.0 - TURN_ACROSS_FROM))
+        across = math.cos(turned) * self._back + math.sin(turned) * self._right
+        return np.asarray((lengthwise[:, None] * across + upwards[:, None] * self._point)[::-1])

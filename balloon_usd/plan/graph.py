@@ -143,8 +143,12 @@ class SculptureGraph:
         return frozenset(edge.bubble for edge in self.edges if frozenset((edge.start, edge.end)) in pairs)
 
 
-def sculpture_graph(recipe: Recipe, strips: Mapping[str, Strip]) -> SculptureGraph:
-    """Return the graph that the steps of a recipe make of its strips."""
+def sculpture_graph(
+    recipe: Recipe, strips: Mapping[str, Strip], *, least_turns: float = 0.0
+) -> SculptureGraph:
+    """Return the graph that the steps of a recipe make of its strips, without merging joints with fewer
+    turns than `least_turns`.
+    """
     bubbles = [bubble for strip in strips.values() for bubble in strip.bubbles]
     groups = _Groups(Joint(bubble.name, "start") for bubble in bubbles)
     for bubble in bubbles:
@@ -152,7 +156,7 @@ def sculpture_graph(recipe: Recipe, strips: Mapping[str, Strip]) -> SculptureGra
     for strip in strips.values():
         for before, after in zip(strip.bubbles, strip.bubbles[1:], strict=False):
             groups.merge(Joint(before.name, "end"), Joint(after.name, "start"))
-    merged = _merge_steps(recipe, groups)
+    merged = _merge_steps(recipe, groups, least_turns)
     joints = _joints(bubbles, groups, merged)
     index = {end: joint.index for joint in joints for end in joint.ends}
     edges = tuple(
@@ -162,10 +166,12 @@ def sculpture_graph(recipe: Recipe, strips: Mapping[str, Strip]) -> SculptureGra
     return SculptureGraph(joints, edges)
 
 
-def _merge_steps(recipe: Recipe, groups: _Groups) -> list[Joint]:
+def _merge_steps(recipe: Recipe, groups: _Groups, least_turns: float) -> list[Joint]:
     """Merge what the steps merge; return one bubble end of every merged joint."""
     merged: list[Joint] = []
     for step in recipe.steps:
+        if step.turns < least_turns:
+            continue
         meetings = [step.joints] if step.joints else []
         if step.kind in MERGING:
             meetings = [(Joint(name, "start"), Joint(name, "end")) for name in step.lengths]

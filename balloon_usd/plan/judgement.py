@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from balloon_usd.balloon.bubble_shape import shortest_stable_bubble
 from balloon_usd.balloon.rubber import BURST_ENERGY, BURST_STRETCH
+from balloon_usd.plan.holding import HOLDING_TURNS
 from balloon_usd.plan.lengths import at_least, cm
 from balloon_usd.plan.open_tube import softened
 
@@ -19,8 +20,6 @@ if TYPE_CHECKING:
     from balloon_usd.plan.strip import Strip
     from balloon_usd.recipe import Recipe
 
-FEWEST_TURNS = 2.0
-"""Turns below which a twist unwinds: makers advise 2 to 4, three as a rule."""
 MOST_TURNS = 5.0
 """Turns above which a twist eats tail and can cut the rubber: makers stop at 5."""
 UNEQUAL = 0.10
@@ -68,7 +67,7 @@ def _turns(recipe: Recipe) -> Iterator[Caution]:
     for index, step in enumerate(recipe.steps):
         if step.kind in {"rest", "bend", "push", "wait"}:
             continue
-        if step.turns < FEWEST_TURNS:
+        if step.turns < HOLDING_TURNS:
             yield Caution(
                 index,
                 f"a twist of {_turns_text(step.turns)} may unwind",

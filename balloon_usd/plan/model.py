@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from balloon_usd.plan.budget import Budget
     from balloon_usd.plan.choreography import Choreography
     from balloon_usd.plan.graph import SculptureGraph
+    from balloon_usd.plan.holding import Holding
     from balloon_usd.plan.judgement import Caution
     from balloon_usd.plan.rings import RingTable
     from balloon_usd.plan.strip import PlannedBubble, Strip
@@ -23,6 +24,8 @@ class Plan:
     strips: dict[str, Strip]
     """By balloon, in the order of the recipe."""
     graph: SculptureGraph
+    holding: Holding
+    """What stays when the hands let go."""
     budgets: dict[str, Budget]
     """By balloon, in the order of the recipe; a capsule has none."""
     cautions: tuple[Caution, ...]

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from balloon_usd.plan.budget import budget_of
 from balloon_usd.plan.choreography import choreograph
 from balloon_usd.plan.graph import sculpture_graph
+from balloon_usd.plan.holding import holding_of
 from balloon_usd.plan.judgement import cautions_of
 from balloon_usd.plan.laying import lay_strips
 from balloon_usd.plan.model import Plan
@@ -30,7 +31,7 @@ def plan(recipe: Recipe) -> Plan:
         strips = lay_strips(recipe)
     except RecipeError as error:
         raise RecipeError([*problems, *error.problems]) from None
-    graph = sculpture_graph(recipe, strips)
+    graph, holding = sculpture_graph(recipe, strips), holding_of(recipe, strips)
     budgets = {name: budget_of(strip) for name, strip in strips.items() if not strip.capsule}
     table = RingTable(strips)
     cautions = cautions_of(recipe, strips, graph, budgets)
@@ -38,4 +39,4 @@ def plan(recipe: Recipe) -> Plan:
     problems += pace_problems(recipe, choreography)
     if problems:
         raise RecipeError(problems)
-    return Plan(recipe, strips, graph, budgets, cautions, table, choreography)
+    return Plan(recipe, strips, graph, holding, budgets, cautions, table, choreography)

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from balloon_usd.balloon.sizes import size_named
 from balloon_usd.plan.choreography import Inflate
 from balloon_usd.plan.settings_kosaka import kosaka_problems
+from balloon_usd.recipe.quantities import duration_entry
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -30,6 +31,8 @@ SLOWEST = 400.0
 """Time steps in a second with which scaled masses still follow the hands."""
 MOST_SUBSTEPS = 2000
 """Substeps in a frame that a recipe can ask for."""
+LEAK_IN_A_SECOND = 86400.0
+"""Time of leaking that one second of the hold may stand for, s: in a day a 260 loses half of its gas."""
 FEWEST_FRAMES = 6
 """Frames in which a balloon can be blown up: the pump's flow changes from frame to frame."""
 
@@ -38,7 +41,12 @@ def settings_problems(recipe: Recipe) -> list[Problem]:
     """Return what is wrong with the physics and the balloons of a recipe, at its places in the file."""
     if recipe.physics.model == "kosaka":
         return kosaka_problems(recipe)
-    return [*_thick_walls(recipe), *_slow_steps(recipe), *_unscaled_masses(recipe)]
+    return [
+        *_thick_walls(recipe),
+        *_slow_steps(recipe),
+        *_unscaled_masses(recipe),
+        *_hasty_leak(recipe),
+    ]
 
 
 def pace_problems(recipe: Recipe, choreography: Choreography) -> list[Problem]:
@@ -96,3 +104,13 @@ def _unscaled_masses(recipe: Recipe) -> Iterator[Problem]:
     text = f"{given} are too long for rubber of its true mass, expected {expected}"
     key = "mass_scaling" if physics.substeps is None else "substeps"
     yield recipe.problem(("physics", key), text)
+
+
+def _hasty_leak(recipe: Recipe) -> Iterator[Problem]:
+    leak, hold = recipe.physics.leak, recipe.physics.hold
+    if leak is None or leak <= LEAK_IN_A_SECOND * hold:
+        return
+    needed = f"hold: {math.ceil(leak / LEAK_IN_A_SECOND)}"
+    most = f", or leak: {duration_entry(LEAK_IN_A_SECOND * hold)}" if hold > 0.0 else ""
+    text = f"{duration_entry(leak)} in a hold of {hold:g} s are too fast to follow, expected {needed}{most}"
+    yield recipe.problem(("physics", "leak"), text)

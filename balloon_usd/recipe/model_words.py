@@ -16,6 +16,7 @@ LATEX_ONLY = {
     "softening": "springs do not soften",
     "friction": "rubber slides freely on rubber",
     "burst": "springs do not burst",
+    "leak": "its air is fetched back where it leaks",
     "mass_scaling": "everything has unit mass",
 }
 """Keys of the physics that the model kosaka does not know, and why."""

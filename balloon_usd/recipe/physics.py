@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, ConfigDict, StrictBool
 
 from .kosaka import Kosaka
-from .quantities import Between
+from .quantities import Between, Duration
 
 ModelName = Literal["latex", "kosaka"]
 
@@ -31,6 +31,9 @@ class Physics(BaseModel):
     """What to do when a balloon bursts."""
     hold: Annotated[float, Between(0.0, 60.0, "s")] = 2.0
     """Seconds shown after the hands let go."""
+    leak: Duration | None = None
+    """How long the finished sculpture leaks while it is held, such as 6 h or 2 days; not at all when absent;
+    s in Python."""
     mass_scaling: Literal["selective", "none"] = "selective"
     """Whether vertices that would need a smaller time step are made heavier."""
     kosaka: Kosaka = Kosaka()

@@ -28,6 +28,15 @@ METRES: dict[str, Decimal] = {
 NEWTONS: dict[str, Decimal] = {"N": Decimal(1), "mN": Decimal("0.001")}
 """Newtons in one unit."""
 
+SECONDS: dict[str, Decimal] = {
+    "s": Decimal(1),
+    "min": Decimal(60),
+    "h": Decimal(3600),
+    "day": Decimal(86400),
+    "days": Decimal(86400),
+}
+"""Seconds in one unit."""
+
 LONGEST = 5.0
 """Metres. Three times the longest balloon in the trade, so that a slip of the unit is seen."""
 
@@ -88,6 +97,18 @@ def newtons(value: object) -> float:
     return float(number * NEWTONS[unit or "N"])
 
 
+def seconds(value: object) -> float:
+    """Read a time in seconds: a number is in seconds; "6 h" and "2 days" say so.
+
+    Raises:
+        ValueError: if it is no time or has an unknown unit.
+    """
+    number, unit = _number_and_unit(value, "time", '"6 h" or "2 days"')
+    if unit and unit not in SECONDS:
+        raise ValueError(f"unknown unit of time {quoted(unit)}, expected {one_of(SECONDS)}")
+    return float(number * SECONDS[unit or "s"])
+
+
 def length_entry(length: float, units: str | None) -> int | float | str:
     """Write a length (m) as it stands in a recipe with these `units`, so that it reads back the same."""
     exact = Decimal(repr(float(length)))
@@ -102,6 +123,15 @@ def angle_entry(angle: float) -> int | float | str:
     """Write an angle (radians) in degrees where that reads back the same."""
     degrees = short_number(round(math.degrees(angle), 9))
     return degrees if math.radians(degrees) == angle else f"{angle!r} rad"
+
+
+def duration_entry(duration: float) -> str:
+    """Write a time (s) in the largest unit in which it is a whole number."""
+    exact = Decimal(repr(float(duration)))
+    whole = [unit for unit in ("days", "h", "min") if exact % SECONDS[unit] == 0]
+    unit = next((unit for unit in whole if exact >= SECONDS[unit]), "s")
+    number = short_number(float(exact / SECONDS[unit]))
+    return "1 day" if (number, unit) == (1, "days") else f"{number} {unit}"
 
 
 def short_number(number: float) -> int | float:
@@ -242,6 +272,29 @@ class ForceWithin:
         return {"anyOf": [{"type": "number", "exclusiveMinimum": 0, "maximum": self.high}, text]}
 
 
+class DurationWithin:
+    """A time above 0 and at most `high`, in seconds."""
+
+    high = 30.0 * 86400.0
+
+    def read(self, value: object) -> float:
+        """Convert to seconds."""
+        duration = seconds(value)
+        if not 0.0 < duration <= self.high:
+            expected = f"more than 0 and at most {duration_entry(self.high)}"
+            raise ValueError(f"{duration:g} s is out of range, expected {expected}")
+        return duration
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.no_info_before_validator_function(self.read, handler(source))
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        text = {"type": "string", "pattern": rf"^\s*\+?[0-9.]+\s*({'|'.join(SECONDS)})?\s*$"}
+        return {"anyOf": [{"type": "number", "exclusiveMinimum": 0, "maximum": self.high}, text]}
+
+
 def _shown(length: float) -> str:
     for unit, scale in (("m", 1.0), ("cm", 0.01)):
         if abs(length) >= scale:
@@ -253,3 +306,4 @@ Length = Annotated[float, LengthWithin()]
 FlatTail = Annotated[float, LengthWithin(low_included=True)]
 Angle = Annotated[float, AngleWithin()]
 Force = Annotated[float, ForceWithin()]
+Duration = Annotated[float, DurationWithin()]

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from .balloons import FILLINGS
 from .kosaka import kosaka_entries
-from .quantities import angle_entry, length_entry, short_number
+from .quantities import angle_entry, duration_entry, length_entry, short_number
 from .scalars import plain_scalar
 
 if TYPE_CHECKING:
@@ -83,8 +83,12 @@ def _push_entries(push: PushedBubble, units: str | None) -> Entries:
 
 
 def _physics_entries(physics: Entries, units: str | None) -> Entries:
-    kosaka = physics.get("kosaka")
-    return physics | {"kosaka": kosaka_entries(kosaka, units)} if isinstance(kosaka, Mapping) else physics
+    kosaka, leak = physics.get("kosaka"), physics.get("leak")
+    if isinstance(kosaka, Mapping):
+        physics = physics | {"kosaka": kosaka_entries(kosaka, units)}
+    if isinstance(leak, float):
+        physics = physics | {"leak": duration_entry(leak)}
+    return physics
 
 
 def _step_lines(step: object) -> list[str]:

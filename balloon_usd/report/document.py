@@ -15,9 +15,11 @@ if TYPE_CHECKING:
 REPORT_FORMAT = 1
 """Version of the report; it grows when a key changes its meaning or goes."""
 
-UNITS = {"time": "s", "pressure": "Pa", "volume": "m3", "stretch": "1", "tail": "m"}
-"""Units of all numbers by key. Pressure is gauge pressure; stretch is a ratio of lengths."""
-DIGITS = {"time": 6, "pressure": 1, "volume": 10, "stretch": 4, "tail": 5}
+UNITS = {"time": "s", "pressure": "Pa", "volume": "m3", "stretch": "1", "tail": "m", "contact": "N"}
+"""Units of all numbers by key. Pressure is gauge pressure; stretch is a ratio of lengths; contact is the sum
+of the normal forces of all walls that touch a bubble.
+"""
+DIGITS = {"time": 6, "pressure": 1, "volume": 10, "stretch": 4, "tail": 5, "contact": 3}
 """Digits after the point: beyond them is the round-off of single precision."""
 INDENT = "  "
 
@@ -33,6 +35,8 @@ def report_data(history: History, *, detail: str, provenance: Mapping[str, str])
     recipe = history.plan.recipe
     latex = recipe.physics.model == "latex"
     rows = {"pressure": history.pressure, "volume": history.volume, "stretch": history.stretch}
+    if history.contact is not None:
+        rows["contact"] = history.contact
     return {
         "format": REPORT_FORMAT,
         "name": recipe.name,
@@ -47,11 +51,11 @@ def report_data(history: History, *, detail: str, provenance: Mapping[str, str])
             {
                 "step": mark.step,
                 "text": mark.text,
-                "time_code": mark.time_code,
-                "time": round((mark.time_code - 1) / recipe.fps, DIGITS["time"]),
+                **_moment(mark.time_code, recipe.fps),
             }
             for mark in history.marks
         ],
+        "undone": [{"joint": name, **_moment(code, recipe.fps)} for name, code in history.undone],
         "time_code": list(history.time_codes),
         "time": _rounded("time", history.times),
         "bubbles": [
@@ -72,6 +76,10 @@ def report_data(history: History, *, detail: str, provenance: Mapping[str, str])
 def report_text(data: Mapping[str, Any]) -> str:
     """Return a report as JSON text that people can read, too: a list of numbers stays on one line."""
     return _block(data, "") + "\n"
+
+
+def _moment(time_code: int, fps: float) -> dict[str, float]:
+    return {"time_code": time_code, "time": round((time_code - 1) / fps, DIGITS["time"])}
 
 
 def _rounded(key: str, values: Iterable[float]) -> list[float]:

@@ -50,7 +50,7 @@ NAMES_LEAST = 150
 
 
 def draw_figure(history: History, *, detail: str) -> Image.Image:
-    """Return the figure of a run: pressure, volume, stretch and tail over time.
+    """Return the figure of a run: pressure, volume, stretch, contact and tail over time.
 
     Args:
         history: frames of a sculpture, at least one.
@@ -59,7 +59,7 @@ def draw_figure(history: History, *, detail: str) -> Image.Image:
     panels = panels_of(history)
     heights = [_height(panel) for panel in panels]
     across = _across(history)
-    marks = history.marks
+    marks = history.events
     moments = [max((mark.time_code - 1) / history.plan.recipe.fps, across.low) for mark in marks]
     widths = [text_width(mark.text, TEXT_SIZE) for mark in marks]
     rows = rows_for([across.place(moment) for moment in moments], widths, STEP_GAP)
@@ -88,6 +88,9 @@ def panels_of(history: History) -> tuple[Panel, ...]:
         Panel("Gas", "mL", "volume of each bubble", volume, 1),
         Panel("Highest stretch", "", "anywhere in the wall of each bubble", stretch, 2, limit),
     ]
+    if history.contact is not None:
+        contact = _curves(names, history.contact)
+        panels.append(Panel("Contact", "N", "force of all walls that press on each bubble", contact, 1))
     if history.tail_names:
         tails = tuple(
             Curve(name, 100.0 * history.tail[:, index], _balloon_color(index))

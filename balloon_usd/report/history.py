@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from balloon_usd.plan.choreography import Pinch
-from balloon_usd.report.step_marks import step_marks
+from balloon_usd.report.step_marks import StepMark, step_marks
 from balloon_usd.solver.tally import flat_tail
 
 if TYPE_CHECKING:
@@ -17,7 +17,6 @@ if TYPE_CHECKING:
 
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan, Strip
-    from balloon_usd.report.step_marks import StepMark
     from balloon_usd.solver.frame import Frame
 
     Floats = NDArray[np.float64]
@@ -41,6 +40,8 @@ class History:
         self._volume: list[Floats] = []
         self._stretch: list[Floats] = []
         self._tail: list[list[float]] = []
+        self._contact: list[Floats] = []
+        self._undone: dict[str, int] = {}
 
     def add(self, frame: Frame) -> None:
         """Take in the next frame; it may be changed or thrown away afterwards."""
@@ -51,6 +52,10 @@ class History:
         for stretch, owner in zip(frame.stretch, self._owners, strict=True):
             np.maximum.at(highest, owner, stretch)
         self._stretch.append(highest)
+        if frame.contact is not None:
+            self._contact.append(frame.contact.astype(np.float64))
+        for name in frame.undone:
+            self._undone.setdefault(name, frame.time_code)
         self._tail.append([self._tail_in(frame, *tube) for tube in self._tubes])
 
     def _tail_in(self, frame: Frame, index: int, strip: Strip, mesh: BalloonMesh) -> float:
@@ -90,6 +95,16 @@ class History:
         return np.array(self._stretch).reshape(len(self._time_codes), -1)
 
     @property
+    def contact(self) -> Floats | None:
+        """Force with which walls press on every bubble, (N, bubbles) float64, N; None of a model without."""
+        return np.array(self._contact) if self._contact else None
+
+    @property
+    def undone(self) -> tuple[tuple[str, int], ...]:
+        """Locks that slipped and joints that came undone, each with the first frame that shows it."""
+        return tuple(self._undone.items())
+
+    @property
     def tail_names(self) -> tuple[str, ...]:
         """Balloons that have a tail: a capsule has none."""
         return tuple(strip.balloon for _, strip, _ in self._tubes)
@@ -108,6 +123,12 @@ class History:
         marks = [mark for mark in step_marks(self.plan) if mark.time_code <= last]
         over = [mark for mark in marks if mark.time_code <= first]
         return tuple(marks[max(len(over) - 1, 0) :])
+
+    @property
+    def events(self) -> tuple[StepMark, ...]:
+        """Steps that are seen in the frames, and what came undone, in time."""
+        undone = [StepMark(code, None, f"comes undone: {name}") for name, code in self.undone]
+        return tuple(sorted([*self.marks, *undone], key=lambda mark: mark.time_code))
 
 
 def _owners(plan: Plan, meshes: Sequence[BalloonMesh]) -> list[NDArray[np.int64]]:

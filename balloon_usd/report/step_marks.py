@@ -12,12 +12,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class StepMark:
-    """The beginning of a step, or of what comes before the first or after the last."""
+    """The beginning of a step, of what comes before or after all steps, or of what happens by itself."""
 
     time_code: int
     """First frame that shows it, counted from 1."""
     step: int | None
-    """Index of the step in the recipe; None for blowing up and holding."""
+    """Index of the step in the recipe; None for blowing up and holding, and for what comes undone."""
     text: str
     """What is done, for people."""
 

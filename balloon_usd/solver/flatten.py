@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from balloon_usd.solver.corners import corner_table
+from balloon_usd.solver.kernels.lanes import WARP
 
 if TYPE_CHECKING:
     from balloon_usd.solver.scene import Scene
@@ -107,3 +108,25 @@ def segment_arrays(scene: Scene, host: Arrays) -> None:
     host["segment_origin"] = np.array(origin, np.int32)
     host["start_joint"], host["end_joint"] = np.array(start_joint, np.int32), np.array(end_joint, np.int32)
     host["joint_segment"] = sides
+
+
+def chunk_arrays(scene: Scene, host: Arrays) -> None:
+    """Chunks: runs of quads of one segment that a warp of lanes works on at once."""
+    host["chunk_quad"], host["segment_chunk"] = chunks_of(host["segment_quad"], host["segment_quad_end"])
+    worlds = np.arange(max(scene.worlds) + 2)
+    body = np.searchsorted(np.asarray(scene.worlds), worlds)
+    host["world_chunk"] = host["segment_chunk"][scene.segment_start[body]]
+
+
+def chunks_of(
+    begin: NDArray[np.int32], end: NDArray[np.int32]
+) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Cut segments, from quad `begin` to `end` (S,) each, into chunks.
+
+    Returns the first quad of every chunk (C + 1,), and the first chunk of every segment (S + 1,).
+    """
+    count = -(-(end - begin) // WARP)
+    first = np.concatenate([[0], np.cumsum(count)]).astype(np.int32)
+    within = np.arange(first[-1]) - np.repeat(first[:-1], count)
+    starts = np.repeat(begin, count) + WARP * within
+    return np.append(starts, end[-1]).astype(np.int32), first

@@ -26,6 +26,12 @@ class Frame:
     """Gas volume of every bubble in plan order, (bubbles,) float32, m3."""
     doing: str
     """What the hands do."""
+    contact: NDArray[np.float32] | None = None
+    """Force with which walls press on the wall of every bubble, (bubbles,) float32, N; None in the model
+    kosaka, whose walls are moved apart without a force.
+    """
+    undone: tuple[str, ...] = ()
+    """Locks that have slipped and joints that have come undone so far."""
     air: tuple[NDArray[np.float32], ...] = ()
     """Air particles of every balloon, (P, 3) float32, m; empty where the air is no particles."""
     cluster: tuple[NDArray[np.int32], ...] = ()

@@ -12,7 +12,7 @@ from balloon_usd.solver.kernels.joints import CLASP_MODE, GRIP_MODE, LEAD_MODE
 from balloon_usd.solver.scene import WELD_SLOTS
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
 
     from balloon_usd.solver.scene import Scene
 
@@ -52,16 +52,31 @@ class Hands:
         self.touching = np.zeros(len(scene.bodies), dtype=np.int32)
         """Balloons whose walls may touch something: those that have been folded."""
         self.fingers = [Finger() for _ in scene.bodies]
+        self.drag = scene.drag.numpy().copy()
+        """Air drag of every balloon, 1/s."""
         self.finger_share = np.zeros(len(scene.x), dtype=np.float32)
         """Share of a finger's force that every vertex takes."""
         self.pressing = False
         """Whether any finger is on a wall."""
         self.places = scene.x.numpy()
         """Where all vertices are, (V, 3), m, as last looked at."""
+        self.rings = (scene.joint_first.numpy(), scene.joint_around.numpy())
+        """First vertex of every ring, and how many it has."""
         self._sent: dict[str, NDArray[Any]] = {}
+        self._due: dict[str, Any] = {}
+        """What has changed since the last upload, by the names of the arrays."""
         self._welded = False
         """Whether joints were welded since the last upload."""
         self.welds: list[tuple[int, ...]] = []
+        self._weld_of: dict[int, tuple[int, ...]] = {}
+        """The weld that holds a joint."""
+        self._weld_sizes: dict[tuple[int, ...], tuple[float, float]] = {}
+        """Gap and reach (m) of every weld so far."""
+        self._ring_world = np.repeat(scene.worlds, np.diff(scene.joint_start))
+
+    def see(self, seen: Mapping[str, NDArray[Any]]) -> None:
+        """Take note of how things are, by the names of arrays of the scene."""
+        self.places = seen["x"]
 
     def grip(self, joint: int, middle: Floats) -> None:
         """Take hold of a ring where it is."""
@@ -87,21 +102,20 @@ class Hands:
 
     def set_drag(self, balloon: int, rate: float) -> None:
         """Set the air drag of a balloon (1/s)."""
-        drag = self.scene.drag.numpy()
-        drag[balloon] = rate
-        self.scene.drag.assign(drag)
+        self.drag[balloon] = rate
+        self._due["drag"] = self.drag
 
     def touch(self, balloons: Iterable[int]) -> None:
         """Let the walls of these balloons touch from now on."""
         fresh = [b for b in balloons if not self.touching[b]]
         if fresh:
             self.touching[fresh] = 1
-            self.scene.touching.assign(self.touching)
+            self._due["touching"] = self.touching
 
     def give_up(self, balloons: Iterable[int]) -> None:
         """Leave balloons alone whose run has failed."""
         self.touching[list(balloons)] = 0
-        self.scene.touching.assign(self.touching)
+        self._due["touching"] = self.touching
 
     def set_finger(self, balloon: int, finger: Finger, share: Floats) -> None:
         """Put a finger on a balloon for the coming frame.
@@ -112,13 +126,13 @@ class Hands:
         self.finger_share[s.vertex_start[balloon] : s.vertex_start[balloon + 1]] = share
         self.fingers[balloon] = finger
         self.pressing = True
-        s.fingers.assign(self.fingers)
-        s.finger_share.assign(self.finger_share)
+        self._due["fingers"], self._due["finger_share"] = self.fingers, self.finger_share
 
     def lift_fingers(self) -> None:
         """Take all fingers from the walls."""
+        if self.pressing:
+            self.finger_share[:] = 0.0
         self.pressing = False
-        self.finger_share[:] = 0.0
 
     def let_go(self, joints: NDArray[np.int64]) -> None:
         """Take the hands from these rings."""
@@ -131,13 +145,27 @@ class Hands:
             ValueError: more joints than one weld can hold.
         """
         merged = set(joints)
-        for group in [g for g in self.welds if merged & set(g)]:
+        for group in self.welds_of(joints):
             merged |= set(group)
             self.welds.remove(group)
         if len(merged) > WELD_SLOTS:
             raise ValueError(f"at most {WELD_SLOTS} joints can be twisted into one, got {len(merged)}")
-        self.welds.append(tuple(sorted(merged)))
+        group = tuple(sorted(merged))
+        self.welds.append(group)
+        self._weld_of.update(dict.fromkeys(group, group))
         self._welded = True
+
+    def part(self, joints: Iterable[int]) -> None:
+        """Undo all welds of these joints."""
+        for group in self.welds_of(joints):
+            self.welds.remove(group)
+            for joint in group:
+                del self._weld_of[joint]
+            self._welded = True
+
+    def welds_of(self, joints: Iterable[int]) -> list[tuple[int, ...]]:
+        """Return the welds that hold any of these joints."""
+        return list(dict.fromkeys(self._weld_of[j] for j in joints if j in self._weld_of))
 
     def upload(self) -> None:
         """Send the goals of the coming frame to the device; its starts are where the last frame ended.
@@ -148,6 +176,9 @@ class Hands:
         if self._welded:
             self._upload_welds()
             self._welded = False
+        for name, changed in self._due.items():
+            self.scene.arrays[name].assign(changed)
+        self._due.clear()
         for name, values in (
             ("hand", self.mode),
             ("hand_from", self.start),
@@ -180,20 +211,28 @@ class Hands:
         size = np.zeros(rows, dtype=np.int32)
         reach, gap = np.zeros(rows, dtype=np.float32), np.zeros(rows, dtype=np.float32)
         of_joint = np.zeros(len(self.mode), dtype=np.int32)
-        of_world = np.zeros(max(s.worlds) + 1, dtype=np.int32)
-        for k, group in enumerate(self.welds):
-            joint[k, : len(group)] = group
-            size[k] = len(group)
-            of_joint[list(group)] = k + 1
-            of_world[s.world_of_joint(group[0])] += 1
-            neck = float(self.neck[list(group)].mean())
-            gap[k], reach[k] = 2.0 * neck, 2.0 * neck / np.sin(np.pi / max(len(group), 2))
+        count = len(self.welds)
+        size[:count] = [len(group) for group in self.welds]
+        joints = np.array([j for group in self.welds for j in group], dtype=np.int32)
+        first = np.cumsum(size[:count]) - size[:count]
+        weld = np.repeat(np.arange(count), size[:count])
+        joint[weld, np.arange(len(joints)) - first[weld]] = joints
+        of_joint[joints] = weld + 1
+        gap[:count], reach[:count] = np.array([self._weld_size(g) for g in self.welds]).reshape(-1, 2).T
+        of_world = np.bincount(self._ring_world[joints[first]], minlength=max(s.worlds) + 1)
         for name, values in (
             ("weld_joint", joint),
             ("weld_size", size),
             ("weld_reach", reach),
             ("weld_gap", gap),
             ("joint_weld", of_joint),
-            ("world_welds", of_world),
+            ("world_welds", of_world.astype(np.int32)),
         ):
             s.arrays[name].assign(values)
+
+    def _weld_size(self, group: tuple[int, ...]) -> tuple[float, float]:
+        """Return the gap between two joints of a weld and the reach of them all, m."""
+        if group not in self._weld_sizes:
+            gap = 2.0 * float(self.neck[list(group)].mean())
+            self._weld_sizes[group] = gap, gap / float(np.sin(np.pi / max(len(group), 2)))
+        return self._weld_sizes[group]

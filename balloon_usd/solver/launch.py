@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import warp as wp
 
+from balloon_usd.solver.turns import turn_given_away
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Hashable, Iterator
 
@@ -68,7 +70,8 @@ class Launcher:
             finally:
                 graph = wp.capture_end(device=device)
             self._graphs[key] = graph
-        wp.capture_launch(self._graphs[key])
+        with turn_given_away():
+            wp.capture_launch(self._graphs[key])
 
     def _inputs(self, kernel: Any, changing: dict[str, Any]) -> list[Any]:
         values, arrays = self.values | changing, self.scene.arrays

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,7 +13,7 @@ from numpy.typing import NDArray
 
 from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.plan.choreography import Bend, Bring, Gather, LetGo, Move, Push, Weld
-from balloon_usd.plan.closing import closing_pose, smooth
+from balloon_usd.plan.closing import ClosingChain, smooth
 from balloon_usd.solver.kernels.fingers import Finger
 from balloon_usd.solver.push import FINGER_STIFFNESS, Patch, patch_under, press_profile
 
@@ -26,6 +28,27 @@ ALONG = np.array([1.0, 0.0, 0.0])
 """Direction from the knot to the tip."""
 
 
+@dataclass(frozen=True)
+class _Gathering:
+    """A chain of bubbles that is being closed, and what it found when that began; places in m."""
+
+    corners: list[int]
+    """Joints of the chain, from its first to the held one."""
+    cheeks: list[tuple[int, int, NDArray[np.float64], float]]
+    """Rings inside its bubbles: joint, side, how far (3,) it was off the middle of the side, and how far it
+    shall be in the end.
+    """
+    before: list[int]
+    """Joints of what is already made."""
+    began: NDArray[np.float64]
+    """Where the corners were."""
+    places_before: NDArray[np.float64]
+    """Where what is already made was."""
+    chain: ClosingChain
+    off: NDArray[np.float64]
+    """How far the corners were off a straight chain."""
+
+
 class Maker(ABC):
     """Performs one plan on its balloons in a scene."""
 
@@ -36,10 +59,12 @@ class Maker(ABC):
         names = list(plan.strips)
         self.body = {name: first_body + k for k, name in enumerate(names)}
         self._ring = self._global_rings()
-        self._rings_of_scene = (scene.joint_first.numpy(), scene.joint_around.numpy())
-        """First vertex of every ring of the scene, and how many it has."""
         self._began: dict[int, NDArray[np.float64]] = {}
         """What a move found when it began, by index of the move."""
+        self._gathered: dict[int, _Gathering] = {}
+        """Chains that are being closed, by index of the move."""
+        self._steadied: dict[int, list[int]] = {}
+        """Joints that are kept from swinging round a ring."""
         self._patches: dict[int, Patch] = {}
         """Where fingers press, by index of the move."""
         self._pressed: dict[int, float] = {}
@@ -49,7 +74,7 @@ class Maker(ABC):
         self._frame = 0
         self._span = (0.0, 0.0)
         """Beginning and end of the coming frame, s."""
-        self.doing = ""
+        self._text = ""
 
     def _global_rings(self) -> list[int]:
         """Joint of the scene of every planned ring: a body's rings are its plan's, after its spare ones."""
@@ -62,6 +87,11 @@ class Maker(ABC):
             found.append(place[ring.balloon])
             place[ring.balloon] += 1
         return found
+
+    @property
+    def doing(self) -> str:
+        """What the hands do, for people."""
+        return self._text
 
     def act(self, begin: float, end: float, middle: Floats) -> None:
         """Set the hands' goals for the frame from `begin` to `end` (s), given where all rings are (J, 3),
@@ -77,7 +107,7 @@ class Maker(ABC):
             fresh = k not in self._began
             if fresh:
                 self._began[k] = np.zeros(0)
-                self.doing = move.text if move.seconds > 0.0 else self.doing
+                self._text = move.text if move.seconds > 0.0 else self._text
             share = 1.0 if move.end <= end or move.seconds == 0.0 else (end - move.start) / move.seconds
             self._perform(k, move, share, fresh, middle)
             if move.end <= end and k == self._done:
@@ -101,47 +131,58 @@ class Maker(ABC):
         """Keep what is already made from swinging round a joint, free to move along the balloon as the
         neck draws it in.
         """
-        for joint in self._worked(ring):
+        if ring not in self._steadied:
+            self._steadied[ring] = self._worked(ring)
+        worked = self._steadied[ring]
+        for joint in worked:
             self.hands.lead(joint, middle)
-            self.hands.free[joint] = ALONG
+        self.hands.free[worked] = ALONG
 
     def _gather(self, k: int, move: Gather, share: float, fresh: bool, middle: Floats) -> None:
         self.hands.touch(self.body.values())
+        if fresh:
+            self._gathered[k] = self._begin_gathering(move, middle)
+        g = self._gathered[k]
+        progress = smooth(share)
+        pose = g.began[-1] + g.chain.pose(progress)
+        # The chain was not quite straight: what it was off fades as it closes.
+        pose += (1.0 - progress) * g.off
+        self.hands.goal[g.corners] = pose
+        if g.before:
+            self.hands.goal[g.before] = g.places_before + (pose[0] - g.began[0])
+        if not g.cheeks:
+            return
+        centre = pose.mean(axis=0)
+        for joint, side, straight, bulge in g.cheeks:
+            middle_of_side = 0.5 * (pose[side] + pose[side + 1])
+            out = middle_of_side - centre
+            across = pose[side + 1] - pose[side]
+            across = across / max(_length(across), 1e-9)
+            out = out - across * float(out @ across)
+            out = out / max(_length(out), 1e-9)
+            self.hands.goal[joint] = middle_of_side + (1.0 - progress) * straight + progress * bulge * out
+
+    def _begin_gathering(self, move: Gather, middle: Floats) -> _Gathering:
+        """Take hold of the corners of a chain and of what is beside it."""
         corners = [self._ring[r] for r in move.corners]
         cheeks = [(self._ring[r], side) for r, side in move.cheeks]
         held, moving = corners[-1], corners[0]
         # The other hand keeps what is already made, and the open rest, from swinging.
         before, beyond = self._worked(move.corners[0]), self._open(move.corners[-1])
-        if fresh:
-            self.hands.clasp(held, middle)
-            self.hands.grip(moving, middle)
-            for joint in [*corners[1:-1], *(c for c, _ in cheeks), *before, *beyond]:
-                self.hands.lead(joint, middle)
-            self._began[k] = middle[[*corners, *(c for c, _ in cheeks), *before]].astype(np.float64)
-        began = self._began[k]
-        count = len(corners)
-        sides = np.maximum(np.linalg.norm(np.diff(began[:count], axis=0), axis=1), 1e-3)
-        progress = smooth(share)
-        gap = 2.0 * float(self.hands.neck[held])
-        pose = began[count - 1] + closing_pose(sides, progress, ALONG, np.array(move.point), gap)
-        # The chain was not quite straight: what it was off fades as it closes.
-        pose += (1.0 - progress) * (
-            began[:count] - began[count - 1] - closing_pose(sides, 0.0, ALONG, np.array(move.point), gap)
-        )
-        self.hands.goal[corners] = pose
-        if before:
-            self.hands.goal[before] = began[count + len(cheeks) :] + (pose[0] - began[0])
-        centre = pose.mean(axis=0)
-        for slot, (joint, side) in enumerate(cheeks):
-            middle_of_side = 0.5 * (pose[side] + pose[side + 1])
-            out = middle_of_side - centre
-            across = pose[side + 1] - pose[side]
-            across = across / max(float(np.linalg.norm(across)), 1e-9)
-            out = out - across * float(out @ across)
-            out = out / max(float(np.linalg.norm(out)), 1e-9)
-            straight = began[count + slot] - 0.5 * (began[side] + began[side + 1])
-            bulge = self._bulged_radius(move.cheeks[slot][0])
-            self.hands.goal[joint] = middle_of_side + (1.0 - progress) * straight + progress * bulge * out
+        self.hands.clasp(held, middle)
+        self.hands.grip(moving, middle)
+        for joint in [*corners[1:-1], *(c for c, _ in cheeks), *before, *beyond]:
+            self.hands.lead(joint, middle)
+        began, swung = middle[corners].astype(np.float64), middle[before].astype(np.float64)
+        sides = np.maximum(np.linalg.norm(np.diff(began, axis=0), axis=1), 1e-3)
+        chain = ClosingChain(sides, ALONG, np.array(move.point), 2.0 * float(self.hands.neck[held]))
+        off = began - began[-1] - chain.pose(0.0)
+        bulged = [self._bulged_radius(ring) for ring, _ in move.cheeks]
+        found = []
+        for (joint, side), bulge in zip(cheeks, bulged, strict=True):
+            straight = middle[joint].astype(np.float64) - 0.5 * (began[side] + began[side + 1])
+            found.append((joint, side, straight, bulge))
+        return _Gathering(corners, found, before, began, swung, chain, off)
 
     def _worked(self, ring: int) -> list[int]:
         """Joints on the knot's side of a ring."""
@@ -225,7 +266,7 @@ class Maker(ABC):
 
     def _ring_width(self, joint: int) -> float:
         """Mean distance of a ring's vertices from their middle, m."""
-        first, n = (int(values[joint]) for values in self._rings_of_scene)
+        first, n = (int(values[joint]) for values in self.hands.rings)
         ring = self.hands.places[first : first + n]
         return float(np.linalg.norm(ring - ring.mean(axis=0), axis=1).mean())
 
@@ -247,3 +288,7 @@ class Maker(ABC):
                     last -= cap if index == len(strip.bubbles) - 1 else 0
                     return self.body[name], np.arange(first, last)
         raise KeyError(bubble)
+
+
+def _length(vector: NDArray[np.float64]) -> float:
+    return math.sqrt(vector.dot(vector))

@@ -13,6 +13,9 @@ if TYPE_CHECKING:
 
     from balloon_usd.solver.scene import Scene
 
+SIDES = 2
+"""Copies on the host: one is looked at while the other is filled."""
+
 
 class Mirror:
     """Some arrays of a scene as the host last saw them."""
@@ -21,21 +24,32 @@ class Mirror:
         """Choose the arrays by the names that kernels give them."""
         self._device = wp.get_device(scene.device)
         self._sources = {name: scene.arrays[name] for name in names}
-        self._copies = dict(self._sources)
-        if self._device.is_cuda:
-            self._copies = {
-                name: wp.empty(source.shape, dtype=source.dtype, device="cpu", pinned=True)
-                for name, source in self._sources.items()
-            }
+        self._sides = [self._empty() for _ in range(SIDES)]
+        self.side = 0
+        """The copy that was filled last, or is being filled."""
+
+    def _empty(self) -> dict[str, Any]:
+        pinned = self._device.is_cuda
+        return {
+            name: wp.empty(source.shape, dtype=source.dtype, device="cpu", pinned=pinned)
+            for name, source in self._sources.items()
+        }
+
+    def turn(self) -> None:
+        """Keep what was fetched last until the next turn: the other side is filled now."""
+        self.side = (self.side + 1) % SIDES
 
     def copy(self) -> None:
-        """Start copying all arrays; may be recorded in a graph."""
-        if self._device.is_cuda:
-            for name, source in self._sources.items():
-                wp.copy(self._copies[name], source)
+        """Start copying all arrays; may be recorded in a graph for each side."""
+        for name, source in self._sources.items():
+            wp.copy(self._sides[self.side][name], source)
 
     def arrays(self) -> dict[str, NDArray[Any]]:
-        """Wait for the copies and return them; they change with the next copy, and on the CPU at any time."""
+        """Wait for the copies and return them; after two turns they change."""
+        self.wait()
+        return {name: copy.numpy() for name, copy in self._sides[self.side].items()}
+
+    def wait(self) -> None:
+        """Wait until nothing is being copied any more."""
         if self._device.is_cuda:
             wp.synchronize_stream(self._device)
-        return {name: copy.numpy() for name, copy in self._copies.items()}

@@ -10,16 +10,24 @@ if TYPE_CHECKING:
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
     from balloon_usd.solver.frame import Frame
+    from balloon_usd.solver.sight import Sight
 
 
 class Model(Protocol):
     """Sculptures of one physical model in one flat state, advanced together."""
 
     def advance(self, begin: float, end: float) -> None:
-        """Let the makers act and the physics run from `begin` to `end` (s)."""
+        """Let the makers act and start the physics from `begin` to `end` (s)."""
 
     def look(self) -> None:
-        """Fetch the present state, from which frames are made."""
+        """Wait for the state that was reached last; frames are made of it until the next look."""
+
+    def rest(self) -> None:
+        """Wait until nothing is under way."""
+
+    @property
+    def sight(self) -> Sight:
+        """What was looked at, of all sculptures."""
 
     def frame(self, world: int, time_code: int) -> Frame:
         """Return what was looked at as a frame of one sculpture."""

@@ -9,7 +9,7 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
-from balloon_usd.solver.flatten import Arrays, mesh_arrays, ring_arrays, segment_arrays
+from balloon_usd.solver.flatten import Arrays, chunk_arrays, mesh_arrays, ring_arrays, segment_arrays
 from balloon_usd.solver.kernels.contact import HITS, TARGETS, Touch
 from balloon_usd.solver.kernels.fingers import Finger
 
@@ -95,6 +95,7 @@ def lay_meshes(scene: Scene, host: Arrays, weld_count: int) -> None:
     mesh_arrays(scene, host)
     ring_arrays(scene, host)
     segment_arrays(scene, host)
+    chunk_arrays(scene, host)
     scene.put(host)
     _motion_arrays(scene)
     _contact_arrays(scene)
@@ -114,11 +115,13 @@ def _contact_arrays(scene: Scene) -> None:
     vertices, quads, a = int(scene.vertex_start[-1]), int(scene.quad_start[-1]), scene.arrays
     for name, count in (("normal", vertices), ("quad_middle", quads), ("quad_area", quads)):
         scene.zeros(name, count, wp.vec3)
+    for name in ("chunk_low", "chunk_high"):
+        scene.zeros(name, len(a["chunk_quad"]) - 1, wp.vec3)
     scene.zeros("area", vertices, float)
     scene.zeros("ring_radius", len(a["ring_first"]), float)
     for name in ("slip", "contact_force"):
         scene.zeros(name, (vertices, TARGETS), wp.vec3)
-    scene.zeros("contact_share", (vertices, TARGETS), wp.vec4)
+    scene.zeros("contact_place", (vertices, TARGETS), wp.vec2)
     a["target"] = wp.full((vertices, TARGETS), -1, dtype=int, device=scene.device)
     scene.zeros("touching", len(scene.bodies), int)
     scene.zeros("hit_count", quads, int)

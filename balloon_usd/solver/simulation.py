@@ -3,29 +3,42 @@
 from __future__ import annotations
 
 import math
+import os
+from concurrent.futures import ThreadPoolExecutor
+from itertools import pairwise
 from typing import TYPE_CHECKING, TypeVar
+
+import warp as wp
 
 from balloon_usd.balloon.detail import Detail, detail_named
 from balloon_usd.plan.meshing import mesh_of
+from balloon_usd.solver.batch import Batch
 from balloon_usd.solver.device import device_named
-from balloon_usd.solver.errors import SimulationFailed
-from balloon_usd.solver.frame import Frame
 from balloon_usd.solver.kosaka.model import KosakaModel
 from balloon_usd.solver.kosaka.parameters import SUBSTEPS as KOSAKA_SUBSTEPS
 from balloon_usd.solver.latex.model import LatexModel
-from balloon_usd.solver.watch import Watch
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
+    from balloon_usd.solver.batch import Outcome
     from balloon_usd.solver.model import Model, ModelMaker
 
 T = TypeVar("T")
 
 NOMINAL_RATE = 24.0
 """Frame rate for which substeps are given, 1/s."""
+
+THREADED = frozenset({"latex"})
+"""Models whose sculptures run in threads on a CPU. Kernels with tiles must not: Warp 1.19 has one memory for
+them, which all threads of a process share.
+"""
+STATES_PER_THREAD = 4
+"""Most flat states for each thread on a CPU: enough that all end at about the same time, few enough that what
+each needs besides its sculptures does not add up.
+"""
 
 MODELS: dict[str, ModelMaker] = {"latex": LatexModel, "kosaka": KosakaModel}
 """Physical models by the names that recipes give them."""
@@ -46,45 +59,48 @@ class Simulation:
         self.meshes: list[tuple[BalloonMesh, ...]] = [
             tuple(mesh_of(strip, detail) for strip in plan.strips.values()) for plan in self.plans
         ]
-        self.model: Model = MODELS[model](self.plans, self.meshes, self.fps, self.substeps, device)
-        self.watches = [
-            Watch(plan, m, self.fps, self.substeps) for plan, m in zip(self.plans, self.meshes, strict=True)
+        on_gpu = wp.get_device(device).is_cuda
+        self._threads = 1 if on_gpu or model not in THREADED else min(usable_cores(), len(self.plans))
+        self._batches = [
+            Batch(
+                MODELS[model],
+                self.plans[run.start : run.stop],
+                self.meshes[run.start : run.stop],
+                self.frame_counts[run.start : run.stop],
+                self.substeps,
+                device,
+                # On a CPU it would only make the first frame come later.
+                ahead=on_gpu,
+            )
+            for run in _runs(len(self.plans), self._threads)
         ]
+
+    @property
+    def model(self) -> Model:
+        """The model of the first plan; where one flat state holds all plans, that of all."""
+        return self._batches[0].model
 
     @property
     def frame_counts(self) -> tuple[int, ...]:
         """Number of frames of every plan; the first shows the balloons before anything is done."""
         return tuple(1 + math.ceil(plan.choreography.seconds * self.fps - 1e-6) for plan in self.plans)
 
-    def frames(self) -> Iterator[list[Frame | SimulationFailed | None]]:
+    def frames(self) -> Iterator[list[Outcome]]:
         """Yield the next frame of every plan until all are finished.
 
         A plan that has failed yields its `SimulationFailed` once; a plan that is over yields None.
         """
-        counts = self.frame_counts
-        over = [False] * len(self.plans)
-        for index in range(max(counts)):
-            if index:
-                self.model.advance((index - 1) / self.fps, index / self.fps)
-            frames: list[Frame | SimulationFailed | None] = []
-            self.model.look()
-            for world, count in enumerate(counts):
-                outcome = None if over[world] or index >= count else self._outcome(world, index)
-                over[world] = over[world] or not isinstance(outcome, Frame)
-                frames.append(outcome)
-            if all(over):
-                if any(frames):
-                    yield frames
-                return
-            yield frames
-
-    def _outcome(self, world: int, index: int) -> Frame | SimulationFailed:
-        frame = self.model.frame(world, index + 1)
-        cause = self.watches[world].failure(frame) or self.model.failure(world)
-        if cause is None:
-            return frame
-        self.model.give_up(world)
-        return SimulationFailed(frame.doing, index / self.fps, cause, index + 1)
+        if len(self._batches) == 1:
+            yield from self._batches[0].frames()
+            return
+        runs = [batch.frames() for batch in self._batches]
+        with ThreadPoolExecutor(self._threads) as threads:
+            while True:
+                found = list(threads.map(lambda run: next(run, None), runs))
+                if all(outcomes is None for outcomes in found):
+                    return
+                pairs = zip(self._batches, found, strict=True)
+                yield [outcome for batch, outcomes in pairs for outcome in outcomes or [None] * len(batch)]
 
 
 def _the_one(what: str, values: Sequence[T]) -> T:
@@ -94,6 +110,19 @@ def _the_one(what: str, values: Sequence[T]) -> T:
             f"sculptures that advance together need one {what}, got {sorted(map(str, set(values)))}"
         )
     return values[0]
+
+
+def usable_cores() -> int:
+    """Return how many cores of the CPU this process may use."""
+    affinity = getattr(os, "sched_getaffinity", None)
+    return len(affinity(0)) if affinity else os.cpu_count() or 1
+
+
+def _runs(count: int, threads: int) -> list[range]:
+    """Share out so many plans: one flat state for a GPU, else one a plan as long as they are few."""
+    states = 1 if threads == 1 else min(count, STATES_PER_THREAD * threads)
+    bounds = [count * k // states for k in range(states + 1)]
+    return [range(a, b) for a, b in pairwise(bounds)]
 
 
 def _substeps(plans: Sequence[Plan], usual: int, fps: float) -> int:

@@ -42,6 +42,11 @@ class Tally:
                 self.highest_bubble = strip.bubble_at(float(mesh.along[worst])).name
 
     @property
+    def undone(self) -> tuple[str, ...]:
+        """Locks that have slipped and joints that have come undone."""
+        return () if self._last is None else self._last.undone
+
+    @property
     def bursts(self) -> bool:
         """Whether latex would not have borne the highest stretch; springs do not burst."""
         return self._plan.recipe.physics.model == "latex" and self.highest_stretch > BURST_STRETCH

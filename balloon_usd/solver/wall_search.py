@@ -5,39 +5,35 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from balloon_usd.solver.kernels.contact import (
+    chunk_surface,
     find_walls,
     order_hits,
-    quad_surface,
     ring_radii,
     vertex_surface,
 )
+from balloon_usd.solver.kernels.lanes import WARP
 
 if TYPE_CHECKING:
     from balloon_usd.solver.launch import Launcher
-    from balloon_usd.solver.search_grid import SearchGrid
 
 
 class WallSearch:
     """Lists, for every vertex, the walls that it may touch until the next search."""
 
-    def __init__(self, launcher: Launcher, grid: SearchGrid) -> None:
-        """Prepare a search in a grid."""
+    def __init__(self, launcher: Launcher) -> None:
         self._launcher = launcher
-        self._grid = grid
-        launcher.values["grid"] = grid.id
         launcher.values["touch"] = launcher.scene.touch
 
-    def sort_quads(self, x: Any) -> None:
-        """Enter the quads at positions `x` (V,) into the grid."""
-        s = self._launcher.scene
-        self._launcher.launch(quad_surface, len(s.quads), x=x)
-        self._grid.build(s.quad_middle, s.quad_world)
+    def measure_quads(self, x: Any) -> None:
+        """Measure the quads at positions `x` (V,)."""
+        chunks = len(self._launcher.scene.chunk_low)
+        self._launcher.launch_tiled(chunk_surface, chunks, lanes=WARP, x=x)
 
     def find(self, x: Any) -> None:
-        """Find the walls that face each other at positions `x` (V,), once the quads are in the grid."""
-        s, launch = self._launcher.scene, self._launcher.launch
-        launch(vertex_surface, len(s.x))
-        launch(ring_radii, len(s.ring_first), x=x)
+        """Find the walls that face each other at positions `x` (V,), once the quads are measured."""
+        s, launcher = self._launcher.scene, self._launcher
+        launcher.launch(vertex_surface, len(s.x))
+        launcher.launch_tiled(ring_radii, len(s.ring_first), lanes=WARP, x=x)
         s.hit_count.zero_()
-        launch(find_walls, len(s.x), x=x)
-        launch(order_hits, len(s.quads))
+        launcher.launch_tiled(find_walls, len(s.x), lanes=WARP, x=x)
+        launcher.launch(order_hits, len(s.quads))

@@ -11,13 +11,14 @@ from balloon_usd.solver.kernels.contact import HITS
 from balloon_usd.solver.remedy import steadier
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     from numpy.typing import NDArray
 
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan, Strip
     from balloon_usd.solver.frame import Frame
+    from balloon_usd.solver.sight import Sight
 
 FASTEST = 5.0
 """Speed that no part of a balloon reaches between two frames unless the run has gone unstable, m/s."""
@@ -44,6 +45,10 @@ class Watch:
         )
         self._last = frame
         return cause
+
+    def pass_over(self, frame: Frame) -> None:
+        """Take note of a frame in which nothing can be wrong."""
+        self._last = frame
 
     def _not_finite(self, frame: Frame) -> str | None:
         """Tell of a wall, stretch or gas that is no number any more."""
@@ -107,6 +112,54 @@ class Watch:
 
     def _steadier(self) -> str:
         return steadier(self._plan.recipe, self._substeps)
+
+
+class Lookout:
+    """Looks at all sculptures of a flat state at once, and closely only where something is wrong."""
+
+    def __init__(
+        self, plans: Sequence[Plan], meshes: Sequence[tuple[BalloonMesh, ...]], fps: float, substeps: int
+    ) -> None:
+        self._watches = [Watch(plan, m, fps, substeps) for plan, m in zip(plans, meshes, strict=True)]
+        self._fps = fps
+        vertices = [sum(len(mesh.points) for mesh in m) for m in meshes]
+        self._vertex = np.cumsum([0, *vertices[:-1]])
+        """First vertex of every sculpture, (W,)."""
+        self._bubble = np.cumsum([0, *(len(plan.bubbles) for plan in plans[:-1])])
+        """First bubble of every sculpture, (W,)."""
+        self._stops = np.array([plan.recipe.physics.burst == "stop" for plan in plans])
+        self._last: NDArray[np.float32] | None = None
+        self._suspect = np.zeros(len(plans), dtype=bool)
+
+    def look(self, sight: Sight) -> None:
+        """Find the sculptures in which something may be wrong."""
+        last = sight.points if self._last is None else self._last
+        self._last = sight.points
+        # What has failed may be anything; it stays a suspect.
+        with np.errstate(invalid="ignore", over="ignore"):
+            moved = sight.points - last
+            np.abs(moved, out=moved)
+            most = np.maximum.reduceat(moved.reshape(-1), 3 * self._vertex).astype(np.float64)
+            tightest, slackest = _range(sight.stretch, self._vertex)
+            largest, smallest = _range(sight.volume, self._bubble)
+            lowest = np.minimum.reduceat(sight.pressure, self._bubble)
+            well = (most * self._fps <= FASTEST) & (lowest > LOWEST_PRESSURE)
+            well &= ~self._stops | (tightest <= BURST_STRETCH)
+        for bound in (tightest, slackest, largest, smallest):
+            well &= np.isfinite(bound)
+        self._suspect = ~well
+
+    def failure(self, world: int, frame: Frame) -> str | None:
+        """Return what is wrong with the frame of a sculpture that was last looked at, or None."""
+        if self._suspect[world]:
+            return self._watches[world].failure(frame)
+        self._watches[world].pass_over(frame)
+        return None
+
+
+def _range(values: NDArray[np.float32], first: NDArray[np.int64]) -> tuple[NDArray[np.float32], ...]:
+    """Return the highest and the lowest value of every run; no numbers where one is none."""
+    return np.maximum.reduceat(values, first), np.minimum.reduceat(values, first)
 
 
 def crowded(most_hits: int) -> str | None:

@@ -53,6 +53,7 @@ class FakeSimulation:
             bubbles * 1e7,
             bubbles,
             "pinch: nose",
+            undone=("nose.end", "middle.end") if trouble == "undone" else (),
         )
 
 

@@ -57,6 +57,15 @@ def test_no_report_writes_none(cli, solver, write_recipe, left):
     assert "report" not in result.stdout
 
 
+def test_a_run_tells_what_came_undone(cli, solver, write_recipe):
+    solver.trouble = {"snake": "undone"}
+    result = cli("run", write_recipe(), "-o", "out", "--no-preview")
+    assert result.exit_code == 0
+    assert "snake: came undone: nose.end, middle.end: lock them, with 2 turns or more" in result.stdout
+    undone = json.loads(Path("out/snake.report.json").read_text(encoding="utf-8"))["undone"]
+    assert [(entry["joint"], entry["time_code"]) for entry in undone] == [("nose.end", 1), ("middle.end", 1)]
+
+
 def test_a_report_says_what_every_bubble_did(cli, solver, write_recipe):
     result = cli("run", write_recipe(), "-o", "out", "--no-preview", "--detail", "preview")
     assert "report out/snake.report.json" in result.stdout

@@ -43,14 +43,15 @@ def tolerance(points: float, stretch: float, pressure: float, volume: float) -> 
 
 
 # Four times what an error of one unit in the last place of every flat vertex did to the result at most in
-# eight runs, rounded. Without wall on wall it stays at a micrometre. Once walls press and slip on each other
-# it decides which fold beside a neck snaps over first: a few vertices then differ by a millimetre, all
-# together by a quarter of one. The target of the compiler (generic or native) changed no bit.
+# eight runs, rounded. Without wall on wall it stays at micrometres, also where twists come undone. Once walls
+# press and slip on each other it decides which fold beside a neck snaps over first: a few vertices then
+# differ by a millimetre, all together by a quarter of one. The target of the compiler (generic or native)
+# changed no bit.
 TOLERANCES = {
-    "caterpillar": tolerance(points=5e-6, stretch=1e-4, pressure=1e-4, volume=2e-9),
+    "caterpillar": tolerance(points=2e-5, stretch=1e-4, pressure=1e-4, volume=2e-9),
     "pair": tolerance(points=4e-3, stretch=4e-2, pressure=4e-2, volume=1.2e-7),
 }
-ROOT_MEAN_SQUARE = {"caterpillar": 3e-6, "pair": 1.2e-3}
+ROOT_MEAN_SQUARE = {"caterpillar": 8e-6, "pair": 1.2e-3}
 """Tolerance of the distance between the points of one frame, m, as the root of the mean square."""
 recipes = pytest.mark.parametrize("name", TOLERANCES)
 

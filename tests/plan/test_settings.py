@@ -159,3 +159,18 @@ def test_what_springs_and_particles_cannot_do_is_refused(physics, head, what):
 def test_problems_of_constants_and_of_lengths_are_told_together():
     lines = constants("ks: 1e6, re: 10 cm", balloon="size: 260, capsule: 2")
     assert len(lines) == 3
+
+
+@pytest.mark.parametrize(
+    ("entries", "remedy"),
+    [
+        ("leak: 5 days", "5 days in a hold of 2 s are too fast to follow, expected hold: 5, or leak: 2 days"),
+        ("leak: 1 h, hold: 0", "1 h in a hold of 0 s are too fast to follow, expected hold: 1"),
+    ],
+)
+def test_a_leak_that_no_wall_could_follow_is_told_the_hold_that_it_needs(entries, remedy):
+    (line,) = messages(entries)
+    assert line.startswith("t.yaml:6:")
+    assert line.endswith(f"physics.leak: {remedy}")
+    assert messages("leak: 5 days, hold: 5") == []
+    assert messages("leak: 2 days") == []

@@ -155,6 +155,23 @@ def test_a_builder_writes_the_constants_of_the_particle_model_in_its_units() -> 
     assert Recipe.parse(recipe.to_yaml()) == recipe
 
 
+@given(leak=st.floats(1e-3, 2_592_000.0))
+def test_a_written_time_reads_back_bit_for_bit(leak: float) -> None:
+    builder = RecipeBuilder("f").balloon("main", size=260, tail=0.1).wait(1.0).physics(leak=leak)
+    recipe = builder.build()
+    assert recipe.physics.leak == leak
+    assert Recipe.parse(recipe.to_yaml()).physics.leak == leak
+
+
+@pytest.mark.parametrize(
+    ("leak", "written"),
+    [(5400.0, "90 min"), (3600.0, "1 h"), (86400.0, "1 day"), (172800.0, "2 days"), (90.5, "90.5 s")],
+)
+def test_a_time_is_written_in_the_largest_unit_in_which_it_is_whole(leak: float, written: str) -> None:
+    recipe = RecipeBuilder("f").balloon("main", size=260, tail=0.1).wait(1.0).physics(leak=leak).build()
+    assert f'leak: "{written}"' in recipe.to_yaml()
+
+
 @given(force=st.floats(1e-6, 100.0))
 @EXAMPLES
 def test_a_written_force_reads_back_bit_for_bit(force: float) -> None:

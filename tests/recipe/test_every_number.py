@@ -24,7 +24,7 @@ IMPOSSIBLE = [
 HEAD = "format: 1\nname: t\nunits: cm\n"
 AFTER = "steps: [bubbles: {a: 5}]\n"
 TUBE = "balloons:\n  main: {size: 260, tail: 10}\n"
-PHYSICS = ["gravity", "friction", "substeps", "hold"]
+PHYSICS = ["gravity", "friction", "substeps", "hold", "leak"]
 LENGTHS = ["tail", "inflated", "radius", "length", "thickness"]
 NUMBERS = [
     *[(f"physics.{key}", f"{HEAD}{TUBE}{AFTER}physics:\n  {key}: ") for key in PHYSICS],

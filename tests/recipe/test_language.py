@@ -207,7 +207,7 @@ def test_gray_is_grey() -> None:
 def test_the_physics_block_is_read() -> None:
     physics = recipe(
         ABC + "physics: {model: latex, rubber: gent, softening: false, gravity: 9.81, friction: 1,"
-        " substeps: 40, burst: stop, hold: 0, mass_scaling: none}\n"
+        " substeps: 40, burst: stop, hold: 0, leak: 6 h, mass_scaling: none}\n"
     ).physics
     assert physics.model_dump() == {
         "model": "latex",
@@ -218,6 +218,7 @@ def test_the_physics_block_is_read() -> None:
         "substeps": 40,
         "burst": "stop",
         "hold": 0.0,
+        "leak": 21600.0,
         "mass_scaling": "none",
         "kosaka": Kosaka().model_dump(),
     }

@@ -132,6 +132,7 @@ def test_a_push_stays_on_the_balloon_that_it_names() -> None:
         ("softening: true", "springs do not soften"),
         ("friction: 0.8", "rubber slides freely on rubber"),
         ("burst: stop", "springs do not burst"),
+        ("leak: 6 h", "its air is fetched back where it leaks"),
         ("mass_scaling: none", "everything has unit mass"),
     ],
 )

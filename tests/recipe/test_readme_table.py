@@ -1,4 +1,4 @@
-"""The table of the particle model's constants in the README says what there is."""
+"""The tables of the physics and of the particle model's constants in the README say what there is."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import pytest
 
 from balloon_usd.balloon.detail import detail_named
 from balloon_usd.plan import plan
-from balloon_usd.recipe import Recipe
+from balloon_usd.recipe import Physics, Recipe
 from balloon_usd.recipe.kosaka import KOSAKA_LENGTHS, Kosaka
 from balloon_usd.recipe.quantities import Between
 from balloon_usd.solver.kosaka.parameters import SUBSTEPS, parameters
@@ -36,6 +36,12 @@ def rows() -> list[tuple[str, str, str]]:
 WITH_NUMBERS = [
     (key, float(default.removesuffix(" mm"))) for key, _, default in rows() if default[0].isdigit()
 ]
+
+
+def test_every_key_of_the_physics_stands_in_its_table_once() -> None:
+    table = README.partition("| key | default | meaning |\n")[2].partition("\n\n")[0]
+    keys = [re.findall(r"`(\w+)`", row)[0] for row in table.splitlines()[1:]]
+    assert sorted(keys) == sorted(Physics.model_fields)
 
 
 def test_every_constant_stands_in_the_table_once() -> None:

@@ -109,7 +109,7 @@ EVERYTHING = (
     "  - lock: {joints: [b.start, c.end]}\n  - rest: g\n  - bend: {g: 60 deg, a: 30}\n"
     "  - push: {bubble: a, at: 2, depth: 1 cm}\n  - push: {bubble: g, force: 2 N}\n  - wait: 1\n"
     "physics: {model: latex, rubber: gent, softening: false, gravity: 9.8, friction: 1, substeps: 40, burst: stop,"
-    " hold: 1, mass_scaling: none}\n"
+    " hold: 1, leak: 2 days, mass_scaling: none}\n"
 )
 
 
@@ -163,6 +163,8 @@ WRONG = [
     HEAD + ABC + "physics: {model: kosaka, kosaka: {ks: 0}}\n",
     HEAD + ABC + "physics: {model: kosaka, kosaka: {re: 1 yd}}\n",
     HEAD + ABC + "physics: {model: kosaka, kosaka: {kss: 2}}\n",
+    HEAD + ABC + "physics: {leak: 6 weeks}\n",
+    HEAD + ABC + "physics: {leak: 0}\n",
     HEAD + ABC + "physics: {rubber: gum}\n",
     HEAD + ABC + "physics: {softening: on}\n",
     HEAD + ABC + "physics: {substeps: 20.5}\n",

@@ -13,6 +13,7 @@ from balloon_usd.plan import plan as plan_of
 from balloon_usd.plan.meshing import mesh_of
 from balloon_usd.recipe import Recipe
 from balloon_usd.report import History, ReportError, draw_figure, report_data, report_text, write_report
+from balloon_usd.report.figure import panels_of
 from balloon_usd.report.step_marks import step_marks
 from balloon_usd.solver.frame import Frame
 
@@ -40,6 +41,8 @@ steps:
   - push: {bubble: main_rest, depth: 1}
 physics: {model: kosaka}
 """
+UNDONE, UNDONE_FROM = ("nose.end",), 30
+"""What comes undone in the frames below, and from which frame on."""
 ORIGIN = {"recipe": "snake.yaml", "recipe_sha256": "0" * 64, "solver": "latex 1"}
 
 
@@ -59,6 +62,8 @@ def frame(plan, meshes, code, wide=1.0):
         1000.06 * bubbles,
         1e-4 * bubbles,
         "hold",
+        contact=0.5 * bubbles if plan.recipe.physics.model == "latex" else None,
+        undone=UNDONE if code >= UNDONE_FROM else (),
     )
 
 
@@ -151,14 +156,15 @@ def test_the_document_has_its_keys_in_order_and_units_for_its_numbers(history):
         "units",
         "burst_stretch",
         "steps",
+        "undone",
         "time_code",
         "time",
         "bubbles",
         "balloons",
     ]
     assert data["format"] == 1
-    assert list(data["bubbles"][0]) == ["name", "balloon", "pressure", "volume", "stretch"]
-    assert {*data["units"]} == {"time", "pressure", "volume", "stretch", "tail"}
+    assert list(data["bubbles"][0]) == ["name", "balloon", "pressure", "volume", "stretch", "contact"]
+    assert {*data["units"]} == {"time", "pressure", "volume", "stretch", "contact", "tail"}
     assert len(data["time"]) == len(data["bubbles"][2]["volume"]) == len(data["balloons"][0]["tail"]) == 199
     assert data["time"][24] == 1.0
 
@@ -167,6 +173,31 @@ def test_numbers_are_rounded_to_what_single_precision_means(history):
     bubble = report_data(history, detail="draft", provenance=ORIGIN)["bubbles"][2]
     assert bubble["pressure"][0] == 3000.2
     assert bubble["volume"][0] == 0.0003
+
+
+def test_what_comes_undone_is_told_with_its_moment(history):
+    data = report_data(history, detail="draft", provenance=ORIGIN)
+    assert data["undone"] == [{"joint": "nose.end", "time_code": 30, "time": round(29 / 24, 6)}]
+    assert [step["text"] for step in data["steps"]] == [mark.text for mark in history.marks]
+
+
+def test_the_figure_marks_what_comes_undone_between_the_steps(history):
+    texts = [mark.text for mark in history.events]
+    assert texts.index("comes undone: nose.end") == 1
+    assert len(texts) == 1 + len(history.marks)
+
+
+def test_the_contact_of_every_bubble_is_told_and_drawn(history):
+    data = report_data(history, detail="draft", provenance=ORIGIN)
+    assert [bubble["contact"][7] for bubble in data["bubbles"]] == [0.5, 1.0, 1.5]
+    assert [panel.title for panel in panels_of(history)].count("Contact") == 1
+
+
+def test_a_model_whose_walls_are_moved_apart_without_a_force_has_no_contact():
+    history = history_of(range(1, 4), CAPSULE)
+    data = report_data(history, detail="draft", provenance=ORIGIN)
+    assert "contact" not in data["bubbles"][0]
+    assert all(panel.title != "Contact" for panel in panels_of(history))
 
 
 def test_a_negative_zero_is_written_as_zero():

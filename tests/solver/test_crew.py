@@ -8,7 +8,7 @@ import warp as wp
 
 from balloon_usd.plan import plan
 from balloon_usd.recipe import Recipe
-from balloon_usd.solver.latex.crew import chunks_of
+from balloon_usd.solver.flatten import chunks_of
 from balloon_usd.solver.simulation import simulate_many
 
 HEAD = """

@@ -14,7 +14,8 @@ from balloon_usd.recipe import Recipe
 from balloon_usd.solver.errors import SimulationFailed
 from balloon_usd.solver.frame import Frame
 from balloon_usd.solver.remedy import steadier
-from balloon_usd.solver.watch import Watch
+from balloon_usd.solver.sight import Sight
+from balloon_usd.solver.watch import Lookout, Watch
 
 RECIPE = """\
 format: 1
@@ -110,6 +111,89 @@ def test_a_burst_stops_the_run_where_that_is_asked_for():
     scene = Scene("physics: {burst: stop}\n")
     scene.frame.stretch[0][scene.of("nose")] = 9.0
     assert scene.watch.failure(scene.frame).startswith("nose bursts: stretch 9.0")
+
+
+def lose_a_vertex(frame, vertex):
+    frame.points[0][vertex] = np.nan
+
+
+def lose_a_stretch(frame, vertex):
+    frame.stretch[0][vertex] = -np.inf
+
+
+def lose_gas(frame, _):
+    frame.volume[1] = np.nan
+
+
+def lose_more_gas(frame, _):
+    frame.volume[2] = -np.inf
+
+
+def throw(frame, vertex):
+    frame.points[0][vertex] -= np.float32([0, 0.3, 0])
+
+
+def explode(frame, vertex):
+    frame.points[0][vertex] = 1e30
+
+
+def turn_inside_out(frame, _):
+    frame.pressure[2] = -2.1e4
+
+
+def burst(frame, vertex):
+    frame.stretch[0][vertex] = 9.0
+
+
+WRONG = [lose_a_vertex, lose_a_stretch, lose_gas, lose_more_gas, throw, explode, turn_inside_out, burst]
+
+
+def sight_of(frames):
+    """What several sculptures of one balloon each show together."""
+    points, stretch = ([getattr(f, name)[0] for f in frames] for name in ("points", "stretch"))
+    gas = ([getattr(f, name) for f in frames] for name in ("pressure", "volume"))
+    return Sight(*(np.concatenate(arrays) for arrays in (points, stretch, *gas)))
+
+
+def copied(frame):
+    return replace(
+        frame,
+        points=(frame.points[0].copy(),),
+        stretch=(frame.stretch[0].copy(),),
+        pressure=frame.pressure.copy(),
+        volume=frame.volume.copy(),
+    )
+
+
+@pytest.mark.parametrize("spoil", WRONG)
+@pytest.mark.parametrize("bubble", ["nose", "tail"])
+def test_a_look_at_all_sculptures_finds_the_one_in_which_something_is_wrong(spoil, bubble):
+    scenes = [Scene("physics: {burst: stop}\n") for _ in range(3)]
+    lookout = Lookout([s.plan for s in scenes], [s.meshes for s in scenes], 24.0, 100)
+    frames = [copied(s.frame) for s in scenes]
+    lookout.look(sight_of(frames))
+    assert [lookout.failure(k, frame) for k, frame in enumerate(frames)] == [None] * 3
+    frames = [copied(frame) for frame in frames]
+    spoil(frames[1], scenes[1].of(bubble))
+    scenes[1].watch.failure(scenes[1].frame)
+    cause = scenes[1].watch.failure(frames[1])
+    lookout.look(sight_of(frames))
+    assert [lookout.failure(k, frame) for k, frame in enumerate(frames)] == [None, cause, None]
+    assert cause is not None
+    # What has failed is nobody else's failure in the frames that follow.
+    frames = [copied(frame) for frame in frames]
+    lookout.look(sight_of(frames))
+    assert [lookout.failure(k, frames[k]) for k in (0, 2)] == [None, None]
+
+
+def test_a_first_frame_that_is_no_number_is_found_among_others():
+    scenes = [Scene() for _ in range(2)]
+    lookout = Lookout([s.plan for s in scenes], [s.meshes for s in scenes], 24.0, 100)
+    frames = [copied(s.frame) for s in scenes]
+    frames[0].points[0][:] = np.inf
+    lookout.look(sight_of(frames))
+    assert lookout.failure(0, frames[0]).startswith("balloon main has flown apart")
+    assert lookout.failure(1, frames[1]) is None
 
 
 @pytest.mark.parametrize(

@@ -3,8 +3,8 @@
 import warp as wp
 
 from balloon_usd.solver.kernels.gas import Air, advance_gas
-from balloon_usd.solver.kernels.membrane import quad_force
-from balloon_usd.solver.kernels.rubber import Law
+from balloon_usd.solver.kernels.membrane import lift_of_corner, wall_of_quad
+from balloon_usd.solver.kernels.rubber import Knot, Law
 
 
 @wp.kernel
@@ -16,41 +16,51 @@ def quad_forces(
     hourglass: wp.array[wp.vec4],
     rubber_volume: wp.array[float],
     laws: wp.array[Law],
+    curves: wp.array[Knot],
     pressure: wp.array[float],
     x: wp.array[wp.vec3],
     v: wp.array[wp.vec3],
     softening_rate: wp.array[float],
     peak_energy: wp.array[float],
     corner_force: wp.array2d[wp.vec3],
+    lift: wp.array2d[wp.vec3],
 ):
     """Write the force (N) of wall and gas on the four corners of every quad."""
-    quad_force(
-        wp.tid(),
+    q = wp.tid()
+    wall_of_quad(
+        q,
         quads,
-        quad_segment,
         quad_law,
         to_rest,
         hourglass,
         rubber_volume,
         laws,
-        pressure,
+        curves,
         x,
         v,
+        wp.vec3(0.0),
         softening_rate,
         peak_energy,
         corner_force,
+        lift,
     )
+    for k in range(4):
+        push = pressure[quad_segment[q]] * lift_of_corner(q, k, lift)
+        corner_force[q, k] = corner_force[q, k] + push
 
 
 @wp.kernel
 def balloon_gas(
     balloon_segment: wp.array[int],
     balloon_segment_end: wp.array[int],
+    chamber_first: wp.array[int],
+    chamber_last: wp.array[int],
     end_joint: wp.array[int],
     inlet: wp.array[int],
     air: Air,
     dt: float,
     fraction: float,
+    blowing: wp.array[int],
     open_from: wp.array[float],
     open_to: wp.array[float],
     pump_flow: wp.array[float],
@@ -69,11 +79,14 @@ def balloon_gas(
         1,
         balloon_segment,
         balloon_segment_end,
+        chamber_first,
+        chamber_last,
         end_joint,
         inlet,
         air,
         dt,
         fraction,
+        blowing,
         open_from,
         open_to,
         pump_flow,

@@ -110,7 +110,7 @@ class Rig:
         self.scene = build_scene([self.body], [0], settings, "cpu", 1, 1)
         # Masses are scaled for rubber like latex; one that stiffens a hundredfold needs more.
         self.scene.mass.assign((inertia * self.array("mass")).astype(np.float32))
-        self.stepper = Stepper(self.scene, substeps, 10.0 * mesh.radius)
+        self.stepper = Stepper(self.scene, substeps)
         self.hands = LatexHands(self.scene)
         # Chambers exchange no gas, although their rings are wide open.
         self.hands.passage[:] = self.hands.passage_goal[:] = 0.0

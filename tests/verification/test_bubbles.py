@@ -102,6 +102,8 @@ balloons:
 steps:
   - bubbles: {first: LENGTH, second: LENGTH, third: LENGTH}
   - rest: tail
+  - wait: 2
+physics: {hold: 0}
 """
 
 

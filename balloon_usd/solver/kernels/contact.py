@@ -2,6 +2,15 @@
 
 import warp as wp
 
+from balloon_usd.solver.kernels.lanes import (
+    lanes_least,
+    lanes_max3,
+    lanes_most,
+    lanes_sum,
+    lanes_that,
+    lowest,
+)
+
 TARGETS = 2
 """Walls that one vertex may touch at a time."""
 HITS = 24
@@ -24,6 +33,8 @@ STABLE = wp.constant(0.25)
 """Largest contact stiffness, in the lightest of the vertex masses per squared time step."""
 CROWD = wp.constant(0.5)
 """How much each further vertex on the same quad lowers that limit."""
+FAR = wp.constant(1.0e6)
+"""Farther than any wall, m."""
 NORMAL_DAMPING = wp.constant(0.3)
 """Damping of the approach, as a share of what would stop the vertex in one substep."""
 
@@ -43,17 +54,33 @@ class Touch:
 
 
 @wp.kernel
-def quad_surface(
+def chunk_surface(
     quads: wp.array[wp.vec4i],
+    chunk_quad: wp.array[int],
     x: wp.array[wp.vec3],
     quad_middle: wp.array[wp.vec3],
     quad_area: wp.array[wp.vec3],
+    chunk_low: wp.array[wp.vec3],
+    chunk_high: wp.array[wp.vec3],
 ):
-    """Write the middle (m) and the vector area (m2) of every quad."""
-    q = wp.tid()
-    c = quads[q]
-    quad_middle[q] = 0.25 * (x[c[0]] + x[c[1]] + x[c[2]] + x[c[3]])
-    quad_area[q] = 0.5 * wp.cross(x[c[2]] - x[c[0]], x[c[3]] - x[c[1]])
+    """Write the middle (m) and the vector area (m2) of every quad, and the lowest and the highest coordinates
+    (m) of the middles of a chunk of quads; a warp of lanes each on a GPU.
+    """
+    chunk, lane = wp.tid()
+    high = wp.vec3(-FAR)
+    low = wp.vec3(FAR)
+    for q in range(chunk_quad[chunk] + lane, chunk_quad[chunk + 1], wp.block_dim()):
+        c = quads[q]
+        middle = 0.25 * (x[c[0]] + x[c[1]] + x[c[2]] + x[c[3]])
+        quad_middle[q] = middle
+        quad_area[q] = 0.5 * wp.cross(x[c[2]] - x[c[0]], x[c[3]] - x[c[1]])
+        high = wp.max(high, middle)
+        low = wp.min(low, middle)
+    high = lanes_max3(high)
+    low = -lanes_max3(-low)
+    if lane == 0:
+        chunk_low[chunk] = low
+        chunk_high[chunk] = high
 
 
 @wp.kernel
@@ -84,41 +111,50 @@ def ring_radii(
     x: wp.array[wp.vec3],
     ring_radius: wp.array[float],
 ):
-    """Write the radius (m) of every ring, its girth over 2 pi."""
-    r = wp.tid()
+    """Write the radius (m) of every ring, its girth over 2 pi; a warp of lanes each on a GPU."""
+    r, lane = wp.tid()
     girth = float(0.0)
     first = ring_first[r]
     n = ring_around[r]
-    last = x[first + n - 1]
-    for k in range(n):
-        here = x[first + k]
-        girth += wp.length(here - last)
-        last = here
-    ring_radius[r] = girth / (2.0 * wp.pi)
+    for k in range(lane, n, wp.block_dim()):
+        girth += wp.length(x[first + k] - x[first + (k + n - 1) % n])
+    girth = lanes_sum(girth)
+    if lane == 0:
+        ring_radius[r] = girth / (2.0 * wp.pi)
+
+
+@wp.func
+def nearer_on_patch(x0: wp.vec3, x1: wp.vec3, x2: wp.vec3, x3: wp.vec3, p: wp.vec3, place: wp.vec2):
+    """Return the coordinates (-1/2 .. 1/2) of a point of a bilinear patch that is nearer to p than one at
+    hand: a step of Gauss and Newton.
+    """
+    u = place[0]
+    w = place[1]
+    a = 0.5 * (x1 - x0 + x2 - x3)
+    b = 0.5 * (x3 - x0 + x2 - x1)
+    h = x0 - x1 + x2 - x3
+    r = 0.25 * (x0 + x1 + x2 + x3) - p + u * a + w * b + u * w * h
+    du = a + w * h
+    dw = b + u * h
+    aa = wp.dot(du, du)
+    bb = wp.dot(dw, dw)
+    ab = wp.dot(du, dw)
+    det = wp.max(aa * bb - ab * ab, 1.0e-20)
+    ra = wp.dot(r, du)
+    rb = wp.dot(r, dw)
+    return wp.vec2(
+        wp.clamp(u - (bb * ra - ab * rb) / det, -0.5, 0.5),
+        wp.clamp(w - (aa * rb - ab * ra) / det, -0.5, 0.5),
+    )
 
 
 @wp.func
 def nearest_on_patch(x0: wp.vec3, x1: wp.vec3, x2: wp.vec3, x3: wp.vec3, p: wp.vec3):
-    """Return the coordinates (-1/2 .. 1/2) of the point of a bilinear patch nearest to p, by Gauss-Newton."""
-    c = 0.25 * (x0 + x1 + x2 + x3) - p
-    a = 0.5 * (x1 - x0 + x2 - x3)
-    b = 0.5 * (x3 - x0 + x2 - x1)
-    h = x0 - x1 + x2 - x3
-    u = float(0.0)
-    w = float(0.0)
+    """Return the coordinates (-1/2 .. 1/2) of the point of a bilinear patch nearest to p."""
+    place = wp.vec2(0.0, 0.0)
     for _ in range(3):
-        r = c + u * a + w * b + u * w * h
-        du = a + w * h
-        dw = b + u * h
-        aa = wp.dot(du, du)
-        bb = wp.dot(dw, dw)
-        ab = wp.dot(du, dw)
-        det = wp.max(aa * bb - ab * ab, 1.0e-20)
-        ra = wp.dot(r, du)
-        rb = wp.dot(r, dw)
-        u = wp.clamp(u - (bb * ra - ab * rb) / det, -0.5, 0.5)
-        w = wp.clamp(w - (aa * rb - ab * ra) / det, -0.5, 0.5)
-    return wp.vec2(u, w)
+        place = nearer_on_patch(x0, x1, x2, x3, p, place)
+    return place
 
 
 @wp.func
@@ -129,9 +165,26 @@ def patch_shares(uw: wp.vec2):
     return wp.vec4((0.5 - u) * (0.5 - w), (0.5 + u) * (0.5 - w), (0.5 + u) * (0.5 + w), (0.5 - u) * (0.5 + w))
 
 
+@wp.func
+def distance_beside(
+    q: int, face: wp.vec3, most: float, p: wp.vec3, quads: wp.array[wp.vec4i], x: wp.array[wp.vec3]
+):
+    """Return the distance (m) of a point from a quad, or FAR where the point lies more than `most` (m) beside
+    it.
+    """
+    c = quads[q]
+    s = patch_shares(nearest_on_patch(x[c[0]], x[c[1]], x[c[2]], x[c[3]], p))
+    gap = p - (s[0] * x[c[0]] + s[1] * x[c[1]] + s[2] * x[c[2]] + s[3] * x[c[3]])
+    distance = float(FAR)
+    if wp.length(gap - wp.dot(gap, face) * face) < most:
+        distance = wp.length(gap)
+    return distance
+
+
 @wp.kernel
 def find_walls(
-    grid: wp.uint64,
+    world_chunk: wp.array[int],
+    chunk_quad: wp.array[int],
     quads: wp.array[wp.vec4i],
     quad_segment: wp.array[int],
     quad_ring: wp.array[int],
@@ -148,16 +201,23 @@ def find_walls(
     x: wp.array[wp.vec3],
     quad_middle: wp.array[wp.vec3],
     quad_area: wp.array[wp.vec3],
+    chunk_low: wp.array[wp.vec3],
+    chunk_high: wp.array[wp.vec3],
     normal: wp.array[wp.vec3],
     area: wp.array[float],
     ring_radius: wp.array[float],
     target: wp.array2d[int],
+    contact_place: wp.array2d[wp.vec2],
+    contact_force: wp.array2d[wp.vec3],
     slip: wp.array2d[wp.vec3],
     hit_count: wp.array[int],
     hits: wp.array2d[int],
 ):
-    """Choose for every vertex the nearest facing quads, of different bubbles, and enter it in their lists."""
-    i = wp.tid()
+    """Choose for every vertex the nearest facing quads, of different bubbles, and enter it in their lists; a
+    warp of lanes each on a GPU.
+    """
+    i, lane = wp.tid()
+    lanes = wp.block_dim()
     p = x[i]
     n = normal[i]
     mine = vertex_balloon[i]
@@ -166,41 +226,56 @@ def find_walls(
     apart = touch.apart * balloon_radius[mine]
     depth = DEPTH_LIMIT * ring_radius[vertex_ring[i]]
     reach = REACH * wp.sqrt(area[i]) + touch.offset + touch.margin
-    best = wp.vec2(reach, reach)
-    found = wp.vec2i(-1, -1)
+    # What this lane has found.
+    near = wp.vec2(reach, reach)
+    nearest = wp.vec2i(-1, -1)
+    world = balloon_world[mine]
+    last = world_chunk[world + 1]
     if touching[mine] == 0:
-        reach = 0.0
-    query = wp.hash_grid_query(grid, p, reach, balloon_world[mine])
-    q = int(0)
-    while wp.hash_grid_query_next(query, q):
-        d = p - quad_middle[q]
-        near = wp.dot(d, d) < reach * reach
-        elsewhere = quad_balloon[q] != mine or wp.abs(quad_along[q] - vertex_along[i]) > apart
-        if near and (elsewhere or (home >= 0 and quad_segment[q] != home)):
-            a = quad_area[q]
-            if wp.dot(a, n) < 0.0:
-                size = wp.length(a)
-                face = a / wp.max(size, 1.0e-12)
-                height = wp.dot(d, face)
-                limit = wp.min(depth, DEPTH_LIMIT * ring_radius[quad_ring[q]])
-                if wp.dot(face, n) < FACING and height > -limit and height < touch.offset + touch.margin:
-                    c = quads[q]
-                    s = patch_shares(nearest_on_patch(x[c[0]], x[c[1]], x[c[2]], x[c[3]], p))
-                    gap = p - (s[0] * x[c[0]] + s[1] * x[c[1]] + s[2] * x[c[2]] + s[3] * x[c[3]])
-                    up = wp.dot(gap, face)
-                    across = wp.length(gap - up * face)
-                    if across < SIDE_SLIP * wp.sqrt(size):
-                        distance = wp.length(gap)
-                        if distance < best[0]:
-                            if found[0] >= 0 and quad_segment[found[0]] != quad_segment[q]:
-                                best = wp.vec2(distance, best[0])
-                                found = wp.vec2i(q, found[0])
+        last = 0
+    for begin in range(world_chunk[world], last, lanes):
+        mine_too = int(0)
+        if begin + lane < last:
+            off = wp.max(wp.max(chunk_low[begin + lane] - p, p - chunk_high[begin + lane]), wp.vec3(0.0))
+            if wp.dot(off, off) < reach * reach:
+                mine_too = 1
+        chunks = lanes_that(mine_too)
+        while chunks != 0:
+            chunk = begin + lowest(chunks)
+            chunks &= chunks - 1
+            for q in range(chunk_quad[chunk] + lane, chunk_quad[chunk + 1], lanes):
+                d = p - quad_middle[q]
+                elsewhere = quad_balloon[q] != mine or wp.abs(quad_along[q] - vertex_along[i]) > apart
+                if wp.dot(d, d) < reach * reach and (elsewhere or (home >= 0 and quad_segment[q] != home)):
+                    a = quad_area[q]
+                    size = wp.length(a)
+                    face = a / wp.max(size, 1.0e-12)
+                    height = wp.dot(d, face)
+                    limit = wp.min(depth, DEPTH_LIMIT * ring_radius[quad_ring[q]])
+                    if wp.dot(face, n) < FACING and height > -limit and height < touch.offset + touch.margin:
+                        distance = distance_beside(q, face, SIDE_SLIP * wp.sqrt(size), p, quads, x)
+                        if distance < near[0]:
+                            if nearest[0] >= 0 and quad_segment[nearest[0]] != quad_segment[q]:
+                                near = wp.vec2(distance, near[0])
+                                nearest = wp.vec2i(q, nearest[0])
                             else:
-                                best = wp.vec2(distance, best[1])
-                                found = wp.vec2i(q, found[1])
-                        elif distance < best[1] and quad_segment[found[0]] != quad_segment[q]:
-                            best = wp.vec2(best[0], distance)
-                            found = wp.vec2i(found[0], q)
+                                near = wp.vec2(distance, near[1])
+                                nearest = wp.vec2i(q, nearest[1])
+                        elif distance < near[1] and quad_segment[nearest[0]] != quad_segment[q]:
+                            near = wp.vec2(near[0], distance)
+                            nearest = wp.vec2i(nearest[0], q)
+    # The nearest of all lanes, and the nearest of another bubble than that.
+    found = wp.vec2i(-1, -1)
+    least = lanes_least(near[0])
+    found[0] = lanes_most(wp.where(near[0] == least, nearest[0], -1))
+    if found[0] >= 0:
+        second = int(0)
+        if nearest[0] >= 0 and quad_segment[nearest[0]] == quad_segment[found[0]]:
+            second = 1
+        least = lanes_least(near[second])
+        found[1] = lanes_most(wp.where(near[second] == least, nearest[second], -1))
+    if lane > 0:
+        return
     before0 = target[i, 0]
     before1 = target[i, 1]
     slip0 = slip[i, 0]
@@ -212,9 +287,13 @@ def find_walls(
                 kept = slip0
             elif before1 >= 0 and quad_segment[before1] == quad_segment[found[k]]:
                 kept = slip1
+            c = quads[found[k]]
+            contact_place[i, k] = nearest_on_patch(x[c[0]], x[c[1]], x[c[2]], x[c[3]], p)
             place = wp.atomic_add(hit_count, found[k], 1)
             if place < MOST_HITS:
                 hits[found[k], place] = 2 * i + k
+        else:
+            contact_force[i, k] = wp.vec3(0.0)
         target[i, k] = found[k]
         slip[i, k] = kept
 
@@ -258,15 +337,17 @@ def press_wall(
     v: wp.array[wp.vec3],
     slip: wp.array2d[wp.vec3],
     contact_force: wp.array2d[wp.vec3],
-    contact_share: wp.array2d[wp.vec4],
+    contact_place: wp.array2d[wp.vec2],
 ):
-    """Write the contact force (N) on a touching vertex and how the quad that it touches shares it."""
+    """Write the contact force (N) on a touching vertex and where on the quad that it touches."""
     for k in range(2):
         q = target[i, k]
         if q >= 0:
             c = quads[q]
             p = x[i]
-            s = patch_shares(nearest_on_patch(x[c[0]], x[c[1]], x[c[2]], x[c[3]], p))
+            # It slides little in a substep: one step from where it was is enough.
+            place = nearer_on_patch(x[c[0]], x[c[1]], x[c[2]], x[c[3]], p, contact_place[i, k])
+            s = patch_shares(place)
             gap = p - (s[0] * x[c[0]] + s[1] * x[c[1]] + s[2] * x[c[2]] + s[3] * x[c[3]])
             face = wp.normalize(wp.cross(x[c[2]] - x[c[0]], x[c[3]] - x[c[1]]))
             height = wp.dot(gap, face)
@@ -299,19 +380,18 @@ def press_wall(
                 f = push * face - grip * moved
             slip[i, k] = moved
             contact_force[i, k] = f
-            contact_share[i, k] = s
+            contact_place[i, k] = place
 
 
 @wp.func
-def balancing_turn(r0: wp.vec3, r1: wp.vec3, r2: wp.vec3, r3: wp.vec3, gap: wp.vec3, f: wp.vec3):
-    """Return the vector whose cross products with a quad's corners balance a contact across a gap.
-
-    The vertex feels f at one end of the gap, the quad -f at the other: a couple, unless the quad takes it up.
+def balancing_turn(r0: wp.vec3, r1: wp.vec3, r2: wp.vec3, r3: wp.vec3, couple: wp.vec3):
+    """Return the vector whose cross products with a quad's corners balance a couple (N m): that of contacts
+    across a gap, where the vertex feels a force at one end and the quad its opposite at the other.
     """
     square = wp.dot(r0, r0) + wp.dot(r1, r1) + wp.dot(r2, r2) + wp.dot(r3, r3)
     spread = wp.outer(r0, r0) + wp.outer(r1, r1) + wp.outer(r2, r2) + wp.outer(r3, r3)
     inertia = square * wp.identity(n=3, dtype=float) - spread
-    return wp.inverse(inertia) * wp.cross(gap, f)
+    return wp.inverse(inertia) * couple
 
 
 @wp.func
@@ -321,7 +401,7 @@ def press_quad_back(
     hit_count: wp.array[int],
     hits: wp.array2d[int],
     contact_force: wp.array2d[wp.vec3],
-    contact_share: wp.array2d[wp.vec4],
+    contact_place: wp.array2d[wp.vec2],
     x: wp.array[wp.vec3],
     corner_force: wp.array2d[wp.vec3],
 ):
@@ -335,21 +415,23 @@ def press_quad_back(
     r1 = x[c[1]] - middle
     r2 = x[c[2]] - middle
     r3 = x[c[3]] - middle
-    f0 = corner_force[q, 0]
-    f1 = corner_force[q, 1]
-    f2 = corner_force[q, 2]
-    f3 = corner_force[q, 3]
+    f0 = wp.vec3(0.0)
+    f1 = wp.vec3(0.0)
+    f2 = wp.vec3(0.0)
+    f3 = wp.vec3(0.0)
+    couple = wp.vec3(0.0)
     for k in range(count):
         hit = hits[q, k]
         f = contact_force[hit // 2, hit % 2]
-        share = contact_share[hit // 2, hit % 2]
+        share = patch_shares(contact_place[hit // 2, hit % 2])
+        f0 += share[0] * f
+        f1 += share[1] * f
+        f2 += share[2] * f
+        f3 += share[3] * f
         touched = middle + share[0] * r0 + share[1] * r1 + share[2] * r2 + share[3] * r3
-        turn = balancing_turn(r0, r1, r2, r3, x[hit // 2] - touched, f)
-        f0 -= share[0] * f + wp.cross(turn, r0)
-        f1 -= share[1] * f + wp.cross(turn, r1)
-        f2 -= share[2] * f + wp.cross(turn, r2)
-        f3 -= share[3] * f + wp.cross(turn, r3)
-    corner_force[q, 0] = f0
-    corner_force[q, 1] = f1
-    corner_force[q, 2] = f2
-    corner_force[q, 3] = f3
+        couple += wp.cross(x[hit // 2] - touched, f)
+    turn = balancing_turn(r0, r1, r2, r3, couple)
+    corner_force[q, 0] = corner_force[q, 0] - f0 - wp.cross(turn, r0)
+    corner_force[q, 1] = corner_force[q, 1] - f1 - wp.cross(turn, r1)
+    corner_force[q, 2] = corner_force[q, 2] - f2 - wp.cross(turn, r2)
+    corner_force[q, 3] = corner_force[q, 3] - f3 - wp.cross(turn, r3)

@@ -13,30 +13,6 @@ def patch_volume(x0: wp.vec3, x1: wp.vec3, x2: wp.vec3, x3: wp.vec3):
 
 
 @wp.func
-def chunk_volume(
-    chunk: int,
-    lane: int,
-    lanes: int,
-    quads: wp.array[wp.vec4i],
-    quad_segment: wp.array[int],
-    chunk_quad: wp.array[int],
-    segment_origin: wp.array[int],
-    x: wp.array[wp.vec3],
-):
-    """Return a lane's share of the volume (m3) between a chunk of a segment's wall and the segment's
-    origin.
-    """
-    total = float(0.0)
-    begin = chunk_quad[chunk]
-    end = chunk_quad[chunk + 1]
-    o = x[segment_origin[quad_segment[begin]]]
-    for q in range(begin + lane, end, lanes):
-        c = quads[q]
-        total += patch_volume(x[c[0]] - o, x[c[1]] - o, x[c[2]] - o, x[c[3]] - o)
-    return total
-
-
-@wp.func
 def volume_of_fans(
     s: int,
     start_joint: wp.array[int],
@@ -83,7 +59,8 @@ def segment_volumes(
 
 OPEN_PASSAGE = 1.0
 """Passage (m2) of a joint that is not being closed: more than any neck."""
-WIDE_OPEN = wp.constant(0.5 * OPEN_PASSAGE)
+WIDE_OPEN = 0.5 * OPEN_PASSAGE
+"""Passage (m2) from which segments on both sides of a joint form one chamber."""
 
 
 @wp.struct
@@ -104,40 +81,8 @@ class Air:
 
 @wp.func
 def passage_of(joint: int, fraction: float, open_from: wp.array[float], open_to: wp.array[float]):
-    """Return the open area (m2) of the joint that ends a segment; 0 where there is none."""
-    if joint < 0:
-        return float(0.0)
+    """Return the open area (m2) of a joint."""
     return open_from[joint] + fraction * (open_to[joint] - open_from[joint])
-
-
-@wp.func
-def chamber_end(
-    segment: int,
-    fraction: float,
-    end_joint: wp.array[int],
-    open_from: wp.array[float],
-    open_to: wp.array[float],
-):
-    """Return the last segment of the chamber that a segment lies in."""
-    s = int(segment)
-    while passage_of(end_joint[s], fraction, open_from, open_to) >= WIDE_OPEN:
-        s += 1
-    return s
-
-
-@wp.func
-def begins_chamber(
-    s: int,
-    first: int,
-    fraction: float,
-    end_joint: wp.array[int],
-    open_from: wp.array[float],
-    open_to: wp.array[float],
-):
-    """Return whether a chamber begins at a segment."""
-    if s == first:
-        return True
-    return passage_of(end_joint[s - 1], fraction, open_from, open_to) < WIDE_OPEN
 
 
 @wp.func
@@ -209,11 +154,14 @@ def advance_gas(
     lanes: int,
     balloon_segment: wp.array[int],
     balloon_segment_end: wp.array[int],
+    chamber_first: wp.array[int],
+    chamber_last: wp.array[int],
     end_joint: wp.array[int],
     inlet: wp.array[int],
     air: Air,
     dt: float,
     fraction: float,
+    blowing: wp.array[int],
     open_from: wp.array[float],
     open_to: wp.array[float],
     pump_flow: wp.array[float],
@@ -228,30 +176,33 @@ def advance_gas(
     """Advance one balloon's gas: pump, gauge pressure (Pa) of every chamber, flow through closing necks.
 
     Segments whose common neck is fully open form one chamber; a neck that closes is an orifice.
+    `blowing`: 1 where a balloon has such a neck.
     """
     first = balloon_segment[b]
     last = balloon_segment_end[b]
     for s in range(first + lane, last, lanes):
-        if begins_chamber(s, first, fraction, end_joint, open_from, open_to):
-            end = chamber_end(s, fraction, end_joint, open_from, open_to)
+        if chamber_first[s] == s:
+            end = chamber_last[s]
             press_chamber(
                 b, s, end, inlet, air, dt, pump_flow, pump_limit, pump_goal, volume, room, amount, pressure
             )
+    if blowing[b] == 0:
+        return
     lanes_meet()
     for s in range(first + lane, last, lanes):
-        gap = passage_of(end_joint[s], fraction, open_from, open_to)
         flow[s] = wp.float64(0.0)
-        if gap > 0.0 and gap < WIDE_OPEN:
-            end = chamber_end(s + 1, fraction, end_joint, open_from, open_to)
-            flow[s] = blow_through(s, end, gap, air, dt, room, pressure)
+        if chamber_last[s] == s and s + 1 < last:
+            gap = passage_of(end_joint[s], fraction, open_from, open_to)
+            if gap > 0.0:
+                flow[s] = blow_through(s, chamber_last[s + 1], gap, air, dt, room, pressure)
     lanes_meet()
     for s in range(first + lane, last, lanes):
         # What a neck lets through leaves one chamber's last segment for the next one's.
-        if begins_chamber(s, first, fraction, end_joint, open_from, open_to):
-            end = chamber_end(s, fraction, end_joint, open_from, open_to)
-            if s > first:
-                amount[end] = amount[end] + flow[s - 1]
-            amount[end] = amount[end] - flow[end]
+        if chamber_last[s] == s:
+            before = chamber_first[s] - 1
+            if before >= first:
+                amount[s] = amount[s] + flow[before]
+            amount[s] = amount[s] - flow[s]
 
 
 @wp.func

@@ -4,7 +4,9 @@ weld's pose.
 
 import warp as wp
 
+from balloon_usd.solver.kernels.gas import fan_gradient
 from balloon_usd.solver.kernels.lanes import lanes_meet, lanes_sum3
+from balloon_usd.solver.kernels.motion import Spin, force_on_vertex, step_of_vertex
 
 GRIP_MODE = 1
 LEAD_MODE = 2
@@ -43,74 +45,72 @@ Axes = wp.types.matrix(shape=(3, 2), dtype=float)
 
 
 @wp.func
-def regular_ring(
-    x: wp.array[wp.vec3],
-    corner: wp.array[wp.vec2],
-    first: int,
-    around: int,
-    c: wp.vec3,
-    lane: int,
-    lanes: int,
-):
-    """Return the two in-plane axes of the regular polygon nearest to a ring, as columns (polar
-    decomposition).
+def nearest_axes(a: wp.vec3, b: wp.vec3):
+    """Return the in-plane axes of the regular polygon nearest to a ring (polar decomposition), given the sums
+    of its vertices times the cosines and sines of the polygon's corners.
     """
-    a = wp.vec3(0.0)
-    b = wp.vec3(0.0)
-    for k in range(lane, around, lanes):
-        d = x[first + k] - c
-        at = corner[first + k]
-        a += d * at[0]
-        b += d * at[1]
-    a = wp.normalize(lanes_sum3(a))
-    b = wp.normalize(lanes_sum3(b))
-    s = wp.normalize(a + b)
-    t = wp.normalize(a - b)
+    p = wp.normalize(a)
+    q = wp.normalize(b)
+    s = wp.normalize(p + q)
+    t = wp.normalize(p - q)
     return wp.matrix_from_cols((s + t) * wp.sqrt(0.5), (s - t) * wp.sqrt(0.5))
 
 
 @wp.func
-def close_ring(
-    first: int,
+def closing_spin(
     n: int,
     radius: float,
-    turns: int,
     dt: float,
-    c: wp.vec3,
-    speed: wp.vec3,
     axes: Axes,
+    a: wp.vec3,
+    b: wp.vec3,
+    va: wp.vec3,
+    vb: wp.vec3,
+    own: wp.vec3,
+):
+    """Return the angular velocity (rad/s) that putting a ring on its polygon would give it: a ring that is
+    free to turn must not get it.
+
+    `a`, `b`, `va`, `vb`: sums of places and speeds times the polygon's cosines and sines; `own`: angular
+    momentum about its middle, per vertex mass.
+    """
+    p = axes * wp.vec2(1.0, 0.0)
+    q = axes * wp.vec2(0.0, 1.0)
+    twist = radius * (wp.cross(p, va - a / dt) + wp.cross(q, vb - b / dt)) - own
+    normal = wp.cross(p, q)
+    # Moments of inertia of a ring: 1/2 about its diameters, 1 about its axis.
+    return (2.0 * twist - wp.dot(twist, normal) * normal) / (float(n) * radius * radius)
+
+
+@wp.func
+def ring_fan(first: int, n: int, c: wp.vec3, lane: int, lanes: int, x: wp.array[wp.vec3]):
+    """Return a lane's share of the vector area (m2) of the fan between a ring's vertices and a point near
+    them.
+    """
+    fan = wp.vec3(0.0)
+    for k in range(lane, n, lanes):
+        fan += wp.cross(x[first + (k + n - 1) % n] - c, x[first + k] - c)
+    return 0.5 * fan
+
+
+@wp.func
+def measure_open_ring(
+    j: int,
     lane: int,
     lanes: int,
-    corner: wp.array[wp.vec2],
+    joint_first: wp.array[int],
+    joint_around: wp.array[int],
+    joint_parts: wp.array[int],
+    radius_to: wp.array[float],
     x: wp.array[wp.vec3],
-    v: wp.array[wp.vec3],
+    ring_middle: wp.array[wp.vec3],
+    ring_area: wp.array[wp.vec3],
 ):
-    """Put the vertices of a ring on a regular polygon of a radius (m) and return its vector area (m2).
-
-    `turns`: 1 where the ring is free to turn: its shape must neither push nor turn it, not even by
-    rounding, which over a second adds up.
-    """
-    normal = wp.cross(axes * wp.vec2(1.0, 0.0), axes * wp.vec2(0.0, 1.0))
-    push = wp.vec3(0.0)
-    twist = wp.vec3(0.0)
-    for k in range(lane, n, lanes):
-        arm = axes * (radius * corner[first + k])
-        moved = c + arm - x[first + k]
-        push += moved
-        twist += wp.cross(arm, moved) / dt + wp.cross(moved, v[first + k] - speed)
-        v[first + k] = v[first + k] + moved / dt
-        x[first + k] = c + arm
-    push = lanes_sum3(push) / (float(n) * dt)
-    twist = lanes_sum3(twist)
-    spin = wp.vec3(0.0)
-    if turns == 1:
-        # Moments of inertia of a ring: 1/2 about its diameters, 1 about its axis.
-        spin = (2.0 * twist - wp.dot(twist, normal) * normal) / (float(n) * radius * radius)
-    for k in range(lane, n, lanes):
-        v[first + k] = v[first + k] - push - wp.cross(spin, x[first + k] - c)
-    # The sine of the angle between two corners.
-    sine = corner[first + 1][1]
-    return (0.5 * float(n) * sine * radius * radius) * normal
+    """Write the vector area (m2) of a ring that parts two chambers and is not being closed."""
+    if joint_parts[j] == 1 and radius_to[j] == 0.0:
+        area = lanes_sum3(ring_fan(joint_first[j], joint_around[j], ring_middle[j], lane, lanes, x))
+        if lane == 0:
+            ring_area[j] = area
 
 
 @wp.func
@@ -118,15 +118,26 @@ def move_joint(
     j: int,
     lane: int,
     lanes: int,
+    corners: wp.array[wp.vec4i],
+    vertex_balloon: wp.array[int],
+    vertex_segment: wp.array[int],
+    quad_segment: wp.array[int],
+    vertex_along: wp.array[float],
     joint_first: wp.array[int],
     joint_around: wp.array[int],
     joint_parts: wp.array[int],
+    joint_segment: wp.array[wp.vec2i],
     joint_struts: wp.array2d[int],
-    joint_mass: wp.array[float],
     corner: wp.array[wp.vec2],
+    mass: wp.array[float],
+    weight: wp.array[float],
+    joint_mass: wp.array[float],
+    gravity: wp.array[float],
+    drag: wp.array[float],
     dt: float,
     frame_seconds: float,
     fraction: float,
+    spin: wp.array[Spin],
     hand: wp.array[int],
     hand_from: wp.array[wp.vec3],
     hand_to: wp.array[wp.vec3],
@@ -135,7 +146,12 @@ def move_joint(
     hand_stiffness: wp.array[float],
     radius_from: wp.array[float],
     radius_to: wp.array[float],
+    contact_force: wp.array2d[wp.vec3],
+    corner_force: wp.array2d[wp.vec3],
+    lift: wp.array2d[wp.vec3],
+    pressure: wp.array[float],
     strut_force: wp.array[wp.vec3],
+    x_next: wp.array[wp.vec3],
     x: wp.array[wp.vec3],
     v: wp.array[wp.vec3],
     ring_middle: wp.array[wp.vec3],
@@ -144,136 +160,153 @@ def move_joint(
     ring_speed: wp.array[wp.vec3],
     hand_load: wp.array[wp.vec3],
 ):
-    """Hold, lead and close the ring of a joint, and write where it is and what the hand feels.
+    """Move the ring of a joint by the forces on it, hold, lead and close it, and write where it is and what
+    the hand feels.
 
-    Middles in m, vector areas in m2, speeds in m/s, loads in N. Every lane has its own vertices.
+    Places in m, vector areas in m2, speeds in m/s, loads in N. Every lane has its own vertices; `x_next`
+    keeps them where it has several.
     """
     first = joint_first[j]
     n = joint_around[j]
-    c = wp.vec3(0.0)
-    w = wp.vec3(0.0)
-    for k in range(lane, n, lanes):
-        c += x[first + k]
-        w += v[first + k]
-    c = lanes_sum3(c) / float(n)
-    w = lanes_sum3(w) / float(n)
+    parts = joint_parts[j]
+    mode = hand[j]
+    closed = float(0.0)
+    if parts == 1 and radius_to[j] > 0.0:
+        closed = radius_from[j] + fraction * (radius_to[j] - radius_from[j])
+    start = hand_from[j]
+    goal = start + fraction * (hand_to[j] - start)
+    wanted = (hand_to[j] - start) / frame_seconds
+    # All places are taken from where the middle was: sums of small numbers lose nothing.
+    home = ring_middle[j]
+    area = ring_area[j]
+    axes = ring_axes[j]
+    side = vertex_segment[first]
+    beyond = side
+    if parts == 1:
+        side = joint_segment[j][0]
+        beyond = joint_segment[j][1]
+    inside = pressure[side]
+    outside = pressure[beyond]
     force = wp.vec3(0.0)
     for k in range(lane, joint_struts.shape[1], lanes):
-        s = joint_struts[j, k]
-        if s > 0:
-            force += strut_force[s - 1]
-        elif s < 0:
-            force -= strut_force[-s - 1]
+        strut = joint_struts[j, k]
+        if strut > 0:
+            force += strut_force[strut - 1]
+        elif strut < 0:
+            force -= strut_force[-strut - 1]
+    p = wp.vec3(0.0)
+    s = wp.vec3(0.0)
+    c = wp.vec3(0.0)
+    w = wp.vec3(0.0)
+    a = wp.vec3(0.0)
+    b = wp.vec3(0.0)
+    va = wp.vec3(0.0)
+    vb = wp.vec3(0.0)
+    own = wp.vec3(0.0)
+    for k in range(lane, n, lanes):
+        i = first + k
+        f = force_on_vertex(
+            i, side, inside, outside, corners, quad_segment, contact_force, corner_force, lift
+        )
+        if parts == 1:
+            chord = x[first + (k + 1) % n] - x[first + (k + n - 1) % n]
+            f += (inside - outside) * fan_gradient(x[i] - home, chord, area, 1.0 / float(n))
+        p, s = step_of_vertex(i, f, vertex_balloon, vertex_along, mass, weight, gravity, drag, dt, spin, x, v)
+        x_next[i] = p
+        v[i] = s
+        d = p - home
+        at = corner[i]
+        c += d
+        w += s
+        a += at[0] * d
+        b += at[1] * d
+        va += at[0] * s
+        vb += at[1] * s
+        own += wp.cross(d, s)
+    c = lanes_sum3(c) / float(n)
+    w = lanes_sum3(w) / float(n)
     force = lanes_sum3(force)
-    goal = hand_from[j] + fraction * (hand_to[j] - hand_from[j])
-    wanted = (hand_to[j] - hand_from[j]) / frame_seconds
+    away = goal - home - c
     load = wp.vec3(0.0)
-    if hand[j] == LEAD:
-        load = lead_load(goal - c, w - wanted, hand_stiffness[j], joint_mass[j], hand_force[j], hand_free[j])
+    if mode == LEAD:
+        load = lead_load(away, w - wanted, hand_stiffness[j], joint_mass[j], hand_force[j], hand_free[j])
         force += load
     kick = force * (dt / joint_mass[j])
     shift = kick * dt
-    if held(hand[j]) == 1:
+    if held(mode) == 1:
         load = (wanted - w) * (joint_mass[j] / dt)
         kick = wanted - w
-        shift = goal - c
-    for k in range(lane, n, lanes):
-        x[first + k] = x[first + k] + shift
-        v[first + k] = v[first + k] + kick
-    c += shift
+        shift = away
+    turn = wp.vec3(0.0)
     # A ring that parts nothing is never closed: hands only need its middle.
-    if joint_parts[j] == 1:
-        axes = ring_axes[j]
-        turns = int(0)
-        if hand[j] != CLASP:
-            axes = regular_ring(x, corner, first, n, c, lane, lanes)
-            turns = 1
-            if lane == 0:
-                ring_axes[j] = axes
-        lanes_meet()
-        if radius_to[j] > 0.0:
-            radius = radius_from[j] + fraction * (radius_to[j] - radius_from[j])
-            turns = int(1)
-            if hand[j] == CLASP:
-                turns = 0
-            area = close_ring(
-                first, n, radius, turns, dt, c, w + kick, ring_axes[j], lane, lanes, corner, x, v
-            )
-            if lane == 0:
-                ring_area[j] = area
-        else:
-            fan = wp.vec3(0.0)
-            for k in range(lane, n, lanes):
-                fan += wp.cross(x[first + (k + n - 1) % n] - c, x[first + k] - c)
-            fan = lanes_sum3(fan)
-            if lane == 0:
-                ring_area[j] = 0.5 * fan
+    if parts == 1:
+        if mode != CLASP:
+            a = lanes_sum3(a)
+            b = lanes_sum3(b)
+            axes = nearest_axes(a, b)
+            if closed > 0.0:
+                own = lanes_sum3(own) - float(n) * wp.cross(c, w)
+                turn = closing_spin(n, closed, dt, axes, a, b, lanes_sum3(va), lanes_sum3(vb), own)
+        if closed > 0.0:
+            normal = wp.cross(axes * wp.vec2(1.0, 0.0), axes * wp.vec2(0.0, 1.0))
+            # The sine of the angle between two corners.
+            area = (0.5 * float(n) * corner[first + 1][1] * closed * closed) * normal
+    lanes_meet()
+    for k in range(lane, n, lanes):
+        i = first + k
+        if lanes < n:
+            p = x_next[i]
+            s = v[i]
+        d = p - home
+        s += kick
+        if closed > 0.0:
+            arm = axes * (closed * corner[i])
+            s += (c + arm - d) / dt - wp.cross(turn, arm)
+            d = c + arm
+        x[i] = home + (d + shift)
+        v[i] = s
     if lane == 0:
-        ring_middle[j] = c
+        ring_middle[j] = home + (c + shift)
         ring_speed[j] = w + kick
         hand_load[j] = load
+        ring_axes[j] = axes
+        ring_area[j] = area
 
 
 @wp.kernel
-def move_joints(
+def measure_rings(
     joint_first: wp.array[int],
     joint_around: wp.array[int],
-    joint_parts: wp.array[int],
-    joint_struts: wp.array2d[int],
-    joint_mass: wp.array[float],
     corner: wp.array[wp.vec2],
-    dt: float,
-    frame_seconds: float,
-    fraction: float,
-    hand: wp.array[int],
-    hand_from: wp.array[wp.vec3],
-    hand_to: wp.array[wp.vec3],
-    hand_free: wp.array[wp.vec3],
-    hand_force: wp.array[float],
-    hand_stiffness: wp.array[float],
-    radius_from: wp.array[float],
-    radius_to: wp.array[float],
-    strut_force: wp.array[wp.vec3],
     x: wp.array[wp.vec3],
-    v: wp.array[wp.vec3],
     ring_middle: wp.array[wp.vec3],
     ring_area: wp.array[wp.vec3],
     ring_axes: wp.array[Axes],
     ring_speed: wp.array[wp.vec3],
-    hand_load: wp.array[wp.vec3],
 ):
-    """Hold, lead and close the ring of every joint; a warp of lanes each on a GPU."""
+    """Write the middle (m), the vector area (m2) and the in-plane axes of every ring, at rest; a warp of
+    lanes each on a GPU.
+    """
     j, lane = wp.tid()
-    move_joint(
-        j,
-        lane,
-        wp.block_dim(),
-        joint_first,
-        joint_around,
-        joint_parts,
-        joint_struts,
-        joint_mass,
-        corner,
-        dt,
-        frame_seconds,
-        fraction,
-        hand,
-        hand_from,
-        hand_to,
-        hand_free,
-        hand_force,
-        hand_stiffness,
-        radius_from,
-        radius_to,
-        strut_force,
-        x,
-        v,
-        ring_middle,
-        ring_area,
-        ring_axes,
-        ring_speed,
-        hand_load,
-    )
+    lanes = wp.block_dim()
+    first = joint_first[j]
+    n = joint_around[j]
+    c = wp.vec3(0.0)
+    for k in range(lane, n, lanes):
+        c += x[first + k]
+    c = lanes_sum3(c) / float(n)
+    a = wp.vec3(0.0)
+    b = wp.vec3(0.0)
+    for k in range(lane, n, lanes):
+        a += corner[first + k][0] * (x[first + k] - c)
+        b += corner[first + k][1] * (x[first + k] - c)
+    axes = nearest_axes(lanes_sum3(a), lanes_sum3(b))
+    area = lanes_sum3(ring_fan(first, n, c, lane, lanes, x))
+    if lane == 0:
+        ring_middle[j] = c
+        ring_area[j] = area
+        ring_axes[j] = axes
+        ring_speed[j] = wp.vec3(0.0)
 
 
 @wp.func

@@ -18,7 +18,7 @@ def _native(snippet: str) -> Callable[[Stub], Stub]:
     return cast("Callable[[Stub], Stub]", wp.func_native(snippet))
 
 
-_SUM = """
+_OVER_LANES = """
 #if defined(__CUDA_ARCH__)
 {type} total = value;
 for (int step = 16; step > 0; step >>= 1)
@@ -31,7 +31,7 @@ return value;
 
 
 @_native(
-    _SUM.format(type="float", add="total += __shfl_xor_sync(0xffffffffu, total, step);"),
+    _OVER_LANES.format(type="float", add="total += __shfl_xor_sync(0xffffffffu, total, step);"),
 )
 def lanes_sum(value: float) -> float:
     """Return the sum over the lanes of a warp, in a fixed order."""
@@ -39,13 +39,65 @@ def lanes_sum(value: float) -> float:
 
 
 @_native(
-    _SUM.format(
+    _OVER_LANES.format(
         type="wp::vec_t<3, float>",
         add="for (int k = 0; k < 3; ++k) total[k] += __shfl_xor_sync(0xffffffffu, total[k], step);",
     ),
 )
 def lanes_sum3(value: wp.vec3) -> wp.vec3:
     """Return the sum over the lanes of a warp, in a fixed order."""
+    return value
+
+
+@_native(
+    _OVER_LANES.format(
+        type="wp::vec_t<3, float>",
+        add="for (int k = 0; k < 3; ++k)"
+        " total[k] = fmaxf(total[k], __shfl_xor_sync(0xffffffffu, total[k], step));",
+    ),
+)
+def lanes_max3(value: wp.vec3) -> wp.vec3:
+    """Return the largest value of every coordinate over the lanes of a warp."""
+    return value
+
+
+@_native("""
+#if defined(__CUDA_ARCH__)
+return (int)__ballot_sync(0xffffffffu, yes);
+#else
+return yes;
+#endif
+""")
+def lanes_that(yes: int) -> int:
+    """Return the bits of the lanes of a warp that say 1."""
+    return yes
+
+
+@_native("""
+#if defined(__CUDA_ARCH__)
+return __ffs(bits) - 1;
+#else
+return 0;
+#endif
+""")
+def lowest(bits: int) -> int:
+    """Return the first of some lanes, given as bits that are not all 0."""
+    return bits
+
+
+@_native(
+    _OVER_LANES.format(type="float", add="total = fminf(total, __shfl_xor_sync(0xffffffffu, total, step));"),
+)
+def lanes_least(value: float) -> float:
+    """Return the smallest value over the lanes of a warp."""
+    return value
+
+
+@_native(
+    _OVER_LANES.format(type="int", add="total = max(total, __shfl_xor_sync(0xffffffffu, total, step));"),
+)
+def lanes_most(value: int) -> int:
+    """Return the largest value over the lanes of a warp."""
     return value
 
 
@@ -75,10 +127,11 @@ __syncthreads();
 if (blocks > 1) {
     if (lane == 0) {
         int* gate = gates.data + sculpture;
-        __threadfence();
-        atomicAdd(gate, 1);
-        while (*((volatile int*)gate) < goal) { }
-        __threadfence();
+        asm volatile("red.release.gpu.global.add.s32 [%0], 1;" :: "l"(gate) : "memory");
+        int come = 0;
+        do {
+            asm volatile("ld.acquire.gpu.global.s32 %0, [%1];" : "=r"(come) : "l"(gate) : "memory");
+        } while (come < goal);
     }
     __syncthreads();
 }

@@ -2,7 +2,7 @@
 
 import warp as wp
 
-from balloon_usd.solver.kernels.rubber import Law, ogden_membrane, softening_factor
+from balloon_usd.solver.kernels.rubber import Knot, Law, membrane_law, softening_factor
 
 MIN_STRETCH = wp.constant(0.05)
 """Smallest stretch that enters a rubber law (1): a collapsed quad must not divide by zero."""
@@ -13,23 +13,26 @@ TINY = wp.constant(1.0e-16)
 
 
 @wp.func
-def quad_force(
+def wall_of_quad(
     q: int,
     quads: wp.array[wp.vec4i],
-    quad_segment: wp.array[int],
     quad_law: wp.array[int],
     to_rest: wp.array[wp.mat22],
     hourglass: wp.array[wp.vec4],
     rubber_volume: wp.array[float],
     laws: wp.array[Law],
-    pressure: wp.array[float],
+    curves: wp.array[Knot],
     x: wp.array[wp.vec3],
     v: wp.array[wp.vec3],
+    origin: wp.vec3,
     softening_rate: wp.array[float],
     peak_energy: wp.array[float],
     corner_force: wp.array2d[wp.vec3],
+    lift: wp.array2d[wp.vec3],
 ):
-    """Write the force (N) of wall and gas on the four corners of a quad."""
+    """Write the force (N) of the wall on the four corners of a quad and what gas will push on (m2), and
+    return the volume (m3) between the quad and an origin.
+    """
     c = quads[q]
     law = laws[quad_law[q]]
     x0 = x[c[0]]
@@ -45,8 +48,7 @@ def quad_force(
     c22 = wp.dot(f2, f2)
     c12 = wp.dot(f1, f2)
 
-    # Principal stretches of the mean deformation; the smaller one may not shrink below what uniaxial
-    # tension gives: there the wall wrinkles instead of pushing (tension field).
+    # Squared principal stretches of the mean deformation.
     mean = 0.5 * (c11 + c22)
     radius = wp.sqrt(wp.max(0.25 * (c11 - c22) * (c11 - c22) + c12 * c12, 0.0))
     large2 = wp.max(mean + radius, MIN_STRETCH * MIN_STRETCH)
@@ -54,15 +56,13 @@ def quad_force(
     stress_large = float(0.0)
     stress_small = float(0.0)
     if large2 > 1.0:
-        log_large = 0.5 * wp.log(large2)
-        log_small = wp.max(0.5 * wp.log(small2), -0.5 * log_large)
-        t = ogden_membrane(law, log_large, log_small)
+        t = membrane_law(law, curves, large2, small2)
         known = peak_energy[q]
         peak = wp.max(known, t[2])
         peak_energy[q] = known + softening_rate[quad_law[q]] * (peak - known)
         soft = softening_factor(law, t[2], peak)
-        stress_large = soft * t[0] / large2
-        stress_small = soft * t[1] / small2
+        stress_large = soft * t[0]
+        stress_small = soft * t[1]
     isotropic = stress_large
     linear = float(0.0)
     if large2 - small2 > SLACK:
@@ -111,21 +111,28 @@ def quad_force(
     pull_hoop += 0.5 * (slow1 * bow + slow3 * wp.cross(axial, bow))
     pull_axial += 0.5 * (slow2 * bow + slow3 * wp.cross(bow, hoop))
 
-    # Gas: the exact gradient of the volume under the bilinear patch.
-    p = pressure[quad_segment[q]]
-    even = (p / 4.0) * normal
-    tilt1 = (p / 24.0) * wp.cross(hoop, bent)
-    tilt2 = (p / 24.0) * wp.cross(bent, axial)
-
-    f0 = pull_hoop + pull_axial + h[0] * resist + even - tilt1 - tilt2
-    fa = -pull_hoop + pull_axial + h[1] * resist + even + tilt1 - tilt2
-    fb = -pull_hoop - pull_axial + h[2] * resist + even + tilt1 + tilt2
-    fc = pull_hoop - pull_axial + h[3] * resist + even - tilt1 + tilt2
+    f0 = pull_hoop + pull_axial + h[0] * resist
+    fa = -pull_hoop + pull_axial + h[1] * resist
+    fb = -pull_hoop - pull_axial + h[2] * resist
+    fc = pull_hoop - pull_axial + h[3] * resist
 
     corner_force[q, 0] = f0
     corner_force[q, 1] = fa
     corner_force[q, 2] = fb
     corner_force[q, 3] = fc
+
+    lift[q, 0] = 0.25 * normal
+    lift[q, 1] = wp.cross(hoop, bent) / 24.0
+    lift[q, 2] = wp.cross(bent, axial) / 24.0
+    return wp.dot(0.25 * (x0 + x1 + x2 + x3) - origin, normal) / 3.0
+
+
+@wp.func
+def lift_of_corner(q: int, corner: int, lift: wp.array2d[wp.vec3]):
+    """Return the exact gradient (m2) of the volume under a bilinear patch by one of its corners."""
+    hoop = wp.where(corner == 1 or corner == 2, 1.0, -1.0)
+    axial = wp.where(corner >= 2, 1.0, -1.0)
+    return lift[q, 0] + hoop * lift[q, 1] + axial * lift[q, 2]
 
 
 @wp.kernel

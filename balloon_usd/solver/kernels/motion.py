@@ -2,32 +2,67 @@
 
 import warp as wp
 
-from balloon_usd.solver.kernels.gas import fan_gradient
+from balloon_usd.solver.kernels.membrane import lift_of_corner
 
 
 @wp.struct
 class Spin:
-    """A rigid turn of the part of a balloon beyond a joint."""
+    """Rigid turns of the two parts of a balloon at a joint, about one point."""
 
     beyond: float
     """Unstressed distance from the knot beyond which the balloon turns, m."""
     rate: float
-    """Angular velocity, rad/s; 0 for none."""
+    """Angular velocity of what lies beyond, rad/s; 0 for none."""
     axis: wp.vec3
-    """Unit axis."""
+    """Its unit axis."""
     point: wp.vec3
-    """A point of the axis, m."""
+    """The point, m."""
+    back_rate: float
+    """Angular velocity of what lies before, rad/s; 0 where hands hold it. Where both parts turn freely they
+    are only displaced: their momentum stays as it is.
+    """
+    back_axis: wp.vec3
+    """Its unit axis."""
+    drift: wp.vec3
+    """Velocity of what lies beyond, besides, m/s."""
+    back_drift: wp.vec3
+    """Velocity of what lies before, besides, m/s."""
 
 
 @wp.func
-def move_vertex(
+def force_on_vertex(
     i: int,
+    side: int,
+    inside: float,
+    beyond: float,
     corners: wp.array[wp.vec4i],
-    vertex_joint: wp.array[int],
+    quad_segment: wp.array[int],
+    contact_force: wp.array2d[wp.vec3],
+    corner_force: wp.array2d[wp.vec3],
+    lift: wp.array2d[wp.vec3],
+):
+    """Return the force (N) of wall, gas and other walls on a vertex.
+
+    `inside`, `beyond`: gauge pressures (Pa) in the segment `side` and in the other that it may border on.
+    """
+    slots = corners[i]
+    f = contact_force[i, 0] + contact_force[i, 1]
+    # No load waits for a decision: where there is no quad, one is read and left out.
+    for k in range(4):
+        slot = wp.max(slots[k], 0)
+        q = slot >> 2
+        corner = slot & 3
+        p = wp.where(quad_segment[q] == side, inside, beyond)
+        g = corner_force[q, corner] + p * lift_of_corner(q, corner, lift)
+        f += wp.where(slots[k] >= 0, g, wp.vec3(0.0))
+    return f
+
+
+@wp.func
+def step_of_vertex(
+    i: int,
+    f: wp.vec3,
     vertex_balloon: wp.array[int],
-    joint_first: wp.array[int],
-    joint_around: wp.array[int],
-    joint_segment: wp.array[wp.vec2i],
     vertex_along: wp.array[float],
     mass: wp.array[float],
     weight: wp.array[float],
@@ -35,47 +70,58 @@ def move_vertex(
     drag: wp.array[float],
     dt: float,
     spin: wp.array[Spin],
-    target: wp.array2d[int],
-    contact_force: wp.array2d[wp.vec3],
-    corner_force: wp.array2d[wp.vec3],
-    pressure: wp.array[float],
-    ring_middle: wp.array[wp.vec3],
-    ring_area: wp.array[wp.vec3],
     x: wp.array[wp.vec3],
-    x_next: wp.array[wp.vec3],
     v: wp.array[wp.vec3],
 ):
-    """Gather the forces on a vertex and move it by symplectic Euler (Kosaka 2008, eqs. 3.22 and 3.23)."""
-    f = wp.vec3(0.0)
-    slots = corners[i]
-    for k in range(4):
-        slot = slots[k]
-        if slot >= 0:
-            f += corner_force[slot // 4, slot % 4]
-    for k in range(2):
-        if target[i, k] >= 0:
-            f += contact_force[i, k]
-    p = x[i]
-    joint = vertex_joint[i]
-    if joint >= 0:
-        sides = joint_segment[joint]
-        if sides[0] >= 0 and sides[1] >= 0:
-            first = joint_first[joint]
-            n = joint_around[joint]
-            k = i - first
-            share = 1.0 / float(n)
-            before = x[first + (k + n - 1) % n]
-            after = x[first + (k + 1) % n]
-            fan = fan_gradient(p - ring_middle[joint], after - before, ring_area[joint], share)
-            f += (pressure[sides[0]] - pressure[sides[1]]) * fan
+    """Return where a force (N) moves a vertex (m) and its speed there (m/s), by symplectic Euler
+    (Kosaka 2008, eqs. 3.22 and 3.23).
+    """
     b = vertex_balloon[i]
+    turn = spin[b]
+    along = vertex_along[i]
     pull = wp.vec3(0.0, 0.0, -gravity[b] * weight[i])
     speed = (v[i] + (f + pull) * (dt / mass[i])) * wp.max(1.0 - drag[b] * dt, 0.0)
-    p += speed * dt
-    turn = spin[b]
-    if turn.rate != 0.0 and vertex_along[i] > turn.beyond:
-        r = wp.quat_from_axis_angle(turn.axis, turn.rate * dt)
-        p = turn.point + wp.quat_rotate(r, p - turn.point)
-        speed = wp.quat_rotate(r, speed)
-    x_next[i] = p
+    p = x[i] + speed * dt
+    rate = turn.back_rate
+    axis = turn.back_axis
+    drift = turn.back_drift
+    if turn.rate != 0.0 and along > turn.beyond:
+        rate = turn.rate
+        axis = turn.axis
+        drift = turn.drift
+    if rate != 0.0:
+        r = wp.quat_from_axis_angle(axis, rate * dt)
+        p = turn.point + wp.quat_rotate(r, p - turn.point) + drift * dt
+        if turn.back_rate == 0.0:
+            speed = wp.quat_rotate(r, speed)
+    return p, speed
+
+
+@wp.func
+def move_vertex(
+    i: int,
+    corners: wp.array[wp.vec4i],
+    vertex_balloon: wp.array[int],
+    vertex_segment: wp.array[int],
+    quad_segment: wp.array[int],
+    vertex_along: wp.array[float],
+    mass: wp.array[float],
+    weight: wp.array[float],
+    gravity: wp.array[float],
+    drag: wp.array[float],
+    dt: float,
+    spin: wp.array[Spin],
+    contact_force: wp.array2d[wp.vec3],
+    corner_force: wp.array2d[wp.vec3],
+    lift: wp.array2d[wp.vec3],
+    pressure: wp.array[float],
+    x: wp.array[wp.vec3],
+    v: wp.array[wp.vec3],
+):
+    """Move a vertex (m) that belongs to no ring by the forces on it, and write its speed (m/s)."""
+    home = vertex_segment[i]
+    inside = pressure[home]
+    f = force_on_vertex(i, home, inside, inside, corners, quad_segment, contact_force, corner_force, lift)
+    p, speed = step_of_vertex(i, f, vertex_balloon, vertex_along, mass, weight, gravity, drag, dt, spin, x, v)
+    x[i] = p
     v[i] = speed

@@ -2,17 +2,38 @@
 
 import warp as wp
 
+OCTAVE_KNOTS = 16
+"""Knots of a rubber's curve per doubling of the squared stretch; even within a doubling."""
+FIRST_OCTAVE = -13
+"""Power of two of the smallest squared stretch on a curve: thickness where both others are at their limit."""
+OCTAVES = 20
+"""Doublings that a curve covers."""
+CURVE_KNOTS = OCTAVE_KNOTS * OCTAVES
+"""Knots of one rubber's curve."""
+
+# A float's bits count octaves and, within them, even steps: they say which knot is the last before it.
+MANTISSA_BITS = 23
+EXPONENT_BIAS = 127
+STEP_BITS = wp.constant(MANTISSA_BITS - OCTAVE_KNOTS.bit_length() + 1)
+WITHIN_STEP = wp.constant((1 << STEP_BITS) - 1)
+STEP_SHARE = wp.constant(1.0 / (1 << STEP_BITS))
+FIRST_STEP = wp.constant((FIRST_OCTAVE + EXPONENT_BIAS) * OCTAVE_KNOTS)
+LAST_KNOT = wp.constant(CURVE_KNOTS - 1)
+
+Knot = wp.types.matrix(shape=(2, 4), dtype=float)
+"""Cubic from a knot to the next, of stress and of energy: factors of the powers of the share of the way."""
+
 
 @wp.struct
 class Law:
-    """One rubber: Ogden terms and a Gent term, softening, and the numerical guards that go with them."""
+    """One rubber: its curve and a Gent term, softening, and the numerical guards that go with them."""
 
-    mu: wp.vec3
-    """Ogden moduli, Pa."""
-    alpha: wp.vec3
-    """Ogden exponents."""
-    mu_per_alpha: wp.vec3
-    """Ogden moduli over exponents, Pa."""
+    curve: int
+    """First knot of the curve of its Ogden terms."""
+    most: float
+    """Squared stretch at which the law is continued by its value, so that locking stays below a few times
+    the rest stiffness.
+    """
     gent_mu: float
     """Modulus of the Gent term, Pa; 0 leaves it out."""
     gent_limit: float
@@ -21,10 +42,6 @@ class Law:
     """1/r of Ogden & Roxburgh 1999; 0 switches softening off."""
     soft_width: float
     """c of Ogden & Roxburgh 1999."""
-    log_limit: float
-    """Logarithm of the stretch at which the law is continued by its value, so that locking stays below a
-    few times the rest stiffness.
-    """
     viscosity: float
     """Resistance to the rate of strain, Pa s."""
     hourglass_damping: float
@@ -43,33 +60,46 @@ ERF_6 = wp.constant(0.0000430638)
 
 
 @wp.func
-def ogden_membrane(law: Law, log_large: float, log_small: float):
-    """Return (large dW/dlarge, small dW/dsmall, W) in Pa, Pa, J/m3 from the logarithms of two stretches
-    (Ogden 1972; Gent 1996).
+def on_curve(curves: wp.array[Knot], first: int, squared: float):
+    """Return the Ogden sums of mu stretch^alpha (Pa) and mu / alpha (stretch^alpha - 1) (J/m3) at a squared
+    stretch.
     """
-    log_a = wp.min(log_large, law.log_limit)
-    log_b = wp.min(log_small, law.log_limit)
-    t1 = float(0.0)
-    t2 = float(0.0)
-    energy = float(0.0)
-    for k in range(3):
-        if law.mu[k] != 0.0:
-            ea = wp.exp(law.alpha[k] * log_a)
-            eb = wp.exp(law.alpha[k] * log_b)
-            ec = 1.0 / (ea * eb)
-            t1 += law.mu[k] * (ea - ec)
-            t2 += law.mu[k] * (eb - ec)
-            energy += law.mu_per_alpha[k] * (ea + eb + ec - 3.0)
+    bits = wp.cast(squared, wp.int32)
+    t = float(bits & WITHIN_STEP) * STEP_SHARE
+    c = curves[first + wp.clamp((bits >> STEP_BITS) - FIRST_STEP, 0, LAST_KNOT)]
+    return wp.vec2(
+        ((c[0, 3] * t + c[0, 2]) * t + c[0, 1]) * t + c[0, 0],
+        ((c[1, 3] * t + c[1, 2]) * t + c[1, 1]) * t + c[1, 0],
+    )
+
+
+@wp.func
+def membrane_law(law: Law, curves: wp.array[Knot], large2: float, small2: float):
+    """Return dW/dlarge over large, dW/dsmall over small (Pa) and W (J/m3) from the squares of two stretches
+    (Ogden 1972; Gent 1996).
+
+    The smaller one does not count below what uniaxial tension gives: there the wall wrinkles instead of
+    pushing (tension field).
+    """
+    a2 = wp.min(large2, law.most)
+    b2 = wp.min(small2, law.most)
+    if b2 * b2 * a2 < 1.0:
+        b2 = 1.0 / wp.sqrt(a2)
+    c2 = 1.0 / (a2 * b2)
+    a = on_curve(curves, law.curve, a2)
+    b = on_curve(curves, law.curve, b2)
+    c = on_curve(curves, law.curve, c2)
+    t1 = a[0] - c[0]
+    t2 = b[0] - c[0]
+    energy = a[1] + b[1] + c[1]
     if law.gent_mu > 0.0:
-        a2 = wp.exp(2.0 * log_a)
-        b2 = wp.exp(2.0 * log_b)
-        c2 = 1.0 / (a2 * b2)
         used = wp.min((a2 + b2 + c2 - 3.0) / law.gent_limit, GENT_NEAR_LIMIT)
         modulus = law.gent_mu / (1.0 - used)
         t1 += modulus * (a2 - c2)
         t2 += modulus * (b2 - c2)
         energy += -0.5 * law.gent_mu * law.gent_limit * wp.log(1.0 - used)
-    return wp.vec3(t1, t2, energy)
+    # One over a2 and over b2, without dividing again.
+    return wp.vec3(t1 * (b2 * c2), t2 * (a2 * c2), energy)
 
 
 @wp.func

@@ -20,7 +20,7 @@ class Clusters:
 
     def __init__(self, scene: KosakaScene) -> None:
         self.scene = scene
-        self.of_air = scene.air_cluster.numpy()
+        self.of_air = scene.air_cluster.numpy().copy()
         """Segment of every particle, (P,): the first of an undivided run."""
         self._of_quads = scene.quad_cluster.numpy()
         self._segments = scene.quad_segment.numpy()
@@ -42,6 +42,9 @@ class Clusters:
         frozen = self.scene.frozen.numpy().astype(bool)
         fresh = np.flatnonzero(frozen & ~self._frozen)
         self._frozen = frozen
+        if len(fresh):
+            # What was looked at must not change.
+            self.of_air = self.of_air.copy()
         for joint in fresh:
             ending = np.flatnonzero(self._ends == joint)
             if len(ending):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -17,8 +17,10 @@ from balloon_usd.solver.kosaka.maker import KosakaMaker
 from balloon_usd.solver.kosaka.parameters import RUBBER_DRAG
 from balloon_usd.solver.kosaka.scene import KosakaScene, kosaka_scene
 from balloon_usd.solver.kosaka.stepper import KosakaStepper
+from balloon_usd.solver.layout import Layout
 from balloon_usd.solver.mirror import Mirror
 from balloon_usd.solver.settings import SceneSettings
+from balloon_usd.solver.sight import Sight
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -57,6 +59,16 @@ ROOM_TO_GROW = 1.25
 """Largest size of a quad, in its size at the start, up to which the searches are sure to find it."""
 
 
+class _Shown(NamedTuple):
+    """What the makers and the clusters had come to when the state was looked at."""
+
+    doing: list[str]
+    of_segment: NDArray[np.int64]
+    """Cluster of every segment, (S,)."""
+    of_air: NDArray[np.int32]
+    """Cluster of every particle, (P,)."""
+
+
 class KosakaModel:
     """Sculptures of springs and air particles."""
 
@@ -87,18 +99,30 @@ class KosakaModel:
             KosakaMaker(plan, self.scene, self.hands, run.start)
             for plan, run in zip(plans, self._bodies, strict=True)
         ]
+        self._layout = Layout(self.scene, self._bodies)
         self._seen: dict[str, NDArray[Any]] = {}
+        self._sight: Sight | None = None
+        starts = self.scene.air_start
+        self._airs = [tuple(slice(starts[b], starts[b + 1]) for b in run) for run in self._bodies]
+        """Particles of every balloon of every sculpture."""
+        sizes = [starts[run.stop] - starts[run.start] for run in self._bodies]
+        self._first_bubble = np.repeat([place.bubbles.start for place in self._layout.places], sizes)
+        """First bubble of the sculpture of every particle."""
+        self._shown = self._come_to()
+        self._air = np.zeros((0, 3), dtype=np.float32)
+        self._cluster = np.zeros(0, dtype=np.int32)
         self._frames = 0
         self._moved = 0.0
         """Way of the fastest air since the last search, in the distance that lists look ahead."""
 
     def advance(self, begin: float, end: float) -> None:
-        """Let the makers act and the physics run from `begin` to `end` (s)."""
+        """Let the makers act and start the physics from `begin` to `end` (s)."""
         middle = self._seen["ring_middle"].copy()
-        self.hands.places = self._seen["x"]
+        self.hands.see(self._seen)
         self.hands.lift_fingers()
-        for maker in self.makers:
-            maker.act(begin, end, middle)
+        for maker, lost in zip(self.makers, self._layout.astray(middle), strict=True):
+            if not lost:
+                maker.act(begin, end, middle)
         self.hands.upload()
         handled = self.hands.pressing or bool(self.hands.mode.any())
         self._frames += 1
@@ -137,26 +161,45 @@ class KosakaModel:
         return int(handled or self._frames % LOST_EVERY == 0)
 
     def look(self) -> None:
-        """Fetch the present state, from which frames are made."""
+        """Wait for the state that was reached last; frames are made of it until the next look."""
         if self._frames == 0:
             self.stepper.look()
         self._seen = self._mirror.arrays()
+        self._shown = self._come_to()
+        self._sight = None
+
+    def _come_to(self) -> _Shown:
+        doing = [maker.doing for maker in self.makers]
+        return _Shown(doing, self.clusters.of_segment, self.clusters.of_air)
+
+    def rest(self) -> None:
+        """Wait until nothing is under way."""
+        self._mirror.wait()
+
+    @property
+    def sight(self) -> Sight:
+        """What was looked at, of all sculptures."""
+        if self._sight is None:
+            seen, bubbles = self._seen, self._layout.bubbles
+            pressure = seen["cluster_pressure"][self._shown.of_segment[bubbles]]
+            self._sight = Sight(seen["x"].copy(), seen["stretch"].copy(), pressure, seen["volume"][bubbles])
+            self._air = seen["air"].copy()
+            cluster = np.searchsorted(bubbles, self._shown.of_air) - self._first_bubble
+            self._cluster = cluster.astype(np.int32)
+        return self._sight
 
     def frame(self, world: int, time_code: int) -> Frame:
         """Return what was looked at as a frame of one sculpture."""
-        s, seen, run = self.scene, self._seen, self._bodies[world]
-        walls = [slice(s.vertex_start[b], s.vertex_start[b + 1]) for b in run]
-        airs = [slice(s.air_start[b], s.air_start[b + 1]) for b in run]
-        bubbles = np.concatenate([s.bubbles_of(b) for b in run])
+        sight, place, airs = self.sight, self._layout.places[world], self._airs[world]
         return Frame(
             time_code,
-            tuple(seen["x"][span].copy() for span in walls),
-            tuple(seen["stretch"][span].copy() for span in walls),
-            seen["cluster_pressure"][self.clusters.of_segment[bubbles]],
-            seen["volume"][bubbles],
-            self.makers[world].doing,
-            tuple(seen["air"][span].copy() for span in airs),
-            tuple(np.searchsorted(bubbles, self.clusters.of_air[span]).astype(np.int32) for span in airs),
+            tuple([sight.points[span] for span in place.walls]),
+            tuple([sight.stretch[span] for span in place.walls]),
+            sight.pressure[place.bubbles],
+            sight.volume[place.bubbles],
+            self._shown.doing[world],
+            air=tuple([self._air[span] for span in airs]),
+            cluster=tuple([self._cluster[span] for span in airs]),
         )
 
     def failure(self, world: int) -> str | None:

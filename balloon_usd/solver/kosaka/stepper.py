@@ -59,10 +59,11 @@ class KosakaStepper:
             "substeps": float(substeps),
             "margin": scene.margin,
             "quad_half": quad_half,
+            "grid": self._grid.id,
         }
         self._launcher = Launcher(scene, values)
         self._launch = self._launcher.launch
-        self._walls = WallSearch(self._launcher, self._grid)
+        self._walls = WallSearch(self._launcher)
         self._launch_lanes(hold_rings, len(scene.joint_first), fraction=1.0)
         # Nothing is lost yet: it is loaded now, not in the middle of a run.
         self.find_lost()
@@ -85,7 +86,8 @@ class KosakaStepper:
 
     def look(self) -> None:
         """Start copying what frames are made of."""
-        self._launcher.replay("look", self._look)
+        self._mirror.turn()
+        self._launcher.replay(("look", self._mirror.side), self._look)
 
     def _look(self) -> None:
         """Write the stretch of every vertex and the volumes (m3) and pressures (Pa) of all segments, and
@@ -144,7 +146,8 @@ class KosakaStepper:
         """List the particles, triangles and walls that may meet before the next search."""
         s = self.scene
         self._launch(face_surface, len(s.face_normal))
-        self._walls.sort_quads(s.x)
+        self._walls.measure_quads(s.x)
+        self._grid.build(s.quad_middle, s.quad_world)
         if contact:
             self._walls.find(s.x)
         self._launch_lanes(near_faces, len(s.air))

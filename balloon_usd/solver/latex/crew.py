@@ -15,8 +15,6 @@ from balloon_usd.solver.kernels.lanes import WARP
 from balloon_usd.solver.kernels.sculpture import LANES, advance_sculptures
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from balloon_usd.solver.latex.scene import LatexScene
     from balloon_usd.solver.launch import Launcher
 
@@ -29,9 +27,7 @@ class Crew:
         self.scene = scene
         worlds = max(scene.worlds) + 1
         body = np.searchsorted(np.asarray(scene.worlds), np.arange(worlds + 1))
-        chunks, first_chunk = chunks_of(scene.segment_quad.numpy(), scene.segment_quad_end.numpy())
-        scene.put({"chunk_quad": chunks, "segment_chunk": first_chunk})
-        scene.zeros("chunk_share", len(chunks) - 1, float)
+        scene.zeros("chunk_share", len(scene.chunk_low), float)
         need = np.zeros(worlds, dtype=int)
         for name, starts in (
             ("balloon", np.arange(len(scene.bodies) + 1)),
@@ -39,7 +35,6 @@ class Crew:
             ("vertex", scene.vertex_start),
             ("segment", scene.segment_start),
             ("joint", scene.joint_start),
-            ("chunk", first_chunk[np.asarray(scene.segment_start)]),
         ):
             bounds = np.asarray(starts)[body].astype(np.int32)
             scene.put({f"world_{name}": bounds})
@@ -78,17 +73,3 @@ def _quick_kernel() -> Any:
     """
     make = wp.kernel(module="unique", module_options={"fast_math": True})
     return make(advance_sculptures.func)
-
-
-def chunks_of(
-    begin: NDArray[np.int32], end: NDArray[np.int32]
-) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Cut segments, from quad `begin` to `end` (S,) each, into chunks that a warp measures at once.
-
-    Returns the first quad of every chunk (C + 1,), and the first chunk of every segment (S + 1,).
-    """
-    count = -(-(end - begin) // WARP)
-    first = np.concatenate([[0], np.cumsum(count)]).astype(np.int32)
-    within = np.arange(first[-1]) - np.repeat(first[:-1], count)
-    starts = np.repeat(begin, count) + WARP * within
-    return np.append(starts, end[-1]).astype(np.int32), first

@@ -30,8 +30,7 @@ class _Welded:
 
     def pairs(self) -> set[tuple[int, int]]:
         """Pairs of rings whose distance the friction of a weld keeps."""
-        own = set(self._ring)
-        welds = [set(group) for group in self.hands.welds if own.issuperset(group)]
+        welds = [set(group) for group in self.hands.welds_of(self._ring)]
         ends = [self._neighbours(weld) for weld in welds]
         pairs = set()
         for weld, near in zip(welds, ends, strict=True):

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import warp as wp
 
 from balloon_usd.solver.hands import Floats, Hands
-from balloon_usd.solver.kernels.gas import OPEN_PASSAGE
+from balloon_usd.solver.kernels.gas import OPEN_PASSAGE, WIDE_OPEN
 from balloon_usd.solver.kernels.motion import Spin
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from numpy.typing import NDArray
+
     from balloon_usd.solver.latex.scene import LatexScene
 
 
@@ -24,24 +28,44 @@ class LatexHands(Hands):
         super().__init__(scene)
         self.passage = np.where(self.closed, 0.0, OPEN_PASSAGE).astype(np.float32)
         self.passage_goal = self.passage.copy()
+        self._beside = scene.joint_segment.numpy()
+        """Segments before and after every ring, (J, 2)."""
+        self._joint_body = np.repeat(np.arange(len(scene.bodies)), np.diff(scene.joint_start))
+        """Balloon of every ring, (J,)."""
+        self._ends = scene.end_joint.numpy()
+        """Joint that ends every segment, (S,); -1 at the tip of a balloon."""
         self.pump_flow = np.zeros(len(scene.bodies), dtype=np.float32)
         self.pump_limit = np.ones(len(scene.bodies), dtype=np.float32)
         self.pump_goal = np.zeros(len(scene.bodies))
         self.spins = [Spin() for _ in scene.bodies]
-        self._spun = False
-        """Whether a spin has changed since the last upload."""
+        self._turning: set[int] = set()
+        """Balloons of which a part turns."""
+        self.softening = scene.softening_rate.numpy().copy()
+        self.amount, self.volume = scene.amount.numpy().copy(), scene.volume.numpy().copy()
+        """Gas of every segment, mol, and its volume, m3."""
+        self._beyond: dict[tuple[int, float], slice | NDArray[np.int64]] = {}
+        """Vertices of a balloon beyond a place."""
         self.upload()
+
+    def see(self, seen: Mapping[str, NDArray[Any]]) -> None:
+        """Take note of how things are, by the names of arrays of the scene."""
+        super().see(seen)
+        self.amount, self.volume = seen["amount"].copy(), seen["volume"]
 
     def squeeze(self, joint: int, radius: float, passage: float) -> None:
         """Set the radius (m) and the open area (m2) that a neck has at the end of the frame."""
         self.close(joint, radius)
         self.passage_goal[joint] = passage
 
+    def free_neck(self, joint: int) -> None:
+        """Let a neck go that is as wide as its tube: the chambers beside it become one."""
+        self.radius[joint] = self.radius_goal[joint] = 0.0
+        self.passage[joint] = self.passage_goal[joint] = OPEN_PASSAGE
+
     def set_softening(self, balloon: int, rate: float) -> None:
         """Set which share of a new largest energy the rubber of a balloon takes note of in one substep."""
-        rates = self.scene.softening_rate.numpy()
-        rates[balloon] = rate
-        self.scene.softening_rate.assign(rates)
+        self.softening[balloon] = rate
+        self._due["softening_rate"] = self.softening
 
     def turn(self, balloon: int, point: Floats, beyond: float, rate: float) -> None:
         """Spin the part of a balloon farther than `beyond` (m along it) about its own axis through a point
@@ -49,42 +73,64 @@ class LatexHands(Hands):
         """
         s = self.scene
         span = slice(int(s.vertex_start[balloon]), int(s.vertex_start[balloon + 1]))
-        part = self.places[span][s.bodies[balloon].along > beyond]
+        if (balloon, beyond) not in self._beyond:
+            self._beyond[balloon, beyond] = _chosen(s.bodies[balloon].along > beyond)
+        part = self.places[span][self._beyond[balloon, beyond]]
         spin = Spin()
         spin.point = wp.vec3(*point)
         axis = part.mean(axis=0) - point
         spin.axis = axis / max(float(np.linalg.norm(axis)), 1e-12)
         spin.beyond, spin.rate = beyond, rate
+        self.spin(balloon, spin)
+
+    def spin(self, balloon: int, spin: Spin) -> None:
+        """Turn both parts of a balloon in this frame."""
         self.spins[balloon] = spin
-        self._spun = True
+        self._turning.add(balloon)
+        self._due["spin"] = self.spins
 
     def stop_turning(self, balloon: int) -> None:
         """End the spin of a balloon."""
-        if self.spins[balloon].rate:
+        if balloon in self._turning:
+            self._turning.remove(balloon)
             self.spins[balloon] = Spin()
-            self._spun = True
+            self._due["spin"] = self.spins
 
     def split_gas(self, joint: int) -> None:
         """Share the gas of the open chambers by volume, before a neck between them begins to close."""
-        s = self.scene
-        balloon = int(np.searchsorted(s.joint_start, joint, side="right")) - 1
-        amount, volume, ends = s.amount.numpy(), s.volume.numpy().astype(float), s.end_joint.numpy()
-        begin = int(s.segment_start[balloon])
-        for k in range(begin, int(s.segment_start[balloon + 1])):
-            border = ends[k]
-            if border < 0 or self.passage[border] < OPEN_PASSAGE:
-                run = slice(begin, k + 1)
-                amount[run] = amount[run].sum() * volume[run] / volume[run].sum()
-                begin = k + 1
-        s.amount.assign(amount)
+        first, last = self.chambers()
+        beside = self._beside[joint, 0]
+        run = slice(first[beside], last[beside] + 1)
+        volume = self.volume[run].astype(float)
+        self.amount[run] = self.amount[run].sum() * volume / volume.sum()
+        self._due["amount"] = self.amount
+
+    def lose_gas(self, bubbles: NDArray[np.int64], lost: NDArray[np.float64]) -> None:
+        """Take gas out of some segments, both (bubbles,), mol."""
+        self.amount[bubbles] -= lost
+        self._due["amount"] = self.amount
+
+    def chambers(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Return the first and the last segment of the chamber that every segment lies in, (S,) each."""
+        shut = np.flatnonzero((self._ends < 0) | (self.passage[self._ends] < WIDE_OPEN))
+        chamber = np.searchsorted(shut, np.arange(len(self._ends)))
+        return np.concatenate([[0], shut + 1])[chamber], shut[chamber]
+
+    def _blowing(self) -> NDArray[np.int32]:
+        """Return 1 for every balloon with a neck that is neither open nor shut, (B,)."""
+        blowing = np.zeros(len(self.scene.bodies), dtype=np.int32)
+        necks = (self.passage < WIDE_OPEN) & (np.maximum(self.passage, self.passage_goal) > 0.0)
+        blowing[self._joint_body[necks[: len(self._joint_body)]]] = 1
+        return blowing
 
     def upload(self) -> None:
         """Send the goals of the coming frame to the device."""
         super().upload()
-        if self._spun:
-            self.scene.spin.assign(self.spins)
-            self._spun = False
+        first, last = self.chambers()
         for name, values in (
+            ("blowing", self._blowing()),
+            ("chamber_first", first.astype(np.int32)),
+            ("chamber_last", last.astype(np.int32)),
             ("open_from", self.passage),
             ("open_to", self.passage_goal),
             ("pump_flow", self.pump_flow),
@@ -97,3 +143,10 @@ class LatexHands(Hands):
         """Make this frame's goals the next frame's starts."""
         super().arrived()
         self.passage[:] = self.passage_goal
+
+
+def _chosen(mask: NDArray[np.bool_]) -> slice | NDArray[np.int64]:
+    """Return where a mask is true: as a slice, which copies nothing, if that is one run."""
+    chosen = np.flatnonzero(mask)
+    run = len(chosen) > 0 and chosen[-1] - chosen[0] + 1 == len(chosen)
+    return slice(int(chosen[0]), int(chosen[-1]) + 1) if run else chosen

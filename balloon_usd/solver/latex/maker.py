@@ -14,6 +14,7 @@ from balloon_usd.plan.choreography import Inflate, LetGo, Move, Pinch, Spin
 from balloon_usd.plan.closing import smooth
 from balloon_usd.solver.latex.friction import friction_pairs
 from balloon_usd.solver.latex.memory import set_bend
+from balloon_usd.solver.latex.torsion import Torsion
 from balloon_usd.solver.maker import ALONG, Maker
 
 if TYPE_CHECKING:
@@ -32,6 +33,8 @@ PUMP_RAMP = 0.2
 """Share of that time in which the pump starts, and stops."""
 TAIL_STIFFNESS = 200.0
 """Stiffness of the hand that leads the flat tail while the balloon is blown up, N/m: soft, it only steers."""
+FORWARD = ALONG.astype(np.float32)
+"""The same direction as places are kept."""
 SPIN_CLEAR = 1e-6
 """What lies farther than this beyond a joint turns with the balloon, m."""
 SOFTENING_SECONDS = 0.1
@@ -49,6 +52,11 @@ class LatexMaker(Maker):
     ) -> None:
         super().__init__(plan, scene, hands, first_body)
         self.struts = struts
+        self.torsion = Torsion(plan, scene, hands, self._ring, self.body)
+        self._fronts: dict[str, tuple[int, float]] = {}
+        """Ring that leads the tail of every balloon, and the work (J) of the gas in each metre of unstressed
+        tube that the front passes.
+        """
         self.inflated = -1
         """Frame at whose end the last balloon has its gas."""
 
@@ -64,6 +72,13 @@ class LatexMaker(Maker):
         for body in self.body.values():
             self.hands.stop_turning(body)
         super().act(begin, end, middle)
+        self.torsion.unwind(end - begin, middle)
+
+    @property
+    def doing(self) -> str:
+        """What the hands do, or what comes undone without them."""
+        loose = self.torsion.unwinding
+        return super().doing if loose is None else f"comes undone: {loose}"
 
     def _perform(self, k: int, move: Move, share: float, fresh: bool, middle: Floats) -> None:
         if isinstance(move, Inflate):
@@ -75,6 +90,8 @@ class LatexMaker(Maker):
         else:
             super()._perform(k, move, share, fresh, middle)
             if isinstance(move, LetGo) and fresh:
+                if move.for_good:
+                    self.torsion.let_go(self.struts)
                 self.struts.hold(friction_pairs(self.plan, self.hands, self._ring))
 
     def _inflate(self, move: Inflate, share: float, fresh: bool, middle: Floats) -> None:
@@ -103,21 +120,22 @@ class LatexMaker(Maker):
     def _lead_tail(self, balloon: str, flow: float, fresh: bool, middle: Floats) -> None:
         """Keep the flat tail straight and as fast as the front that a flow of gas (mol/s) drives along."""
         strip = self.plan.strips[balloon]
-        tip = self._ring[self.plan.table.guides(strip.bubbles[-1].name)[-1]]
         if fresh:
+            tip = self._ring[self.plan.table.guides(strip.bubbles[-1].name)[-1]]
             self.hands.lead(tip, middle)
             self.hands.stiffness[tip] = TAIL_STIFFNESS
+            gained = tube_volume_per_rest_length(strip.size, strip.rubber) - tail_volume_per_rest_length(
+                strip.size, strip.rubber
+            )
+            pressure = self.scene.settings.atmosphere + self.plan.budgets[balloon].pressure
+            self._fronts[balloon] = tip, pressure * gained
+        tip, work = self._fronts[balloon]
         state = maxwell_state(strip.rubber)
-        gained = tube_volume_per_rest_length(strip.size, strip.rubber) - tail_volume_per_rest_length(
-            strip.size, strip.rubber
-        )
-        pressure = self.scene.settings.atmosphere + self.plan.budgets[balloon].pressure
-        rest_speed = flow * float(self.scene.air.molar_energy) / (pressure * gained)
-        forward = np.array(ALONG, dtype=np.float32)
-        axial = float((middle[tip] - self.hands.goal[tip]) @ forward)
-        self.hands.start[tip] = self.hands.goal[tip] + forward * axial
+        rest_speed = flow * float(self.scene.air.molar_energy) / work
+        axial = float((middle[tip] - self.hands.goal[tip]) @ FORWARD)
+        self.hands.start[tip] = self.hands.goal[tip] + FORWARD * axial
         step = rest_speed * (state.bulged.b - state.thin.b) / self.plan.recipe.fps
-        self.hands.goal[tip] = self.hands.start[tip] + forward * step
+        self.hands.goal[tip] = self.hands.start[tip] + FORWARD * step
         if flow == 0.0:
             self.hands.free[tip] = ALONG
 
@@ -126,6 +144,7 @@ class LatexMaker(Maker):
         if fresh:
             wide = self._ring_width(joint)
             self._began[k] = np.array([wide])
+            self.torsion.pinch(move.ring, wide)
             self.hands.clasp(joint, middle)
             self.hands.split_gas(joint)
             self.hands.radius[joint] = wide
@@ -139,6 +158,7 @@ class LatexMaker(Maker):
         ring = self.plan.table.rings[move.ring]
         self._steady(move.ring, middle)
         inside = max(0.0, min(end, move.end) - max(begin, move.start))
+        self.torsion.wind(move.ring, move.turns * inside / move.seconds)
         rate = 2.0 * math.pi * move.turns / move.seconds * inside / (end - begin)
         self.hands.turn(self.body[ring.balloon], middle[self._ring[move.ring]], ring.along + SPIN_CLEAR, rate)
 

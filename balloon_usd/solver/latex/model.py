@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -13,12 +12,15 @@ from balloon_usd.solver.body import body_ranges, places_beside
 from balloon_usd.solver.frame import Frame
 from balloon_usd.solver.latex.body import LatexBody, tube_body
 from balloon_usd.solver.latex.hands import LatexHands
+from balloon_usd.solver.latex.leak import Leak
 from balloon_usd.solver.latex.maker import LatexMaker
 from balloon_usd.solver.latex.scene import build_scene
 from balloon_usd.solver.latex.stepper import Stepper
 from balloon_usd.solver.latex.struts import StrutLaw, Struts
+from balloon_usd.solver.layout import Layout
 from balloon_usd.solver.mirror import Mirror
 from balloon_usd.solver.settings import SceneSettings
+from balloon_usd.solver.sight import Sight
 from balloon_usd.solver.watch import crowded
 
 if TYPE_CHECKING:
@@ -35,8 +37,16 @@ STRUTS_PER_JOINT = 12
 """Room for struts, per joint of the scene."""
 SHORT_OF_GAS = 0.98
 """Share of the wanted gas below which inflating counts as failed."""
-LOOKED_AT = ("x", "stretch", "pressure", "volume", "most_hits", "amount", "ring_middle")
+LOOKED_AT = ("x", "stretch", "pressure", "volume", "most_hits", "amount", "ring_middle", "wall_load")
 """Arrays of which frames are made."""
+
+
+class _Shown(NamedTuple):
+    """What a maker had come to when the state was looked at."""
+
+    doing: str
+    undone: tuple[str, ...]
+    just_inflated: bool
 
 
 class LatexModel:
@@ -62,46 +72,79 @@ class LatexModel:
         )
         rings = sum(len(b.rings) for b in bodies)
         self.scene = build_scene(bodies, worlds, settings, device, rings, STRUTS_PER_JOINT * rings)
-        self.stepper = Stepper(self.scene, substeps, _reach(bodies, settings))
+        self.stepper = Stepper(self.scene, substeps)
         self.hands = LatexHands(self.scene)
         self._struts = Struts(self.scene, StrutLaw())
         self.makers = [
             LatexMaker(plan, self.scene, self.hands, self._struts, run.start)
             for plan, run in zip(plans, self._bodies, strict=True)
         ]
+        self._leak = Leak(plans, self.scene, self.hands, self._bodies)
         self._mirror = Mirror(self.scene, LOOKED_AT)
+        self._layout = Layout(self.scene, self._bodies)
         self._seen: dict[str, NDArray[Any]] = {}
+        self._sight: Sight | None = None
+        self._load = np.zeros(0, dtype=np.float32)
+        self._shown: list[_Shown] = []
+        self._fetch()
 
     def advance(self, begin: float, end: float) -> None:
-        """Let the makers act and the physics run from `begin` to `end` (s)."""
+        """Let the makers act and start the physics from `begin` to `end` (s)."""
         middle = self._seen["ring_middle"].copy()
-        self.hands.places = self._seen["x"]
+        self.hands.see(self._seen)
         self.hands.lift_fingers()
-        for maker in self.makers:
-            maker.act(begin, end, middle)
+        astray = self._layout.astray(middle)
+        for maker, lost in zip(self.makers, astray, strict=True):
+            if not lost:
+                maker.act(begin, end, middle)
+        self._leak.advance(begin, end, self._seen)
         self._struts.put(middle)
         self.hands.upload()
         self.stepper.advance(contact=bool(self.hands.touching.any()), fingers=self.hands.pressing)
         self.hands.arrived()
+        self._fetch()
+
+    def _fetch(self) -> None:
+        """Start to fetch the present state, from which frames are made."""
+        self.stepper.stretch()
+        if self.hands.touching.any():
+            self.stepper.load()
+        self._mirror.turn()
+        self._mirror.copy()
 
     def look(self) -> None:
-        """Fetch the present state, from which frames are made."""
-        self.stepper.stretch()
-        self._mirror.copy()
+        """Wait for the state that was reached last; frames are made of it until the next look."""
         self._seen = self._mirror.arrays()
+        self._shown = [_Shown(m.doing, m.torsion.undone, m.just_inflated) for m in self.makers]
+        self._sight = None
+
+    def rest(self) -> None:
+        """Wait until nothing is under way."""
+        self._mirror.wait()
+
+    @property
+    def sight(self) -> Sight:
+        """What was looked at, of all sculptures."""
+        if self._sight is None:
+            seen, bubbles = self._seen, self._layout.bubbles
+            self._sight = Sight(
+                seen["x"].copy(), seen["stretch"].copy(), seen["pressure"][bubbles], seen["volume"][bubbles]
+            )
+            self._load = seen["wall_load"][bubbles]
+        return self._sight
 
     def frame(self, world: int, time_code: int) -> Frame:
         """Return what was looked at as a frame of one sculpture."""
-        s, seen = self.scene, self._seen
-        spans = [slice(s.vertex_start[b], s.vertex_start[b + 1]) for b in self._bodies[world]]
-        bubbles = np.concatenate([s.bubbles_of(b) for b in self._bodies[world]])
+        sight, place = self.sight, self._layout.places[world]
         return Frame(
             time_code,
-            tuple(seen["x"][span].copy() for span in spans),
-            tuple(seen["stretch"][span].copy() for span in spans),
-            seen["pressure"][bubbles],
-            seen["volume"][bubbles],
-            self.makers[world].doing,
+            tuple([sight.points[span] for span in place.walls]),
+            tuple([sight.stretch[span] for span in place.walls]),
+            sight.pressure[place.bubbles],
+            sight.volume[place.bubbles],
+            self._shown[world].doing,
+            self._load[place.bubbles],
+            self._shown[world].undone,
         )
 
     def failure(self, world: int) -> str | None:
@@ -114,7 +157,7 @@ class LatexModel:
 
     def _short_of_gas(self, world: int) -> str | None:
         """Tell when inflating has ended without the gas that the plan asks for."""
-        if not self.makers[world].just_inflated:
+        if not self._shown[world].just_inflated:
             return None
         for b in self._bodies[world]:
             got = float(self._seen["amount"][self.scene.bubbles_of(b)].sum())
@@ -138,9 +181,3 @@ def _body(plan: Plan, strip: Strip, mesh: BalloonMesh) -> LatexBody:
     return tube_body(
         mesh, strip.rubber, strip.size.radius, strip.size.thickness, joint_places(strip), guides, pressure
     )
-
-
-def _reach(bodies: Sequence[LatexBody], settings: SceneSettings) -> float:
-    """Cell size of the contact search, m: the bulged size of a quad and the contact offset."""
-    widest = max(2.0 * math.pi * b.radius / b.rings[0].around for b in bodies)
-    return 5.0 * widest + 2.0 * settings.contact_offset

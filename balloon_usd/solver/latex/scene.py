@@ -12,8 +12,8 @@ from balloon_usd.balloon.air import AIR_DENSITY, GAS_CONSTANT, ROOM_TEMPERATURE
 from balloon_usd.solver.kernels.gas import Air
 from balloon_usd.solver.kernels.joints import Axes
 from balloon_usd.solver.kernels.motion import Spin
-from balloon_usd.solver.kernels.rubber import Law
-from balloon_usd.solver.latex.device_law import device_law
+from balloon_usd.solver.kernels.rubber import Knot, Law
+from balloon_usd.solver.latex.device_law import device_laws
 from balloon_usd.solver.latex.membrane_data import membrane_data
 from balloon_usd.solver.scene import Scene, lay_meshes
 
@@ -98,14 +98,19 @@ def _state_arrays(scene: LatexScene, strut_count: int) -> None:
     a["softening_rate"] = wp.full(balloons, 1.0, dtype=float, device=scene.device)
     scene.zeros("pressure", segments, float)
     scene.zeros("room", segments, float)
+    scene.zeros("wall_load", segments, float)
     for name in ("amount", "flow"):
         scene.zeros(name, segments, wp.float64)
     scene.zeros("corner_force", (quads, 4), wp.vec3)
+    scene.zeros("lift", (quads, 3), wp.vec3)
+    for name in ("chamber_first", "chamber_last"):
+        a[name] = wp.array(np.arange(segments), dtype=int, device=scene.device)
     for name in ("open_from", "open_to"):
         scene.zeros(name, joints, float)
     scene.zeros("ring_axes", joints, Axes)
     scene.zeros("joint_struts", (joints, STRUT_SLOTS), int)
     scene.zeros("spin", balloons, Spin)
+    scene.zeros("blowing", balloons, int)
     scene.zeros("pump_flow", balloons, float)
     scene.zeros("pump_limit", balloons, float)
     scene.zeros("pump_goal", balloons, wp.float64)
@@ -114,5 +119,6 @@ def _state_arrays(scene: LatexScene, strut_count: int) -> None:
     for name in ("strut_stiffness", "strut_damping", "strut_yield", "strut_length"):
         scene.zeros(name, struts, float)
     scene.zeros("strut_force", struts, wp.vec3)
-    laws = [device_law(b.rubber, scene.settings.dt) for b in scene.bodies]
+    laws, curves = device_laws([b.rubber for b in scene.bodies], scene.settings.dt)
     a["laws"] = wp.array(laws, dtype=Law, device=scene.device)
+    a["curves"] = wp.array(curves, dtype=Knot, device=scene.device)

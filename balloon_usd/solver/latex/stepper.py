@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from balloon_usd.solver.kernels.gas import segment_volumes
-from balloon_usd.solver.kernels.joints import move_joints
+from balloon_usd.solver.kernels.joints import measure_rings
 from balloon_usd.solver.kernels.lanes import WARP
 from balloon_usd.solver.kernels.membrane import vertex_stretch
+from balloon_usd.solver.kernels.wall_load import wall_loads
 from balloon_usd.solver.latex.crew import Crew
 from balloon_usd.solver.launch import Launcher
-from balloon_usd.solver.search_grid import SearchGrid
 from balloon_usd.solver.wall_search import WallSearch
 
 if TYPE_CHECKING:
@@ -23,14 +23,8 @@ SEARCH_SECONDS = 1.0 / 120.0
 class Stepper:
     """Advances a scene by whole frames of a fixed number of substeps."""
 
-    def __init__(self, scene: LatexScene, substeps: int, reach: float) -> None:
-        """Prepare a scene.
-
-        Args:
-            scene: state to advance.
-            substeps: per frame.
-            reach: cell size of the contact search (m).
-        """
+    def __init__(self, scene: LatexScene, substeps: int) -> None:
+        """Prepare a scene; `substeps`: per frame."""
         self.scene = scene
         self.substeps = substeps
         dt = scene.settings.dt
@@ -38,15 +32,14 @@ class Stepper:
         self._search_every = max(1, round(SEARCH_SECONDS / dt))
         self._launcher = Launcher(scene, values)
         self._launch = self._launcher.launch
-        self._grid = SearchGrid(scene, reach, len(scene.quads))
-        self._search = WallSearch(self._launcher, self._grid)
+        self._search = WallSearch(self._launcher)
         self._crew = Crew(scene)
         self._start()
 
     def _start(self) -> None:
         """Give rings their middles and chambers their gas before the first substep."""
         s = self.scene
-        self._launcher.launch_tiled(move_joints, len(s.joint_first), lanes=WARP, fraction=1.0)
+        self._launcher.launch_tiled(measure_rings, len(s.joint_first), lanes=WARP)
         self._volumes()
         volume = s.volume.numpy().astype(float)
         amount = (s.start_gauge.numpy() + s.settings.atmosphere) * volume / float(s.air.molar_energy)
@@ -57,18 +50,21 @@ class Stepper:
 
     def advance(self, *, contact: bool, fingers: bool = False) -> None:
         """Advance by one frame, with or without walls that can touch and fingers that press."""
-        self._grid.claim()
         self._launcher.replay((contact, fingers), lambda: self._frame(contact=contact, fingers=fingers))
 
     def stretch(self) -> None:
         """Write the largest principal stretch of every vertex."""
         self._launch(vertex_stretch, len(self.scene.x))
 
+    def load(self) -> None:
+        """Write the force with which other walls press on every segment."""
+        self._launcher.launch_tiled(wall_loads, len(self.scene.segment_quad))
+
     def _frame(self, *, contact: bool, fingers: bool) -> None:
         stride = self._search_every if contact else self.substeps
         for begin in range(0, self.substeps, stride):
             if contact:
-                self._search.sort_quads(self.scene.x)
+                self._search.measure_quads(self.scene.x)
                 self._search.find(self.scene.x)
             end = min(begin + stride, self.substeps)
             self._crew.advance(self._launcher, self.substeps, begin, end, contact=contact, fingers=fingers)

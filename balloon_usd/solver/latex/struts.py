@@ -44,6 +44,18 @@ class Struts:
         """Ask for a strut between every new pair of joints."""
         self._wanted |= pairs
 
+    def release(self, joints: set[int], kept: set[tuple[int, int]]) -> None:
+        """Take away the struts between some joints, but for those pairs that are kept."""
+        self._wanted = {pair for pair in self._wanted if not joints.issuperset(pair) or pair in kept}
+        gone = [p for p in self.pairs if joints.issuperset(p) and p not in kept]
+        if gone:
+            stiffness, damping = self.scene.strut_stiffness.numpy(), self.scene.strut_damping.numpy()
+            for pair in gone:
+                k = self.pairs[pair]
+                stiffness[k] = damping[k] = 0.0
+            self.scene.strut_stiffness.assign(stiffness)
+            self.scene.strut_damping.assign(damping)
+
     def put(self, middle: Floats) -> None:
         """Put down the struts that were asked for, at the distances that their joints have now.
 

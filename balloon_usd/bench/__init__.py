@@ -1,0 +1,1 @@
+"""Measurements of speed, with what is promised beside what was measured."""

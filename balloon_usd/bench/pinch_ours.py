@@ -1,0 +1,130 @@
+"""The task of pinch and turn, by the latex solver."""
+
+from __future__ import annotations
+
+import statistics
+import time
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from balloon_usd.balloon.rubber import rubber_named
+from balloon_usd.bench.pinch_task import FPS, GAUGE, PINCHED, RADIUS, PinchRun
+from balloon_usd.bench.pinch_wall import blown_up, rest_points, wall_thickness
+from balloon_usd.solver.body import RingSpec
+from balloon_usd.solver.kernels.gas import OPEN_PASSAGE
+from balloon_usd.solver.latex.body import LatexBody
+from balloon_usd.solver.latex.hands import LatexHands
+from balloon_usd.solver.latex.scene import build_scene
+from balloon_usd.solver.latex.stepper import Stepper
+from balloon_usd.solver.settings import SceneSettings
+
+if TYPE_CHECKING:
+    from balloon_usd.bench.pinch_task import Floats, PinchTask
+
+COARSE = 32
+"""Vertices round the coarsest tube."""
+SUBSTEPS = 16
+"""Substeps in a frame of the coarsest tube: fewer, and the wall lags behind the hands."""
+HELD_MASS = 1.0e6
+"""Mass of what hands hold, in that of free wall: nothing moves it."""
+SETTLING = 30
+"""Frames in which the tube comes to rest before the pinch."""
+
+
+class PinchedTube:
+    """The tube in a scene of its own, and the hands on it."""
+
+    def __init__(self, task: PinchTask, substeps: int, device: str) -> None:
+        self.task = task
+        self.neck = task.pinched
+        body = tube_body(task)
+        settings = SceneSettings(dt=1.0 / (FPS * substeps))
+        self.scene = build_scene([body], [0], settings, device, 1, 1)
+        mass = self.scene.mass.numpy()
+        mass[np.concatenate(task.ends)] *= HELD_MASS
+        self.scene.mass.assign(mass)
+        self.stepper = Stepper(self.scene, substeps)
+        self.hands = LatexHands(self.scene)
+        self.hands.touch([0])
+        self._whole = np.full(len(self.neck), RADIUS)
+        last = self.neck[-1]
+        self._beyond = float(body.along[task.mesh.ring_start[last : last + 2]].mean())
+
+    def advance(self) -> None:
+        """Advance by one frame."""
+        self.hands.upload()
+        self.stepper.advance(contact=True)
+        self.hands.arrived()
+
+    def points(self) -> Floats:
+        """Where all vertices are, (V, 3), m."""
+        return np.array(self.scene.x.numpy(), dtype=np.float64)
+
+    def take_hold(self) -> None:
+        """Take the middle of the tube between the fingers."""
+        rings = self.points()[[self.task.ring(k) for k in self.neck]]
+        arms = np.linalg.norm(rings - rings.mean(axis=1, keepdims=True), axis=2)
+        self._whole = arms.mean(axis=1)
+        self.hands.radius[:] = self._whole
+        self.hands.grip(len(self.neck) // 2, self.scene.ring_middle.numpy())
+
+    def act(self, frame: int) -> None:
+        """Do what the task says for a frame, and advance."""
+        for joint in range(len(self.neck)):
+            self.hands.squeeze(joint, float(self._whole[joint]) * self.task.pinch_at(frame), OPEN_PASSAGE)
+        angle = self.task.turn_at(frame) - self.task.turn_at(frame - 1)
+        if angle > 0.0:
+            self.hands.places = self.scene.x.numpy()
+            middle = self.scene.ring_middle.numpy()[len(self.neck) // 2]
+            self.hands.turn(0, middle, self._beyond, angle * FPS)
+        self.advance()
+
+
+def tube_body(task: PinchTask) -> LatexBody:
+    """Return the tube as it was blown up, of a wall that holds the task's pressure."""
+    mesh, rubber, state, neck = task.mesh, rubber_named(), blown_up(), task.pinched
+    radius = RADIUS / state.a
+    faces, cap = len(mesh.quads), (mesh.around // 4) ** 2
+    nearest = np.abs(mesh.along[:, None] - mesh.ring_along[None, :]).argmin(axis=1)
+    return LatexBody(
+        points=mesh.points,
+        rest=rest_points(task),
+        quads=mesh.quads,
+        thickness=np.full(faces, wall_thickness()),
+        rubber=rubber,
+        worked=np.full(faces, float(rubber.energy(state.a, state.b))),
+        radius=radius,
+        along=(mesh.along / state.b).astype(np.float32),
+        mesh_rings=tuple((int(first), mesh.around) for first in mesh.ring_start),
+        vertex_ring=nearest.astype(np.int32),
+        rings=tuple(RingSpec(int(mesh.ring_start[k]), mesh.around, parts=True) for k in neck),
+        segment_ends=np.array([*(cap + k * mesh.around for k in neck), faces], dtype=np.int32),
+        gauge=np.full(len(neck) + 1, GAUGE),
+        vented=(),
+        inlet=0,
+        neck_radius=PINCHED * RADIUS,
+    )
+
+
+def substeps_for(task: PinchTask) -> int:
+    """Return the substeps in a frame that the mesh of a task needs."""
+    return SUBSTEPS * task.mesh.around // COARSE
+
+
+def run_ours(task: PinchTask, substeps: int, device: str) -> PinchRun:
+    """Do the task with so many substeps in a frame."""
+    tube = PinchedTube(task, substeps, device)
+    for _ in range(SETTLING):
+        tube.advance()
+    start = tube.points()
+    tube.take_hold()
+    wall, cpu = [], []
+    for frame in range(task.frames):
+        clocks = time.perf_counter(), time.process_time()
+        tube.act(frame)
+        wall.append(time.perf_counter() - clocks[0])
+        cpu.append(time.process_time() - clocks[1])
+    return PinchRun(
+        start, tube.points(), substeps, 1e3 * statistics.median(wall), 1e3 * statistics.median(cpu)
+    )

@@ -1,0 +1,70 @@
+"""What is promised of the speed, to stand beside what was measured."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from balloon_usd.bench.timing import Timing
+
+
+@dataclass(frozen=True)
+class Target:
+    """A value that is promised."""
+
+    value: float
+    unit: str
+    least: bool = True
+    """Whether the value is the least that is promised, else the most."""
+
+    def beside(self, measured: float) -> str:
+        """Return the target and whether a measured value keeps it."""
+        kept = measured >= self.value if self.least else measured <= self.value
+        sign = ">=" if self.least else "<="
+        return f"{sign} {self.value:g}{self.unit}: {'kept' if kept else 'missed'}"
+
+
+RATE, TIMES = " frames/s", " x one"
+
+DOG_ON_CPU = Target(24.0, RATE)
+"""The draft dog on one core: real time."""
+FULL_DOG_ON_GPU = Target(240.0, RATE)
+"""The full dog on an H200: ten times real time."""
+BATCH_ON_GPU = Target(50.0, TIMES)
+"""256 draft dogs at once on an H200, against one after the other."""
+CAPSULE_ON_CPU = Target(21.0, RATE)
+"""The thesis's capsule on one core: what its author's GeForce GTX 280 did."""
+CAPSULE_ON_GPU = Target(2000.0, RATE)
+"""The thesis's capsule on an H200."""
+PINCH = Target(8.0, " ms", least=False)
+"""Pinch and turn of 1602 vertices, processor time for a frame."""
+CROSSINGS = Target(0.0, " crossings", least=False)
+"""Edges that pierce a wall after pinch and turn."""
+FIRST_FRAME = Target(2.0, " s", least=False)
+"""From the start of the process to the first frame, with compiled kernels."""
+COMPILING = Target(15.0, " s", least=False)
+"""The same without, on a CPU."""
+MIXED_COST = Target(1.1, " x parts", least=False)
+"""Time for different recipes together, in what they take one by one."""
+PROCESSES_SHARE = 0.9
+"""Share of the cores' full throughput that as many processes reach."""
+
+BATCH = 256
+"""Copies of which a throughput is promised."""
+
+
+def target_of(model: str, detail: str, timing: Timing, one: Timing | None, *, cuda: bool) -> str:
+    """Return the target of a measurement and whether it is kept; empty where nothing is promised.
+
+    `one`: the same with a single copy, if it was measured.
+    """
+    if model == "kosaka" and timing.copies == 1 and timing.name == "20 cm":
+        return (CAPSULE_ON_GPU if cuda else CAPSULE_ON_CPU).beside(timing.rate)
+    if model == "latex" and timing.copies == 1 and (detail, cuda) == ("draft", False):
+        return DOG_ON_CPU.beside(timing.rate)
+    if model == "latex" and timing.copies == 1 and (detail, cuda) == ("full", True):
+        return FULL_DOG_ON_GPU.beside(timing.rate)
+    if model == "latex" and timing.copies == BATCH and (detail, cuda) == ("draft", True) and one is not None:
+        return BATCH_ON_GPU.beside(timing.rate / one.rate)
+    return ""

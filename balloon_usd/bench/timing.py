@@ -1,0 +1,87 @@
+"""Timing a simulation from its third frame on: the first two compile and record."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from balloon_usd.plan import plan
+from balloon_usd.recipe import Recipe
+from balloon_usd.solver import simulation as solver
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from balloon_usd.plan import Plan
+
+UNTIMED = 2
+"""Frames before the clock runs."""
+
+
+@dataclass(frozen=True)
+class Timing:
+    """One measurement."""
+
+    name: str
+    copies: int
+    vertices: int
+    """Of all copies."""
+    particles: int
+    """Of all copies; 0 where the air is no particles."""
+    substeps: int
+    """In one frame."""
+    setup: float
+    """From the plan to the second frame, with compiling on a first run (s)."""
+    frames: int
+    """Frames of one copy that were timed."""
+    seconds: float
+    """Time that they took (s)."""
+    fps: float
+
+    @property
+    def rate(self) -> float:
+        """Frames of all copies per second."""
+        return self.copies * self.frames / self.seconds
+
+    @property
+    def substep(self) -> float:
+        """Time for one substep of all copies (us)."""
+        return 1e6 * self.seconds / (self.frames * self.substeps)
+
+    @property
+    def cost(self) -> float:
+        """Time for one vertex or particle in one substep (ns)."""
+        return 1e3 * self.substep / (self.vertices + self.particles)
+
+
+def planned(text: str) -> Plan:
+    """Return the plan of a recipe that is measured."""
+    return plan(Recipe.parse(text, "what is measured"))
+
+
+def measure(name: str, plans: Sequence[Plan], detail: str, device: str, most: int | None) -> Timing:
+    """Simulate plans together, no more than `most` frames, and time what comes after the second."""
+    begin = time.perf_counter()
+    simulation = solver.simulate_many(plans, detail=detail, device=device)
+    frames = simulation.frames()
+    first = next(frames)
+    next(frames)
+    ready = time.perf_counter()
+    count = min(most or max(simulation.frame_counts), *simulation.frame_counts)
+    for _ in range(count - UNTIMED):
+        next(frames)
+    seconds = time.perf_counter() - ready
+    vertices = sum(len(mesh.points) for meshes in simulation.meshes for mesh in meshes)
+    particles = sum(len(air) for frame in first for air in getattr(frame, "air", ()))
+    return Timing(
+        name,
+        len(plans),
+        vertices,
+        particles,
+        simulation.substeps,
+        ready - begin,
+        count - UNTIMED,
+        seconds,
+        plans[0].recipe.fps,
+    )

@@ -1,0 +1,148 @@
+"""What `balloon-usd bench` prints of our own solver."""
+
+from __future__ import annotations
+
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+import click
+
+from balloon_usd.cli.failure import ExitCode, Failure
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from balloon_usd.bench.timing import Timing
+    from balloon_usd.plan import Plan
+
+KOSAKA_FRAMES = 481
+"""Frames of a capsule that are measured unless others are asked for: 20 s, mostly with the air at rest."""
+COLUMNS = (
+    "copies",
+    "vertices",
+    "particles",
+    "substeps",
+    "set-up s",
+    "frames",
+    "frames/s",
+    "real time",
+    "ns each",
+    "us/substep",
+    "x one",
+)
+
+
+def bench_table(model: str, detail: str, copies: tuple[int, ...], device: str, frames: int | None) -> None:
+    """Print a row for every case and number of copies."""
+    from balloon_usd.bench.timing import measure  # noqa: PLC0415
+
+    what = "classic dog" if model == "latex" else "capsules"
+    _title(f"{what}, {model}, {detail}", device)
+    _heads(what[:-1] if model == "kosaka" else "")
+    for name, plan in _cases(model):
+        most = frames or (KOSAKA_FRAMES if model == "kosaka" else None)
+        one = None
+        for count in copies:
+            timing = measure(name, [plan] * count, detail, device, most)
+            one = timing if count == 1 else one
+            click.echo(_row(timing, one) + _target(model, detail, timing, one, device))
+
+
+def bench_mixed(detail: str, device: str, frames: int | None) -> None:
+    """Print what different recipes cost alone and together."""
+    from balloon_usd.bench.mixed import mixed_timings  # noqa: PLC0415
+    from balloon_usd.bench.targets import MIXED_COST  # noqa: PLC0415
+
+    _title(f"different recipes, latex, {detail}", device)
+    _heads("")
+    alone, whole = mixed_timings(detail, device, frames)
+    for timing in (*alone, whole):
+        click.echo(_row(timing, None))
+    ratio = whole.seconds / sum(timing.seconds for timing in alone)
+    click.echo(f"together they take {ratio:.2f} x what they take alone  {MIXED_COST.beside(ratio)}")
+
+
+def bench_first_frame(detail: str, device: str) -> None:
+    """Print how long processes take to their first frame."""
+    from balloon_usd.bench.first_frame import starts  # noqa: PLC0415
+    from balloon_usd.bench.targets import COMPILING, FIRST_FRAME  # noqa: PLC0415
+
+    _title(f"first frame, latex, {detail}", device)
+    click.echo(f"{'':>20}{'seconds':>11}{'compiled':>11}  promised")
+    with _children():
+        cold, *warm = starts(detail, device)
+    cuda = device.startswith("cuda")
+    click.echo(
+        _start(cold.name, cold.seconds, cold.compiled) + ("" if cuda else COMPILING.beside(cold.seconds))
+    )
+    for start in warm:
+        again = "nothing" if start.compiled == 0 else f"{start.compiled} modules"
+        told = f"{FIRST_FRAME.beside(start.seconds)}, compiled {again} again"
+        click.echo(_start(start.name, start.seconds, start.compiled) + told)
+
+
+def bench_processes(count: int, detail: str, device: str, frames: int | None) -> None:
+    """Print the throughput of processes side by side."""
+    from balloon_usd.bench.machine import cores  # noqa: PLC0415
+    from balloon_usd.bench.processes import together  # noqa: PLC0415
+    from balloon_usd.bench.targets import PROCESSES_SHARE, TIMES, Target  # noqa: PLC0415
+
+    _title(f"classic dog in processes of its own, latex, {detail}", device)
+    click.echo(f"{'processes':>11}{'frames/s':>11}{'x one':>11}  promised")
+    with _children():
+        one, many = (together(number, detail, device, frames) for number in (1, count))
+    click.echo(f"{1:>11}{one:>11.1f}{1.0:>11.2f}")
+    target = Target(PROCESSES_SHARE * min(count, cores()), TIMES)
+    told = target.beside(many / one) if device == "cpu" else ""
+    click.echo(f"{count:>11}{many:>11.1f}{many / one:>11.2f}  {told}".rstrip())
+
+
+@contextmanager
+def _children() -> Iterator[None]:
+    """Tell in one line when a process that is measured has failed."""
+    from balloon_usd.bench.child import ChildError  # noqa: PLC0415
+
+    try:
+        yield
+    except ChildError as error:
+        raise Failure(str(error), ExitCode.SIMULATION_FAILED) from error
+
+
+def _title(what: str, device: str) -> None:
+    from balloon_usd.bench.machine import machine  # noqa: PLC0415
+
+    click.echo(f"{what} on {machine(device)}")
+
+
+def _heads(first: str) -> None:
+    click.echo(f"{first:>10}" + "".join(f"{column:>11}" for column in COLUMNS) + "  promised")
+
+
+def _row(timing: Timing, one: Timing | None) -> str:
+    times = f"{timing.rate / one.rate:.2f}" if one else "-"
+    return (
+        f"{timing.name:>10}{timing.copies:>11}{timing.vertices:>11}{timing.particles:>11}{timing.substeps:>11}"
+        f"{timing.setup:>11.2f}{timing.frames:>11}{timing.rate:>11.1f}{timing.rate / timing.fps:>10.2f}x"
+        f"{timing.cost:>11.1f}{timing.substep:>11.1f}{times:>11}"
+    )
+
+
+def _target(model: str, detail: str, timing: Timing, one: Timing | None, device: str) -> str:
+    from balloon_usd.bench.targets import target_of  # noqa: PLC0415
+
+    told = target_of(model, detail, timing, one, cuda=device.startswith("cuda"))
+    return f"  {told}" if told else ""
+
+
+def _start(name: str, seconds: float, compiled: int) -> str:
+    return f"{name:>20}{seconds:>11.2f}{compiled:>11}  "
+
+
+def _cases(model: str) -> list[tuple[str, Plan]]:
+    """Plans that are measured, with their names."""
+    from balloon_usd.bench.bench_recipes import CLASSIC_DOG, EXPERIMENT, LENGTHS  # noqa: PLC0415
+    from balloon_usd.bench.timing import planned  # noqa: PLC0415
+
+    if model == "latex":
+        return [("dog", planned(CLASSIC_DOG))]
+    return [(f"{length:g} cm", planned(EXPERIMENT.format(length=length))) for length in LENGTHS]

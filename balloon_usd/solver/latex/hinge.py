@@ -1,0 +1,166 @@
+"""A hinge: two parts of a sculpture that spring against each other about a joint, free in the air."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+import warp as wp
+from numpy.typing import NDArray
+
+from balloon_usd.solver.kernels.motion import Spin
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from balloon_usd.solver.latex.hands import LatexHands
+    from balloon_usd.solver.latex.scene import LatexScene
+
+Floats = NDArray[np.float64]
+
+CLEAR = 1e-6
+"""What lies farther than this beyond a joint turns with what lies beyond it, m."""
+NO_ANGLE = 1e-9
+"""Angle below which a part is taken not to turn, rad."""
+
+
+@dataclass
+class Part:
+    """One side of a hinge as a rigid body; its moments are about the joint."""
+
+    mass: float
+    """kg."""
+    first: Floats
+    """First moment, (3,), kg m."""
+    inertia: Floats
+    """Moment of inertia, (3, 3), kg m2."""
+    bubble: Floats
+    """From the joint to the middle of the bubble beside it, (3,), m."""
+    turned: Floats = field(default_factory=lambda: np.eye(3))
+    """How it has turned so far, (3, 3)."""
+
+    @classmethod
+    def of(cls, arm: Floats, mass: Floats, bubble: Floats) -> Part:
+        """Return a part of some vertices, given as arms (V, 3), m, with their masses (V,), kg."""
+        weighted = mass[:, None] * arm
+        inertia = float((weighted * arm).sum()) * np.eye(3) - weighted.T @ arm
+        return cls(float(mass.sum()), weighted.sum(axis=0), inertia, bubble)
+
+    def turn(self, by: Floats) -> None:
+        """Turn it by a rotation vector, (3,), rad."""
+        r = rotation(by)
+        self.first, self.bubble = r @ self.first, r @ self.bubble
+        self.inertia, self.turned = r @ self.inertia @ r.T, r @ self.turned
+
+
+@dataclass
+class HingedParts:
+    """Both sides of a hinge at a moment, and how they have moved since it was looked at."""
+
+    point: Floats
+    """Where the joint was, (3,), m."""
+    before: Part
+    beyond: Part
+    moved: Floats = field(default_factory=lambda: np.zeros(3))
+    """How far the joint has moved, (3,), m."""
+
+    def response(self) -> tuple[float, Floats]:
+        """Return the inertia of both parts against each other (kg m2), and how they move while one turns by
+        a radian against the other: the joint (m), what lies before and what lies beyond (rad), (9,).
+
+        The wound neck is a ball joint with a pair of equal and opposite torques along the line between the
+        two bubbles, so that the momentum and the angular momentum of all stay zero.
+        """
+        a, b = self.before, self.beyond
+        axis = b.bubble - a.bubble
+        axis /= max(float(np.linalg.norm(axis)), 1e-12)
+        away, there = cross(a.first), cross(b.first)
+        laws = np.zeros((9, 9))
+        laws[:3] = np.hstack([(a.mass + b.mass) * np.eye(3), -away, -there])
+        laws[3:6, :6] = np.hstack([away, a.inertia])
+        laws[6:, :3], laws[6:, 6:] = there, b.inertia
+        found = np.linalg.solve(laws, np.concatenate([np.zeros(3), -axis, axis]))
+        rate = float(axis @ (found[6:] - found[3:6]))
+        return 1.0 / rate, found / rate
+
+    def move(self, motion: Floats, angle: float) -> None:
+        """Turn both parts against each other by an angle (rad), with the motion that `response` gives."""
+        self.moved = self.moved + angle * motion[:3]
+        self.before.turn(angle * motion[3:6])
+        self.beyond.turn(angle * motion[6:])
+
+
+class Hinge:
+    """A joint of one balloon, and what lies on both of its sides."""
+
+    def __init__(self, scene: LatexScene, beyond: Mapping[int, float], segments: tuple[int, int]) -> None:
+        """Part some bodies.
+
+        Args:
+            scene: where they are.
+            beyond: place along every body, unstressed distance from the knot, beyond which it turns with what
+                lies beyond (m); infinite where all of it lies on one side.
+            segments: before and beyond the joint.
+        """
+        self._place = {b: place + CLEAR for b, place in beyond.items()}
+        spans = [np.arange(scene.vertex_start[b], scene.vertex_start[b + 1]) for b in self._place]
+        self._vertices = np.concatenate(spans)
+        self._mass = scene.mass.numpy()[self._vertices].astype(float)
+        self._beyond = np.concatenate([scene.bodies[b].along > place for b, place in self._place.items()])
+        of = scene.vertex_segment.numpy()[self._vertices]
+        self._bubbles = [np.flatnonzero(of == segment) for segment in segments]
+
+    def parts(self, x: NDArray[np.float32], point: NDArray[np.float32]) -> HingedParts:
+        """Return both parts as they are; `x`: all vertices, (V, 3), m; `point`: the joint, (3,), m."""
+        arm = x[self._vertices].astype(float) - point
+        before, beyond = (
+            Part.of(arm[side], self._mass[side], arm[bubble].mean(axis=0))
+            for side, bubble in zip((~self._beyond, self._beyond), self._bubbles, strict=True)
+        )
+        return HingedParts(point.astype(float), before, beyond)
+
+    def follow(self, hands: LatexHands, parts: HingedParts, seconds: float) -> None:
+        """Let all vertices follow the motion of both parts in the coming frame of so many seconds."""
+        beyond = screw(parts.beyond.turned, parts.moved, seconds)
+        before = screw(parts.before.turned, parts.moved, seconds)
+        for body, place in self._place.items():
+            spin = Spin()
+            spin.beyond, spin.point = place, wp.vec3(*parts.point)
+            spin.rate, spin.axis, spin.drift = beyond
+            spin.back_rate, spin.back_axis, spin.back_drift = before
+            hands.spin(body, spin)
+
+
+def screw(turned: Floats, moved: Floats, seconds: float) -> tuple[float, wp.vec3, wp.vec3]:
+    """Return the angular velocity (rad/s), its axis and the velocity (m/s) that, kept for some seconds, turn
+    and move a body so (the logarithm of a rigid motion; Murray, Li and Sastry 1994, 2.3).
+    """
+    vector = rotation_vector(turned)
+    angle = float(np.linalg.norm(vector))
+    if angle < NO_ANGLE:
+        return 0.0, wp.vec3(1.0, 0.0, 0.0), wp.vec3(*(moved / seconds))
+    k = cross(vector / angle)
+    mean = np.eye(3) + (1.0 - math.cos(angle)) / angle * k + (1.0 - math.sin(angle) / angle) * k @ k
+    return angle / seconds, wp.vec3(*(vector / angle)), wp.vec3(*(np.linalg.solve(mean, moved) / seconds))
+
+
+def rotation(vector: Floats) -> Floats:
+    """Return the matrix of a rotation vector, (3,), rad (Rodrigues)."""
+    angle = float(np.linalg.norm(vector))
+    k = cross(vector / max(angle, NO_ANGLE))
+    return np.asarray(np.eye(3) + math.sin(angle) * k + (1.0 - math.cos(angle)) * k @ k)
+
+
+def rotation_vector(matrix: Floats) -> Floats:
+    """Return the vector of a rotation by less than half a turn, (3,), rad."""
+    twice = np.array([matrix[2, 1] - matrix[1, 2], matrix[0, 2] - matrix[2, 0], matrix[1, 0] - matrix[0, 1]])
+    sine = 0.5 * float(np.linalg.norm(twice))
+    angle = math.atan2(sine, 0.5 * (float(np.trace(matrix)) - 1.0))
+    return np.asarray(twice * (angle / (2.0 * max(sine, NO_ANGLE))))
+
+
+def cross(v: Floats) -> Floats:
+    """Return the matrix of the cross product with a vector, (3, 3)."""
+    return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])

@@ -1,0 +1,82 @@
+"""Leak: a finished sculpture loses gas through its walls for hours, shown in the seconds of the hold."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from balloon_usd.balloon.leak import conductance
+from balloon_usd.plan.choreography import LetGo
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from numpy.typing import NDArray
+
+    from balloon_usd.plan import Plan
+    from balloon_usd.solver.latex.hands import LatexHands
+    from balloon_usd.solver.latex.scene import LatexScene
+
+    Floats = NDArray[np.float64]
+
+
+class Leak:
+    """The sculptures of a scene that leak, and how fast their clocks run."""
+
+    def __init__(
+        self, plans: Sequence[Plan], scene: LatexScene, hands: LatexHands, bodies: Sequence[range]
+    ) -> None:
+        """Take note of the plans that want it; `bodies`: of every plan."""
+        self.scene = scene
+        self.hands = hands
+        self._worlds = [
+            (
+                _let_go(plan),
+                plan.choreography.seconds,
+                leak,
+                np.concatenate([scene.bubbles_of(b) for b in run]),
+            )
+            for plan, run in zip(plans, bodies, strict=True)
+            if (leak := plan.recipe.physics.leak) is not None
+        ]
+        self._walls: dict[int, tuple[NDArray[np.int32], NDArray[np.float32]]] = {}
+        """Quads of every bubble that leaks, (Q, 4), and the volume of their rubber, (Q,), m3."""
+
+    def advance(self, begin: float, end: float, seen: Mapping[str, NDArray[Any]]) -> None:
+        """Take the gas that is lost in a frame from `begin` to `end` (s) out of every bubble."""
+        for let_go, over, leak, bubbles in self._worlds:
+            shown = max(0.0, min(end, over) - max(begin, let_go))
+            if shown > 0.0:
+                self.hands.lose_gas(bubbles, self._lost(bubbles, leak * shown / (over - let_go), seen))
+
+    def _lost(self, bubbles: NDArray[np.int64], seconds: float, seen: Mapping[str, NDArray[Any]]) -> Floats:
+        """Return what some bubbles lose in a time as long as they keep their walls, (bubbles,), mol.
+
+        What is left of the excess over the pressure of the room decays exponentially.
+        """
+        energy = float(self.scene.air.molar_energy)
+        volume, pressure = seen["volume"][bubbles].astype(float), seen["pressure"][bubbles].astype(float)
+        through = np.array([self._conductance(bubble, seen["x"]) for bubble in bubbles])
+        share = -np.expm1(-through * energy / volume * seconds)
+        return np.asarray(share * pressure * volume / energy)
+
+    def _conductance(self, segment: int, x: NDArray[np.float32]) -> float:
+        """Return how much air the wall of a segment lets through, mol/(s Pa)."""
+        quads, rubber = self._wall(segment)
+        corners = x[quads].astype(float)
+        area = 0.5 * np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
+        return float(conductance(np.linalg.norm(area, axis=1), rubber).sum())
+
+    def _wall(self, segment: int) -> tuple[NDArray[np.int32], NDArray[np.float32]]:
+        """Return the wall of a segment; it is bent before it leaks, and changes no more."""
+        if segment not in self._walls:
+            s = self.scene
+            faces = slice(int(s.segment_quad.numpy()[segment]), int(s.segment_quad_end.numpy()[segment]))
+            self._walls[segment] = s.quads.numpy()[faces].copy(), s.rubber_volume.numpy()[faces].copy()
+        return self._walls[segment]
+
+
+def _let_go(plan: Plan) -> float:
+    """Return when the hands let go for good, s."""
+    return next(m.start for m in plan.choreography.moves if isinstance(m, LetGo) and m.for_good)

@@ -1,0 +1,66 @@
+"""What holds when the hands let go for good: locks of enough turns, and the rings that they close."""
+
+from __future__ import annotations
+
+import pytest
+
+from balloon_usd.plan.choreography import LetGo, Weld
+
+HEAD = "balloons: {a: {size: 260, tail: 10}}\nsteps:\n"
+CHAIN = f"{HEAD}- bubbles: {{b: 8, c: 8, d: 8}}\n"
+
+
+def loose_in(figure) -> list[str]:
+    return [str(loose.end) for loose in figure.holding.loose]
+
+
+def test_every_joint_of_a_chain_is_loose(planned):
+    assert loose_in(planned(CHAIN)) == ["b.end", "c.end", "d.end"]
+
+
+def test_a_loose_joint_knows_what_turns_on_either_side(planned):
+    middle = planned(CHAIN).holding.loose[1]
+    assert middle.before == {"b", "c"}
+    assert middle.beyond == {"d", "a_rest"}
+
+
+@pytest.mark.parametrize(
+    ("turns", "loose"),
+    [(0.5, ["b.end", "c.end", "d.end"]), (1, ["b.end", "c.end", "d.end"]), (2, []), (3, [])],
+)
+def test_a_lock_holds_from_two_turns_on(planned, turns, loose):
+    figure = planned(f"{CHAIN}- lock: [b, c, d]\n  turns: {turns}\n")
+    assert loose_in(figure) == loose
+
+
+def test_half_a_turn_within_a_locked_ring_cannot_leave_it(planned):
+    figure = planned(f"{HEAD}- bubbles: {{b: 8, c: 8, d: 8}}\n  turns: 0.5\n- lock: [b, c, d]\n")
+    assert loose_in(figure) == []
+
+
+def test_what_another_balloon_is_locked_to_turns_with_it(planned):
+    figure = planned("""
+        balloons: {a: {size: 260, tail: 10}, o: {size: 260, tail: 10}}
+        steps:
+        - bubbles: {b: 8, c: 8}
+          balloon: a
+        - bubbles: {x: 8}
+          balloon: o
+        - lock: {joints: [c.end, x.end]}
+        """)
+    (loose,) = figure.holding.loose
+    assert str(loose.end) == "b.end"
+    assert loose.before == {"b"}
+    assert loose.beyond == {"c", "a_rest", "x", "o_rest"}
+
+
+def test_hands_let_go_for_good_once_and_last(planned):
+    moves = planned(f"{CHAIN}- wait: 1\n").choreography.moves
+    for_good = [move for move in moves if isinstance(move, LetGo) and move.for_good]
+    assert len(for_good) == 1
+    assert for_good[0].start >= max(move.end for move in moves if move.text == "wait")
+
+
+def test_a_weld_has_the_turns_of_its_step(planned):
+    figure = planned(f"{CHAIN}- lock: [b, c, d]\n  turns: 4\n- ear: {{e: 3}}\n")
+    assert [move.turns for move in figure.choreography.moves if isinstance(move, Weld)] == [4.0, 3.0]

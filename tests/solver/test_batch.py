@@ -1,0 +1,176 @@
+"""Batches: frames made ahead, given out, kept, in threads, and after a failure."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from balloon_usd.balloon.detail import detail_named
+from balloon_usd.plan import plan as plan_of
+from balloon_usd.plan.meshing import mesh_of
+from balloon_usd.recipe import Recipe
+from balloon_usd.solver.batch import Batch
+from balloon_usd.solver.errors import SimulationFailed
+from balloon_usd.solver.frame import Frame
+from balloon_usd.solver.mirror import Mirror
+from balloon_usd.solver.simulation import MODELS, simulate_many
+
+RECIPE = """
+format: 1
+name: small
+units: cm
+fps: 12
+balloons:
+  main: {{size: 260, length: 9, tail: 3, color: red}}
+steps:
+  - {kind}: {{head: {head}}}
+    seconds: {seconds:g}
+  - rest: tail
+physics: {{hold: 0.2, {physics}}}
+"""
+SUBSTEPS = {"latex": 100, "kosaka": 12}
+
+
+def small(head=6.0, kind="bubbles", physics="model: latex", seconds=1.0):
+    return plan_of(Recipe.parse(RECIPE.format(head=head, kind=kind, physics=physics, seconds=seconds)))
+
+
+def failing():
+    """A loop so short that the outside of its bend bursts."""
+    return small(head=9, kind="loop", physics="burst: stop", seconds=2.0)
+
+
+def batch_of(*plans, ahead, most=1000):
+    model = plans[0].recipe.physics.model
+    meshes = [tuple(mesh_of(s, detail_named("draft")) for s in plan.strips.values()) for plan in plans]
+    counts = [min(most, 1 + round(plan.choreography.seconds * plan.recipe.fps)) for plan in plans]
+    return Batch(MODELS[model], plans, meshes, counts, SUBSTEPS[model], "cpu", ahead=ahead)
+
+
+def bits(outcome):
+    """What a plan was given in a frame, to compare."""
+    if not isinstance(outcome, Frame):
+        return str(outcome)
+    arrays = (*outcome.points, *outcome.stretch, outcome.pressure, outcome.volume, *outcome.air)
+    numbers = [array.tobytes() for array in (*arrays, *outcome.cluster)]
+    return outcome.time_code, outcome.doing, outcome.undone, numbers
+
+
+def all_bits(batch):
+    return [[bits(outcome) for outcome in outcomes] for outcomes in batch.frames()]
+
+
+@pytest.mark.parametrize("physics", ["model: latex", "model: kosaka"])
+def test_frames_made_ahead_are_those_made_when_asked_for(physics):
+    plans = small(physics=physics), small(head=5, physics=physics)
+    ahead, asked = (all_bits(batch_of(*plans, ahead=way)) for way in (True, False))
+    assert len(ahead) > 20
+    assert ahead == asked
+
+
+def test_a_plan_that_fails_while_the_next_frame_is_made_gives_nothing_more_and_leaves_the_others_alone():
+    plans = failing(), small(physics="burst: stop", seconds=3.0)
+    ahead = list(batch_of(*plans, ahead=True).frames())
+    first = [outcomes[0] for outcomes in ahead]
+    (end,) = (k for k, outcome in enumerate(first) if isinstance(outcome, SimulationFailed))
+    assert "head bursts" in str(first[end])
+    assert all(outcome is None for outcome in first[end + 1 :])
+    alone = [bits(outcomes[0]) for outcomes in batch_of(plans[1], ahead=False).frames()]
+    assert [bits(outcomes[1]) for outcomes in ahead] == alone
+    assert len(alone) > end + 2
+
+
+def test_hands_do_not_reach_for_what_has_flown_apart():
+    plans = small(), small(head=5)
+    batch = batch_of(*plans, ahead=True)
+    acted, frames = [], batch.frames()
+    for maker in batch.model.makers:
+        act = maker.act
+        maker.act = lambda *now, act=act, maker=maker: (acted.append(maker), act(*now))
+    given = [next(frames) for _ in range(5)]
+    places = batch.model.scene.x.numpy().copy()
+    places[: len(given[0][0].points[0])] = np.nan
+    batch.model.scene.x.assign(places)
+    given += frames
+    failed = [outcomes[0] for outcomes in given if isinstance(outcomes[0], SimulationFailed)]
+    assert len(failed) == 1
+    assert "flown apart" in str(failed[0])
+    assert acted.count(batch.model.makers[0]) <= failed[0].frame
+    assert acted.count(batch.model.makers[1]) == len(given) - 1
+    alone = [bits(outcomes[0]) for outcomes in batch_of(plans[1], ahead=False).frames()]
+    assert [bits(outcomes[1]) for outcomes in given] == alone
+
+
+def test_a_batch_ends_with_the_failure_of_its_last_plan():
+    outcomes = [o for (o,) in batch_of(failing(), ahead=True).frames()]
+    assert isinstance(outcomes[-1], SimulationFailed)
+    assert all(isinstance(outcome, Frame) for outcome in outcomes[:-1])
+
+
+@pytest.mark.parametrize("physics", ["model: latex", "model: kosaka"])
+@pytest.mark.parametrize("ahead", [True, False])
+def test_frames_that_were_given_out_stay_as_they_were(ahead, physics):
+    given = [(f, bits(f)) for (f,) in batch_of(small(physics=physics), ahead=ahead).frames()]
+    assert all(bits(frame) == then for frame, then in given)
+
+
+@pytest.mark.parametrize(("ahead", "begun"), [(True, [1, 2, 3]), (False, [0, 1, 2])])
+def test_only_the_next_frame_is_made_ahead_and_none_before_the_first_unless_asked(ahead, begun):
+    batch = batch_of(small(), ahead=ahead, most=4)
+    counted, advance = [], batch.model.advance
+    batch.model.advance = lambda *span: (counted.append(span), advance(*span))
+    frames = batch.frames()
+    assert [(next(frames), len(counted))[1] for _ in range(3)] == begun
+    assert len(list(frames)) == 1
+    assert len(counted) == 3
+
+
+def test_a_batch_that_is_left_early_waits_for_what_it_has_begun():
+    batch = batch_of(small(), ahead=True)
+    rested = []
+    batch.model.rest = lambda: rested.append(True)
+    frames = batch.frames()
+    next(frames)
+    assert rested == []
+    frames.close()
+    assert rested == [True]
+
+
+def in_threads(plans, threads, monkeypatch, most):
+    monkeypatch.setattr("balloon_usd.solver.simulation.usable_cores", lambda: threads)
+    found = zip(range(most), simulate_many(plans, device="cpu").frames(), strict=False)
+    return [[bits(outcome) for outcome in outcomes] for _, outcomes in found]
+
+
+def test_sculptures_in_threads_come_out_as_each_alone(monkeypatch):
+    plans = [small(), small(head=5, seconds=0.5), small(head=7)]
+    together = in_threads(plans, 2, monkeypatch, 1000)
+    for world, plan in enumerate(plans):
+        alone = [outcomes[0] for outcomes in in_threads([plan], 2, monkeypatch, 1000)]
+        assert [outcomes[world] for outcomes in together[: len(alone)]] == alone
+        assert all(outcomes[world] == "None" for outcomes in together[len(alone) :])
+
+
+def test_more_sculptures_than_flat_states_come_out_as_in_one(monkeypatch):
+    plans = [small(head=4.0 + 0.25 * k) for k in range(10)]
+    assert in_threads(plans, 2, monkeypatch, 5) == in_threads(plans, 1, monkeypatch, 5)
+
+
+def test_threads_share_out_the_sculptures_of_the_kosaka_model_to_none(monkeypatch):
+    monkeypatch.setattr("balloon_usd.solver.simulation.usable_cores", lambda: 2)
+    plans = [small(physics="model: kosaka"), small(head=5, physics="model: kosaka")]
+    model = simulate_many(plans, device="cpu").model
+    assert len(model.makers) == 2
+
+
+def test_what_was_fetched_stays_until_the_turn_after_the_next():
+    scene = batch_of(small(), ahead=False).model.scene
+    mirror = Mirror(scene, ["x"])
+    seen = []
+    for number in range(3):
+        scene.x.fill_(float(number))
+        mirror.turn()
+        mirror.copy()
+        seen.append(mirror.arrays()["x"])
+        assert [float(x[0, 0]) for x in seen[-2:]] == [float(k) for k in range(number + 1)][-2:]
+    assert np.shares_memory(seen[0], seen[2])

@@ -1,0 +1,64 @@
+"""V26: a bubble that was bent and let go keeps part of its curve, and the more the more it was bent."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from balloon_usd.plan import plan
+from balloon_usd.recipe import Recipe
+from balloon_usd.solver.latex.memory import BEND_SET
+from balloon_usd.solver.simulation import simulate_many
+
+BENT = """
+format: 1
+name: bent
+units: cm
+balloons:
+  main: {size: 260, length: 16, tail: 6}
+steps:
+  - bubbles: {head: 6, arm: 12}
+  - bend: {arm: ANGLE}
+  - wait: 2
+physics: {hold: 0}
+"""
+
+
+def angle_of(simulation, frame):
+    """Angle between the directions of both ends of the bent bubble's axis, degrees."""
+    mesh = simulation.meshes[0][0]
+    arm = next(bubble for bubble in simulation.plans[0].bubbles if bubble.name == "arm")
+    inside = (mesh.ring_along > arm.rest_start + 1e-6) & (mesh.ring_along < arm.rest_end - 1e-6)
+    rings = mesh.ring_start[inside, None] + np.arange(mesh.around)
+    ways = np.diff(frame.points[0][rings].astype(float).mean(axis=1), axis=0)
+    ways /= np.linalg.norm(ways, axis=1)[:, None]
+    return float(np.degrees(np.arccos(np.clip(ways[0] @ ways[-1], -1.0, 1.0))))
+
+
+@cache
+def bent(angle):
+    """Bend a bubble, let it go for two seconds; return its angle when held, at the end and a second before,
+    degrees.
+    """
+    made = plan(Recipe.parse(BENT.replace("ANGLE", str(angle))))
+    simulation = simulate_many([made], detail="draft", device="cpu")
+    angles = {"bend": [], "wait": []}
+    for (frame,) in simulation.frames():
+        angles.setdefault(frame.doing.partition(":")[0], []).append(angle_of(simulation, frame))
+    return angles["bend"][-1], angles["wait"][-1], angles["wait"][-25]
+
+
+@pytest.mark.parametrize("angle", [40, 80, 120])
+def test_a_bent_bubble_keeps_two_thirds_of_its_curve(verify, angle):
+    held, kept, before = bent(angle)
+    verify("V26", f"bent by {angle} degrees, curve kept, in that held", kept / held, BEND_SET, 0.15)
+    assert kept == pytest.approx(before, abs=0.5), "it has come to rest"
+
+
+def test_what_is_bent_more_keeps_more():
+    kept = [bent(angle)[1] for angle in (40, 80, 120)]
+    assert kept[0] > 10.0
+    assert kept[1] > 1.5 * kept[0]
+    assert kept[2] > 1.3 * kept[1]
