@@ -200,14 +200,14 @@ def _legendre(law: MembraneLaw, a: Floats, b: Floats) -> Floats:
 def _axial_stretch(law: MembraneLaw, a: Floats, wanted: Floats, *, axial_force: bool) -> Floats:
     """Solve W_b = wanted (the axial force) or W - b W_b = wanted for the meridional stretch b, by halving."""
     low, high = np.ones(a.shape), np.full(a.shape, _LARGEST_AXIAL_STRETCH)
-    for _ in range(_HALVINGS):
-        b = 0.5 * (low + high)
-        with np.errstate(invalid="ignore"):
+    with np.errstate(invalid="ignore"):
+        for _ in range(_HALVINGS):
+            b = 0.5 * (low + high)
             if axial_force:
                 short = law.nominal_stress(*relaxed_stretches(a, b))[1] < wanted
             else:
                 short = _legendre(law, a, b) > wanted
-        low, high = np.where(short, b, low), np.where(short, high, b)
+            low, high = np.where(short, b, low), np.where(short, high, b)
     return np.asarray(0.5 * (low + high))
 
 

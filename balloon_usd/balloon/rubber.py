@@ -143,7 +143,7 @@ class Rubber:
         """Return the energy of first loading, J/m3; infinite beyond the Gent limit."""
         a, b = _stretches(a, b)
         thickness = 1.0 / (a * b)
-        total = np.zeros(np.broadcast_shapes(a.shape, b.shape))
+        total = np.zeros(thickness.shape)
         for m, k in zip(self.mu, self.alpha, strict=True):
             total += m / k * (a**k + b**k + thickness**k - 3.0)
         if self.gent_mu:
@@ -160,11 +160,11 @@ class Rubber:
         """Return the nominal stresses (W_a, W_b) of first loading, Pa; infinite beyond the Gent limit."""
         a, b = _stretches(a, b)
         thickness = 1.0 / (a * b)
-        shape = np.broadcast_shapes(a.shape, b.shape)
-        hoop, axial = np.zeros(shape), np.zeros(shape)
+        hoop, axial = np.zeros(thickness.shape), np.zeros(thickness.shape)
         for m, k in zip(self.mu, self.alpha, strict=True):
-            hoop += m * (a**k - thickness**k) / a
-            axial += m * (b**k - thickness**k) / b
+            across = thickness**k
+            hoop += m * (a**k - across) / a
+            axial += m * (b**k - across) / b
         if self.gent_mu:
             modulus = self.gent_mu * self._gent_rise(a, b)
             with np.errstate(invalid="ignore"):

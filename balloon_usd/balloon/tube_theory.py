@@ -80,30 +80,29 @@ def closed_tube_axial_stretch(law: MembraneLaw, a: ArrayLike) -> Floats:
     """
     a = np.asarray(a, dtype=np.float64)
     low, high = a**-0.5, a.copy()
-    for _ in range(_HALVINGS):
-        b = 0.5 * (low + high)
-        with np.errstate(invalid="ignore"):
+    with np.errstate(invalid="ignore"):
+        for _ in range(_HALVINGS):
+            b = 0.5 * (low + high)
             hoop, axial = law.nominal_stress(a, b)
             short = a * hoop > 2.0 * b * axial
-        low, high = np.where(short, b, low), np.where(short, high, b)
+            low, high = np.where(short, b, low), np.where(short, high, b)
     return np.asarray(0.5 * (low + high))
 
 
 def closed_tube_pressure(law: MembraneLaw, a: ArrayLike) -> Floats:
     """Return p*, Pa, of a tube with closed free ends at hoop stretches a >= 1, of the same shape."""
-    a = np.asarray(a, dtype=np.float64)
-    b = closed_tube_axial_stretch(law, a)
-    return np.asarray(law.nominal_stress(a, b)[0] / (a * b))
+    return fixed_length_tube_pressure(law, a, closed_tube_axial_stretch(law, a))
 
 
 def closed_tube_state(law: MembraneLaw, a: float) -> TubeState:
     """Return the state of a tube with closed free ends at the hoop stretch a >= 1."""
-    return TubeState(float(closed_tube_pressure(law, a)), a, float(closed_tube_axial_stretch(law, a)))
+    b = float(closed_tube_axial_stretch(law, a))
+    return TubeState(float(fixed_length_tube_pressure(law, a, b)), a, b)
 
 
-def fixed_length_tube_pressure(law: MembraneLaw, a: ArrayLike, b: float = 1.0) -> Floats:
-    """Return p*, Pa, of a tube held at the axial stretch b, at hoop stretches a, same shape: W_a / (a b)."""
-    a = np.asarray(a, dtype=np.float64)
+def fixed_length_tube_pressure(law: MembraneLaw, a: ArrayLike, b: ArrayLike = 1.0) -> Floats:
+    """Return p*, Pa, of a tube held at axial stretches b, at hoop stretches a, same shape: W_a / (a b)."""
+    a, b = np.asarray(a, dtype=np.float64), np.asarray(b, dtype=np.float64)
     return np.asarray(law.nominal_stress(a, b)[0] / (a * b))
 
 
@@ -136,6 +135,7 @@ def pressure_maximum(law: MembraneLaw) -> TubeState:
     return closed_tube_state(law, limit.stretch)
 
 
+@lru_cache(maxsize=64)
 def pressure_minimum(law: MembraneLaw) -> TubeState:
     """Return the state of least pressure of a bulged closed tube: the minimum of p* after its maximum.
 

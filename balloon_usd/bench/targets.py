@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from balloon_usd.bench.timing import Timing
 
 
@@ -27,12 +29,16 @@ class Target:
 
 RATE, TIMES = " frames/s", " x one"
 
-DOG_ON_CPU = Target(24.0, RATE)
-"""The draft dog on one core: real time."""
+DOG_ON_CPU = Target(48.0, RATE)
+"""The draft dog on one core: twice real time."""
+DRAFT_DOG_ON_GPU = Target(600.0, RATE)
+"""The draft dog on an H200: 25 times real time."""
 FULL_DOG_ON_GPU = Target(240.0, RATE)
 """The full dog on an H200: ten times real time."""
 BATCH_ON_GPU = Target(50.0, TIMES)
 """256 draft dogs at once on an H200, against one after the other."""
+CROWD_ON_GPU = Target(0.8, " of linear")
+"""4096 draft dogs at once on an H200, against 256."""
 CAPSULE_ON_CPU = Target(21.0, RATE)
 """The thesis's capsule on one core: what its author's GeForce GTX 280 did."""
 CAPSULE_ON_GPU = Target(2000.0, RATE)
@@ -50,21 +56,28 @@ MIXED_COST = Target(1.1, " x parts", least=False)
 PROCESSES_SHARE = 0.9
 """Share of the cores' full throughput that as many processes reach."""
 
-BATCH = 256
+BATCH, CROWD = 256, 4096
 """Copies of which a throughput is promised."""
 
 
-def target_of(model: str, detail: str, timing: Timing, one: Timing | None, *, cuda: bool) -> str:
+def target_of(model: str, detail: str, timing: Timing, measured: Mapping[int, Timing], *, cuda: bool) -> str:
     """Return the target of a measurement and whether it is kept; empty where nothing is promised.
 
-    `one`: the same with a single copy, if it was measured.
+    `measured`: the same with other numbers of copies.
     """
+    rates = {copies: one.rate for copies, one in measured.items()}
     if model == "kosaka" and timing.copies == 1 and timing.name == "20 cm":
         return (CAPSULE_ON_GPU if cuda else CAPSULE_ON_CPU).beside(timing.rate)
-    if model == "latex" and timing.copies == 1 and (detail, cuda) == ("draft", False):
-        return DOG_ON_CPU.beside(timing.rate)
-    if model == "latex" and timing.copies == 1 and (detail, cuda) == ("full", True):
-        return FULL_DOG_ON_GPU.beside(timing.rate)
-    if model == "latex" and timing.copies == BATCH and (detail, cuda) == ("draft", True) and one is not None:
-        return BATCH_ON_GPU.beside(timing.rate / one.rate)
+    if model == "latex" and timing.copies == 1:
+        alone = {
+            ("draft", False): DOG_ON_CPU,
+            ("draft", True): DRAFT_DOG_ON_GPU,
+            ("full", True): FULL_DOG_ON_GPU,
+        }.get((detail, cuda))
+        return alone.beside(timing.rate) if alone else ""
+    if (model, detail, cuda) == ("latex", "draft", True):
+        if timing.copies == BATCH and 1 in rates:
+            return BATCH_ON_GPU.beside(timing.rate / rates[1])
+        if timing.copies == CROWD and BATCH in rates:
+            return CROWD_ON_GPU.beside(timing.rate / rates[BATCH])
     return ""

@@ -10,7 +10,7 @@ import click
 from balloon_usd.cli.failure import ExitCode, Failure
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
     from balloon_usd.bench.timing import Timing
     from balloon_usd.plan import Plan
@@ -41,11 +41,10 @@ def bench_table(model: str, detail: str, copies: tuple[int, ...], device: str, f
     _heads(what[:-1] if model == "kosaka" else "")
     for name, plan in _cases(model):
         most = frames or (KOSAKA_FRAMES if model == "kosaka" else None)
-        one = None
+        measured: dict[int, Timing] = {}
         for count in copies:
-            timing = measure(name, [plan] * count, detail, device, most)
-            one = timing if count == 1 else one
-            click.echo(_row(timing, one) + _target(model, detail, timing, one, device))
+            timing = measured[count] = measure(name, [plan] * count, detail, device, most)
+            click.echo(_row(timing, measured.get(1)) + _target(model, detail, timing, measured, device))
 
 
 def bench_mixed(detail: str, device: str, frames: int | None) -> None:
@@ -127,10 +126,10 @@ def _row(timing: Timing, one: Timing | None) -> str:
     )
 
 
-def _target(model: str, detail: str, timing: Timing, one: Timing | None, device: str) -> str:
+def _target(model: str, detail: str, timing: Timing, measured: Mapping[int, Timing], device: str) -> str:
     from balloon_usd.bench.targets import target_of  # noqa: PLC0415
 
-    told = target_of(model, detail, timing, one, cuda=device.startswith("cuda"))
+    told = target_of(model, detail, timing, measured, cuda=device.startswith("cuda"))
     return f"  {told}" if told else ""
 
 

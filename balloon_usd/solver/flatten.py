@@ -108,6 +108,9 @@ def segment_arrays(scene: Scene, host: Arrays) -> None:
     host["segment_origin"] = np.array(origin, np.int32)
     host["start_joint"], host["end_joint"] = np.array(start_joint, np.int32), np.array(end_joint, np.int32)
     host["joint_segment"] = sides
+    # A ring that parts nothing lies within one segment.
+    home = host["vertex_segment"][host["joint_first"]][:, None]
+    host["joint_beside"] = np.where(sides[: len(home)] < 0, np.maximum(home, 0), sides).astype(np.int32)
 
 
 def chunk_arrays(scene: Scene, host: Arrays) -> None:
@@ -115,6 +118,7 @@ def chunk_arrays(scene: Scene, host: Arrays) -> None:
     host["chunk_quad"], host["segment_chunk"] = chunks_of(host["segment_quad"], host["segment_quad_end"])
     worlds = np.arange(max(scene.worlds) + 2)
     body = np.searchsorted(np.asarray(scene.worlds), worlds)
+    host["chunk_origin"] = np.repeat(host["segment_origin"], np.diff(host["segment_chunk"]))
     host["world_chunk"] = host["segment_chunk"][scene.segment_start[body]]
 
 

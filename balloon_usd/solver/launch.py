@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 
     from balloon_usd.solver.scene import Scene
 
+LAUNCH_BLOCK = 256
+"""Threads of a block on a GPU where they do not work together: Warp's choice."""
 VOLUME_BLOCK = 64
 """Threads that sum one segment on a GPU."""
 
@@ -28,6 +30,14 @@ class Launcher:
         self.values = values
         self._graphs: dict[Hashable, Any] = {}
         self._side = wp.Stream(scene.device) if wp.get_device(scene.device).is_cuda else None
+
+    def load(self, *kernels: Any, lanes: int = LAUNCH_BLOCK) -> None:
+        """Compile and load kernels that are first launched in the middle of a run, so that none waits there.
+
+        `lanes`: threads of a block with which they are launched on a GPU; each number is compiled for itself.
+        """
+        for kernel in kernels:
+            wp.load_module(kernel.module, device=self.scene.device, block_dim=lanes)
 
     def launch(self, kernel: Any, dim: int | tuple[int, ...], **changing: Any) -> None:
         """Launch a kernel over `dim` threads."""
@@ -64,7 +74,8 @@ class Launcher:
         """Launch what was recorded under a key; record it the first time."""
         if key not in self._graphs:
             device = self.scene.device
-            wp.capture_begin(device=device, force_module_load=True)
+            # Only what is recorded is loaded: other modules may be of another model.
+            wp.capture_begin(device=device)
             try:
                 record()
             finally:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Protocol
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from balloon_usd.balloon.detail import Detail
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
     from balloon_usd.solver.frame import Frame
@@ -41,6 +42,9 @@ class Model(Protocol):
 
 class ModelMaker(Protocol):
     """Puts plans into a new flat state of a model."""
+
+    def usual_substeps(self, detail: Detail, /) -> int:
+        """Return the substeps of a frame at 24 frames per second."""
 
     def __call__(
         self,

@@ -158,6 +158,7 @@ _VECTORS = {
     "hourglass": wp.vec4,
     "corner": wp.vec2,
     "joint_segment": wp.vec2i,
+    "joint_beside": wp.vec2i,
     "air": wp.vec3,
     "spring_ends": wp.vec4i,
     "natural": wp.vec4,

@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 import os
 from concurrent.futures import ThreadPoolExecutor
+from importlib import import_module
 from itertools import pairwise
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, TypeVar, cast
 
 import warp as wp
 
@@ -14,9 +15,6 @@ from balloon_usd.balloon.detail import Detail, detail_named
 from balloon_usd.plan.meshing import mesh_of
 from balloon_usd.solver.batch import Batch
 from balloon_usd.solver.device import device_named
-from balloon_usd.solver.kosaka.model import KosakaModel
-from balloon_usd.solver.kosaka.parameters import SUBSTEPS as KOSAKA_SUBSTEPS
-from balloon_usd.solver.latex.model import LatexModel
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -40,7 +38,7 @@ STATES_PER_THREAD = 4
 each needs besides its sculptures does not add up.
 """
 
-MODELS: dict[str, ModelMaker] = {"latex": LatexModel, "kosaka": KosakaModel}
+MODELS = {"latex": "LatexModel", "kosaka": "KosakaModel"}
 """Physical models by the names that recipes give them."""
 
 
@@ -53,9 +51,8 @@ class Simulation:
         self.device = device
         self.fps = _the_one("frame rate", [plan.recipe.fps for plan in plans])
         model = _the_one("model", [plan.recipe.physics.model for plan in plans])
-        self.substeps = _substeps(
-            self.plans, KOSAKA_SUBSTEPS if model == "kosaka" else detail.substeps, self.fps
-        )
+        maker = model_named(model)
+        self.substeps = _substeps(self.plans, maker.usual_substeps(detail), self.fps)
         self.meshes: list[tuple[BalloonMesh, ...]] = [
             tuple(mesh_of(strip, detail) for strip in plan.strips.values()) for plan in self.plans
         ]
@@ -63,7 +60,7 @@ class Simulation:
         self._threads = 1 if on_gpu or model not in THREADED else min(usable_cores(), len(self.plans))
         self._batches = [
             Batch(
-                MODELS[model],
+                maker,
                 self.plans[run.start : run.stop],
                 self.meshes[run.start : run.stop],
                 self.frame_counts[run.start : run.stop],
@@ -101,6 +98,11 @@ class Simulation:
                     return
                 pairs = zip(self._batches, found, strict=True)
                 yield [outcome for batch, outcomes in pairs for outcome in outcomes or [None] * len(batch)]
+
+
+def model_named(name: str) -> ModelMaker:
+    """Return the model of a name; importing another with its kernels would only take time."""
+    return cast("ModelMaker", getattr(import_module(f"balloon_usd.solver.{name}.model"), MODELS[name]))
 
 
 def _the_one(what: str, values: Sequence[T]) -> T:

@@ -23,6 +23,8 @@ class WallSearch:
     def __init__(self, launcher: Launcher) -> None:
         self._launcher = launcher
         launcher.values["touch"] = launcher.scene.touch
+        launcher.load(vertex_surface, order_hits)
+        launcher.load(chunk_surface, ring_radii, find_walls, lanes=WARP)
 
     def measure_quads(self, x: Any) -> None:
         """Measure the quads at positions `x` (V,)."""

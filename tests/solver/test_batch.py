@@ -13,7 +13,8 @@ from balloon_usd.solver.batch import Batch
 from balloon_usd.solver.errors import SimulationFailed
 from balloon_usd.solver.frame import Frame
 from balloon_usd.solver.mirror import Mirror
-from balloon_usd.solver.simulation import MODELS, simulate_many
+from balloon_usd.solver.simulation import model_named, simulate_many
+from tests.solver.bits import bits
 
 RECIPE = """
 format: 1
@@ -44,16 +45,7 @@ def batch_of(*plans, ahead, most=1000):
     model = plans[0].recipe.physics.model
     meshes = [tuple(mesh_of(s, detail_named("draft")) for s in plan.strips.values()) for plan in plans]
     counts = [min(most, 1 + round(plan.choreography.seconds * plan.recipe.fps)) for plan in plans]
-    return Batch(MODELS[model], plans, meshes, counts, SUBSTEPS[model], "cpu", ahead=ahead)
-
-
-def bits(outcome):
-    """What a plan was given in a frame, to compare."""
-    if not isinstance(outcome, Frame):
-        return str(outcome)
-    arrays = (*outcome.points, *outcome.stretch, outcome.pressure, outcome.volume, *outcome.air)
-    numbers = [array.tobytes() for array in (*arrays, *outcome.cluster)]
-    return outcome.time_code, outcome.doing, outcome.undone, numbers
+    return Batch(model_named(model), plans, meshes, counts, SUBSTEPS[model], "cpu", ahead=ahead)
 
 
 def all_bits(batch):

@@ -31,7 +31,8 @@ balloons:
 steps:
   - bubbles: {middling: 5, short: 3, long: 9}
   - rest: rest
-physics: {model: MODEL}
+  - wait: 2
+physics: {model: MODEL, hold: 0}
 """
 MODELS = ("latex", "kosaka")
 LENGTHS = (30, 50, 90)

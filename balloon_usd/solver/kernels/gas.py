@@ -22,12 +22,14 @@ def volume_of_fans(
     o: wp.vec3,
 ):
     """Return the volume (m3) between a point and the flat fans that close a segment's ends."""
-    caps = float(0.0)
-    if start_joint[s] >= 0:
-        caps -= wp.dot(ring_middle[start_joint[s]] - o, ring_area[start_joint[s]]) / 3.0
-    if end_joint[s] >= 0:
-        caps += wp.dot(ring_middle[end_joint[s]] - o, ring_area[end_joint[s]]) / 3.0
-    return caps
+    start = start_joint[s]
+    end = end_joint[s]
+    # No load waits for a decision: where there is no ring, one is read and left out.
+    first = wp.max(start, 0)
+    last = wp.max(end, 0)
+    begins = wp.dot(ring_middle[first] - o, ring_area[first])
+    ends = wp.dot(ring_middle[last] - o, ring_area[last])
+    return (wp.where(end >= 0, ends, 0.0) - wp.where(start >= 0, begins, 0.0)) / 3.0
 
 
 @wp.kernel
@@ -87,42 +89,41 @@ def passage_of(joint: int, fraction: float, open_from: wp.array[float], open_to:
 
 @wp.func
 def press_chamber(
-    b: int,
+    s: int,
     begin: int,
     end: int,
-    inlet: wp.array[int],
+    into: int,
     air: Air,
     dt: float,
-    pump_flow: wp.array[float],
-    pump_limit: wp.array[float],
-    pump_goal: wp.array[wp.float64],
+    pump_flow: float,
+    pump_limit: float,
+    pump_goal: wp.float64,
     volume: wp.array[float],
     room: wp.array[float],
     amount: wp.array[wp.float64],
     pressure: wp.array[float],
 ):
-    """Pump gas into a chamber of segments and write its room (m3) and gauge pressure (Pa): ideal,
-    isothermal, p V = n R T. A chamber without gas of its own is open to the air (the nozzle's lip) and keeps
-    its pressure.
+    """Where a chamber of segments begins, pump gas into it and write its room (m3) and gauge pressure (Pa):
+    ideal, isothermal, p V = n R T. A chamber without gas of its own is open to the air (the nozzle's lip)
+    and keeps its pressure.
     """
-    space = float(0.0)
-    gas = wp.float64(0.0)
-    for k in range(begin, end + 1):
-        space += volume[k]
-        gas += amount[k]
-    if begin <= inlet[b] and inlet[b] <= end and gas < pump_goal[b]:
-        here = float(gas * air.molar_energy) / space - air.atmosphere
-        inflow = wp.min(
-            pump_flow[b], pump_flow[b] * wp.max(pump_limit[b] - here, 0.0) / (0.1 * pump_limit[b])
-        )
-        added = wp.min(wp.float64(inflow * dt), pump_goal[b] - gas)
-        amount[inlet[b]] = amount[inlet[b]] + added
-        gas += added
-    if gas > wp.float64(0.0):
-        now = float(gas * air.molar_energy) / space - air.atmosphere
-        for k in range(begin, end + 1):
-            pressure[k] = now
-    room[end] = space
+    space = volume[s]
+    gas = amount[s]
+    if begin == s:
+        for k in range(begin + 1, end + 1):
+            space += volume[k]
+            gas += amount[k]
+        if begin <= into and into <= end and gas < pump_goal:
+            here = float(gas * air.molar_energy) / space - air.atmosphere
+            inflow = wp.min(pump_flow, pump_flow * wp.max(pump_limit - here, 0.0) / (0.1 * pump_limit))
+            added = wp.min(wp.float64(inflow * dt), pump_goal - gas)
+            amount[into] = amount[into] + added
+            gas += added
+        if gas > wp.float64(0.0):
+            now = float(gas * air.molar_energy) / space - air.atmosphere
+            for k in range(begin, end + 1):
+                pressure[k] = now
+        room[end] = space
 
 
 @wp.func
@@ -180,12 +181,14 @@ def advance_gas(
     """
     first = balloon_segment[b]
     last = balloon_segment_end[b]
+    into = inlet[b]
+    inflow = pump_flow[b]
+    limit = pump_limit[b]
+    wanted = pump_goal[b]
     for s in range(first + lane, last, lanes):
-        if chamber_first[s] == s:
-            end = chamber_last[s]
-            press_chamber(
-                b, s, end, inlet, air, dt, pump_flow, pump_limit, pump_goal, volume, room, amount, pressure
-            )
+        begin = chamber_first[s]
+        end = chamber_last[s]
+        press_chamber(s, begin, end, into, air, dt, inflow, limit, wanted, volume, room, amount, pressure)
     if blowing[b] == 0:
         return
     lanes_meet()

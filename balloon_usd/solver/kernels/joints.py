@@ -120,13 +120,12 @@ def move_joint(
     lanes: int,
     corners: wp.array[wp.vec4i],
     vertex_balloon: wp.array[int],
-    vertex_segment: wp.array[int],
     quad_segment: wp.array[int],
     vertex_along: wp.array[float],
     joint_first: wp.array[int],
     joint_around: wp.array[int],
     joint_parts: wp.array[int],
-    joint_segment: wp.array[wp.vec2i],
+    joint_beside: wp.array[wp.vec2i],
     joint_struts: wp.array2d[int],
     corner: wp.array[wp.vec2],
     mass: wp.array[float],
@@ -180,20 +179,15 @@ def move_joint(
     home = ring_middle[j]
     area = ring_area[j]
     axes = ring_axes[j]
-    side = vertex_segment[first]
-    beyond = side
-    if parts == 1:
-        side = joint_segment[j][0]
-        beyond = joint_segment[j][1]
+    beside = joint_beside[j]
+    side = beside[0]
     inside = pressure[side]
-    outside = pressure[beyond]
+    outside = pressure[beside[1]]
     force = wp.vec3(0.0)
     for k in range(lane, joint_struts.shape[1], lanes):
         strut = joint_struts[j, k]
-        if strut > 0:
-            force += strut_force[strut - 1]
-        elif strut < 0:
-            force -= strut_force[-strut - 1]
+        pull = strut_force[wp.max(wp.abs(strut) - 1, 0)]
+        force += wp.where(strut == 0, wp.vec3(0.0), wp.where(strut > 0, pull, -pull))
     p = wp.vec3(0.0)
     s = wp.vec3(0.0)
     c = wp.vec3(0.0)
@@ -343,21 +337,25 @@ def weld_joint_to_others(
     reach (m) apart; write how far it moves (m).
     """
     g = joint_weld[j] - 1
-    if g >= 0 and held(hand[j]) == 0:
+    first = joint_first[j]
+    n = joint_around[j]
+    mode = hand[j]
+    mine = joint_mass[j]
+    here = ring_middle[j]
+    if g >= 0 and held(mode) == 0:
         size = weld_size[g]
+        gap = weld_gap[g]
+        reach = weld_reach[g]
         shift = wp.vec3(0.0)
         for m in range(lane, size, lanes):
             other = weld_joint[g, m]
-            if other != j:
-                share = float(1.0)
-                if held(hand[other]) == 0:
-                    share = joint_mass[other] / (joint_mass[j] + joint_mass[other])
-                shift += pair_shift(ring_middle[j], ring_middle[other], share, weld_gap[g], weld_reach[g])
+            mass = joint_mass[other]
+            share = wp.where(held(hand[other]) == 1, 1.0, mass / (mine + mass))
+            shift += pair_shift(here, ring_middle[other], wp.where(other == j, 0.0, share), gap, reach)
         shift = lanes_sum3(shift) / wp.max(float(size - 1), 1.0)
-        for m in range(lane, joint_around[j], lanes):
-            i = joint_first[j] + m
-            x[i] = x[i] + shift
-            v[i] = v[i] + shift / dt
+        for m in range(lane, n, lanes):
+            x[first + m] = x[first + m] + shift
+            v[first + m] = v[first + m] + shift / dt
         if lane == 0:
             weld_shift[j] = shift
 

@@ -11,6 +11,8 @@ Stub = TypeVar("Stub")
 
 WARP = 32
 """Lanes of a warp."""
+FEW = 8
+"""Lanes that sum what is too little for a warp."""
 
 
 def _native(snippet: str) -> Callable[[Stub], Stub]:
@@ -21,7 +23,7 @@ def _native(snippet: str) -> Callable[[Stub], Stub]:
 _OVER_LANES = """
 #if defined(__CUDA_ARCH__)
 {type} total = value;
-for (int step = 16; step > 0; step >>= 1)
+for (int step = {lanes} / 2; step > 0; step >>= 1)
     {add}
 return total;
 #else
@@ -31,7 +33,7 @@ return value;
 
 
 @_native(
-    _OVER_LANES.format(type="float", add="total += __shfl_xor_sync(0xffffffffu, total, step);"),
+    _OVER_LANES.format(lanes=WARP, type="float", add="total += __shfl_xor_sync(0xffffffffu, total, step);"),
 )
 def lanes_sum(value: float) -> float:
     """Return the sum over the lanes of a warp, in a fixed order."""
@@ -40,6 +42,17 @@ def lanes_sum(value: float) -> float:
 
 @_native(
     _OVER_LANES.format(
+        lanes=FEW, type="float", add="total += __shfl_xor_sync(0xffu << (threadIdx.x & 24), total, step);"
+    ),
+)
+def few_sum(value: float) -> float:
+    """Return the sum over a few lanes, in a fixed order."""
+    return value
+
+
+@_native(
+    _OVER_LANES.format(
+        lanes=WARP,
         type="wp::vec_t<3, float>",
         add="for (int k = 0; k < 3; ++k) total[k] += __shfl_xor_sync(0xffffffffu, total[k], step);",
     ),
@@ -51,6 +64,7 @@ def lanes_sum3(value: wp.vec3) -> wp.vec3:
 
 @_native(
     _OVER_LANES.format(
+        lanes=WARP,
         type="wp::vec_t<3, float>",
         add="for (int k = 0; k < 3; ++k)"
         " total[k] = fmaxf(total[k], __shfl_xor_sync(0xffffffffu, total[k], step));",
@@ -86,7 +100,9 @@ def lowest(bits: int) -> int:
 
 
 @_native(
-    _OVER_LANES.format(type="float", add="total = fminf(total, __shfl_xor_sync(0xffffffffu, total, step));"),
+    _OVER_LANES.format(
+        lanes=WARP, type="float", add="total = fminf(total, __shfl_xor_sync(0xffffffffu, total, step));"
+    ),
 )
 def lanes_least(value: float) -> float:
     """Return the smallest value over the lanes of a warp."""
@@ -94,7 +110,9 @@ def lanes_least(value: float) -> float:
 
 
 @_native(
-    _OVER_LANES.format(type="int", add="total = max(total, __shfl_xor_sync(0xffffffffu, total, step));"),
+    _OVER_LANES.format(
+        lanes=WARP, type="int", add="total = max(total, __shfl_xor_sync(0xffffffffu, total, step));"
+    ),
 )
 def lanes_most(value: int) -> int:
     """Return the largest value over the lanes of a warp."""

@@ -2,24 +2,6 @@
 
 import warp as wp
 
-OCTAVE_KNOTS = 16
-"""Knots of a rubber's curve per doubling of the squared stretch; even within a doubling."""
-FIRST_OCTAVE = -13
-"""Power of two of the smallest squared stretch on a curve: thickness where both others are at their limit."""
-OCTAVES = 20
-"""Doublings that a curve covers."""
-CURVE_KNOTS = OCTAVE_KNOTS * OCTAVES
-"""Knots of one rubber's curve."""
-
-# A float's bits count octaves and, within them, even steps: they say which knot is the last before it.
-MANTISSA_BITS = 23
-EXPONENT_BIAS = 127
-STEP_BITS = wp.constant(MANTISSA_BITS - OCTAVE_KNOTS.bit_length() + 1)
-WITHIN_STEP = wp.constant((1 << STEP_BITS) - 1)
-STEP_SHARE = wp.constant(1.0 / (1 << STEP_BITS))
-FIRST_STEP = wp.constant((FIRST_OCTAVE + EXPONENT_BIAS) * OCTAVE_KNOTS)
-LAST_KNOT = wp.constant(CURVE_KNOTS - 1)
-
 Knot = wp.types.matrix(shape=(2, 4), dtype=float)
 """Cubic from a knot to the next, of stress and of energy: factors of the powers of the share of the way."""
 
@@ -28,8 +10,16 @@ Knot = wp.types.matrix(shape=(2, 4), dtype=float)
 class Law:
     """One rubber: its curve and a Gent term, softening, and the numerical guards that go with them."""
 
-    curve: int
+    first_knot: int
     """First knot of the curve of its Ogden terms."""
+    last_knot: int
+    """Last one that a cubic begins at."""
+    zero_knot: int
+    """Knot that the bits of a squared stretch count from."""
+    step_bits: int
+    """Bits of a squared stretch that lie within a step between two knots."""
+    step_share: float
+    """One of what these bits count, as a share of the step."""
     most: float
     """Squared stretch at which the law is continued by its value, so that locking stays below a few times
     the rest stiffness.
@@ -60,13 +50,15 @@ ERF_6 = wp.constant(0.0000430638)
 
 
 @wp.func
-def on_curve(curves: wp.array[Knot], first: int, squared: float):
+def on_curve(law: Law, curves: wp.array[Knot], squared: float):
     """Return the Ogden sums of mu stretch^alpha (Pa) and mu / alpha (stretch^alpha - 1) (J/m3) at a squared
     stretch.
+
+    The bits of a float count octaves and, within them, even steps: they say which knot is the last before it.
     """
     bits = wp.cast(squared, wp.int32)
-    t = float(bits & WITHIN_STEP) * STEP_SHARE
-    c = curves[first + wp.clamp((bits >> STEP_BITS) - FIRST_STEP, 0, LAST_KNOT)]
+    t = float(bits & ((1 << law.step_bits) - 1)) * law.step_share
+    c = curves[wp.clamp(law.zero_knot + (bits >> law.step_bits), law.first_knot, law.last_knot)]
     return wp.vec2(
         ((c[0, 3] * t + c[0, 2]) * t + c[0, 1]) * t + c[0, 0],
         ((c[1, 3] * t + c[1, 2]) * t + c[1, 1]) * t + c[1, 0],
@@ -86,9 +78,9 @@ def membrane_law(law: Law, curves: wp.array[Knot], large2: float, small2: float)
     if b2 * b2 * a2 < 1.0:
         b2 = 1.0 / wp.sqrt(a2)
     c2 = 1.0 / (a2 * b2)
-    a = on_curve(curves, law.curve, a2)
-    b = on_curve(curves, law.curve, b2)
-    c = on_curve(curves, law.curve, c2)
+    a = on_curve(law, curves, a2)
+    b = on_curve(law, curves, b2)
+    c = on_curve(law, curves, c2)
     t1 = a[0] - c[0]
     t2 = b[0] - c[0]
     energy = a[1] + b[1] + c[1]

@@ -15,7 +15,7 @@ from balloon_usd.solver.kernels.joints import (
     shift_middle,
     weld_joint_to_others,
 )
-from balloon_usd.solver.kernels.lanes import WARP, block_meets, blocks_meet, lanes_sum
+from balloon_usd.solver.kernels.lanes import FEW, WARP, block_meets, blocks_meet, few_sum, lanes_sum
 from balloon_usd.solver.kernels.membrane import wall_of_quad
 from balloon_usd.solver.kernels.motion import Spin, move_vertex
 from balloon_usd.solver.kernels.rubber import Knot, Law
@@ -25,9 +25,8 @@ wp.set_module_options(
     {"cpu_compiler_flags": f"{wp.config.cpu_compiler_flags or '-march=native'} -ffp-contract=fast"}
 )
 
-LANES = 256
-"""Lanes of a block."""
 ALL = wp.constant(WARP)
+FEW_LANES = wp.constant(FEW)
 
 
 @wp.kernel
@@ -45,6 +44,7 @@ def advance_sculptures(
     world_joint: wp.array[int],
     world_welds: wp.array[int],
     world_chunk: wp.array[int],
+    chunk_origin: wp.array[int],
     segment_chunk: wp.array[int],
     quads: wp.array[wp.vec4i],
     corners: wp.array[wp.vec4i],
@@ -67,7 +67,7 @@ def advance_sculptures(
     joint_around: wp.array[int],
     joint_parts: wp.array[int],
     corner: wp.array[wp.vec2],
-    joint_segment: wp.array[wp.vec2i],
+    joint_beside: wp.array[wp.vec2i],
     joint_struts: wp.array2d[int],
     strut_joint: wp.array[wp.vec2i],
     joint_weld: wp.array[int],
@@ -154,21 +154,35 @@ def advance_sculptures(
     # Lanes that share a joint, a chunk or a segment: a warp; on the CPU one.
     gang = wp.min(ALL, wp.block_dim())
     one = lane % gang
+    few = wp.min(FEW_LANES, wp.block_dim())
     warps = lanes // gang
     warp = me // gang
     # The first block sees to the gas; where there are others, these see to the rest meanwhile.
     others = wp.max(lanes - wp.block_dim(), wp.min(lanes, wp.block_dim()))
     other = wp.where(crew > 1, me - wp.block_dim(), me)
+    # Read once: whatever is read after a meeting comes from far away.
+    balloon_begin = world_balloon[w]
+    balloon_end = world_balloon[w + 1]
+    vertex_begin = world_vertex[w]
+    vertex_end = world_vertex[w + 1]
+    segment_begin = world_segment[w]
+    segment_end = world_segment[w + 1]
+    joint_begin = world_joint[w]
+    joint_end = world_joint[w + 1]
+    chunk_begin = world_chunk[w]
+    chunk_end = world_chunk[w + 1]
+    quad_begin = world_quad[w]
+    quad_end = world_quad[w + 1]
+    welds = world_welds[w]
     goal = int(0)
     for k in range(begin, end):
         fraction = float(k + 1) / float(substeps)
         if pressing == 1:
-            for i in range(world_vertex[w] + me, world_vertex[w + 1], lanes):
+            for i in range(vertex_begin + me, vertex_end, lanes):
                 press_finger(i, vertex_balloon, mass, fingers, finger_share, dt, fraction, x, v)
             goal += crew
             blocks_meet(gates, w, crew, goal, lane)
-        for c in range(world_chunk[w] + warp, world_chunk[w + 1], warps):
-            segment = quad_segment[chunk_quad[c]]
+        for c in range(chunk_begin + warp, chunk_end, warps):
             share = float(0.0)
             for q in range(chunk_quad[c] + one, chunk_quad[c + 1], gang):
                 share += wall_of_quad(
@@ -182,7 +196,7 @@ def advance_sculptures(
                     curves,
                     x,
                     v,
-                    x[segment_origin[segment]],
+                    x[chunk_origin[c]],
                     softening_rate,
                     peak_energy,
                     corner_force,
@@ -191,7 +205,7 @@ def advance_sculptures(
             share = lanes_sum(share)
             if one == 0:
                 chunk_share[c] = share
-        for j in range(world_joint[w] + warps - 1 - warp, world_joint[w + 1], warps):
+        for j in range(joint_begin + warps - 1 - warp, joint_end, warps):
             measure_open_ring(
                 j,
                 one,
@@ -205,7 +219,7 @@ def advance_sculptures(
                 ring_area,
             )
         if walls == 1:
-            for i in range(world_vertex[w] + me, world_vertex[w + 1], lanes):
+            for i in range(vertex_begin + lanes - 1 - me, vertex_end, lanes):
                 press_wall(
                     i,
                     quads,
@@ -227,16 +241,16 @@ def advance_sculptures(
         goal += crew
         blocks_meet(gates, w, crew, goal, lane)
         if block == 0:
-            for s in range(world_segment[w] + warp, world_segment[w + 1], wp.block_dim() // gang):
+            for s in range(segment_begin + lane // few, segment_end, wp.block_dim() // few):
                 total = float(0.0)
-                for c in range(segment_chunk[s] + one, segment_chunk[s + 1], gang):
+                for c in range(segment_chunk[s] + lane % few, segment_chunk[s + 1], few):
                     total += chunk_share[c]
-                total = lanes_sum(total)
-                if one == 0:
-                    o = x[segment_origin[s]]
-                    volume[s] = total + volume_of_fans(s, start_joint, end_joint, ring_middle, ring_area, o)
+                fans = volume_of_fans(s, start_joint, end_joint, ring_middle, ring_area, x[segment_origin[s]])
+                total = few_sum(total)
+                if lane % few == 0:
+                    volume[s] = total + fans
             block_meets()
-            for b in range(world_balloon[w] + warp, world_balloon[w + 1], wp.block_dim() // gang):
+            for b in range(balloon_begin + warp, balloon_end, wp.block_dim() // gang):
                 advance_gas(
                     b,
                     one,
@@ -264,10 +278,10 @@ def advance_sculptures(
                 )
         if other >= 0:
             if walls == 1:
-                for q in range(world_quad[w] + other, world_quad[w + 1], others):
+                for q in range(quad_begin + other, quad_end, others):
                     press_quad_back(q, quads, hit_count, hits, contact_force, contact_place, x, corner_force)
             slots = joint_struts.shape[1]
-            for at in range(world_joint[w] * slots + other, world_joint[w + 1] * slots, others):
+            for at in range(joint_begin * slots + other, joint_end * slots, others):
                 strut = joint_struts[at // slots, at % slots]
                 if strut > 0:
                     load_strut(
@@ -283,20 +297,19 @@ def advance_sculptures(
                     )
         goal += crew
         blocks_meet(gates, w, crew, goal, lane)
-        for j in range(world_joint[w] + warp, world_joint[w + 1], warps):
+        for j in range(joint_begin + warp, joint_end, warps):
             move_joint(
                 j,
                 one,
                 gang,
                 corners,
                 vertex_balloon,
-                vertex_segment,
                 quad_segment,
                 vertex_along,
                 joint_first,
                 joint_around,
                 joint_parts,
-                joint_segment,
+                joint_beside,
                 joint_struts,
                 corner,
                 mass,
@@ -330,7 +343,7 @@ def advance_sculptures(
                 ring_speed,
                 hand_load,
             )
-        for i in range(world_vertex[w] + lanes - 1 - me, world_vertex[w + 1], lanes):
+        for i in range(vertex_begin + lanes - 1 - me, vertex_end, lanes):
             if vertex_joint[i] < 0:
                 move_vertex(
                     i,
@@ -354,8 +367,8 @@ def advance_sculptures(
                 )
         goal += crew
         blocks_meet(gates, w, crew, goal, lane)
-        if world_welds[w] > 0:
-            for j in range(world_joint[w] + warp, world_joint[w + 1], warps):
+        if welds > 0:
+            for j in range(joint_begin + warp, joint_end, warps):
                 weld_joint_to_others(
                     j,
                     one,
@@ -377,5 +390,5 @@ def advance_sculptures(
                 )
             goal += crew
             blocks_meet(gates, w, crew, goal, lane)
-            for j in range(world_joint[w] + me, world_joint[w + 1], lanes):
+            for j in range(joint_begin + me, joint_end, lanes):
                 shift_middle(j, weld_shift, ring_middle)

@@ -14,7 +14,7 @@ from balloon_usd.solver.hands import Hands
 from balloon_usd.solver.kosaka.body import KosakaBody, kosaka_body
 from balloon_usd.solver.kosaka.clusters import Clusters
 from balloon_usd.solver.kosaka.maker import KosakaMaker
-from balloon_usd.solver.kosaka.parameters import RUBBER_DRAG
+from balloon_usd.solver.kosaka.parameters import RUBBER_DRAG, SUBSTEPS
 from balloon_usd.solver.kosaka.scene import KosakaScene, kosaka_scene
 from balloon_usd.solver.kosaka.stepper import KosakaStepper
 from balloon_usd.solver.layout import Layout
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from balloon_usd.balloon.detail import Detail
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
 
@@ -114,6 +115,11 @@ class KosakaModel:
         self._frames = 0
         self._moved = 0.0
         """Way of the fastest air since the last search, in the distance that lists look ahead."""
+
+    @staticmethod
+    def usual_substeps(_detail: Detail) -> int:
+        """Return the substeps of a frame at 24 frames per second."""
+        return SUBSTEPS
 
     def advance(self, begin: float, end: float) -> None:
         """Let the makers act and start the physics from `begin` to `end` (s)."""

@@ -64,6 +64,7 @@ class KosakaStepper:
         self._launcher = Launcher(scene, values)
         self._launch = self._launcher.launch
         self._walls = WallSearch(self._launcher)
+        self._launcher.load(part_walls, press_fingers)
         self._launch_lanes(hold_rings, len(scene.joint_first), fraction=1.0)
         # Nothing is lost yet: it is loaded now, not in the middle of a run.
         self.find_lost()

@@ -12,11 +12,15 @@ import numpy as np
 import warp as wp
 
 from balloon_usd.solver.kernels.lanes import WARP
-from balloon_usd.solver.kernels.sculpture import LANES, advance_sculptures
+from balloon_usd.solver.kernels.sculpture import advance_sculptures
 
 if TYPE_CHECKING:
     from balloon_usd.solver.latex.scene import LatexScene
     from balloon_usd.solver.launch import Launcher
+
+
+LANES = 256
+"""Most lanes of a block."""
 
 
 class Crew:
@@ -28,7 +32,6 @@ class Crew:
         worlds = max(scene.worlds) + 1
         body = np.searchsorted(np.asarray(scene.worlds), np.arange(worlds + 1))
         scene.zeros("chunk_share", len(scene.chunk_low), float)
-        need = np.zeros(worlds, dtype=int)
         for name, starts in (
             ("balloon", np.arange(len(scene.bodies) + 1)),
             ("quad", scene.quad_start),
@@ -36,15 +39,17 @@ class Crew:
             ("segment", scene.segment_start),
             ("joint", scene.joint_start),
         ):
-            bounds = np.asarray(starts)[body].astype(np.int32)
-            scene.put({f"world_{name}": bounds})
-            if name in ("vertex", "joint"):
-                # Those that look after a ring's joint have no vertices besides.
-                need += np.diff(bounds) * (WARP if name == "joint" else 1)
+            scene.put({f"world_{name}": np.asarray(starts)[body].astype(np.int32)})
+        # While some look after the quads of a chunk, others see to the vertices that touch something.
+        vertices, chunks = scene.world_vertex.numpy(), scene.world_chunk.numpy()
+        need = int((np.diff(vertices) + WARP * np.diff(chunks)).max())
         device = wp.get_device(scene.device)
-        self._kernel = _quick_kernel() if device.is_cuda else advance_sculptures
         at_once = device.sm_count // worlds if device.is_cuda else 1
-        self.blocks = max(1, min(-(-int(need.max()) // LANES), at_once))
+        # Where there is room, more blocks of fewer lanes: each has more of its processor.
+        self.lanes = LANES // 2 if need <= LANES * at_once else LANES
+        self.blocks = max(1, min(-(-need // self.lanes), at_once))
+        crowded = worlds > device.sm_count if device.is_cuda else False
+        self._kernel = _quick_kernel(crowded=crowded) if device.is_cuda else advance_sculptures
         scene.zeros("gates", worlds, int)
 
     def advance(
@@ -56,7 +61,7 @@ class Crew:
         launcher.launch_tiled(
             self._kernel,
             worlds * self.blocks,
-            lanes=LANES,
+            lanes=self.lanes,
             crew=self.blocks,
             substeps=substeps,
             begin=begin,
@@ -67,9 +72,12 @@ class Crew:
 
 
 @cache
-def _quick_kernel() -> Any:
+def _quick_kernel(*, crowded: bool) -> Any:
     """Return the kernel with approximate divisions and roots: half of the code of exact ones is for numbers
     that cannot occur, and a GPU has to fetch it all in every substep.
+
+    `crowded`: there are more sculptures than processors, so two at a time share the registers of each.
     """
-    make = wp.kernel(module="unique", module_options={"fast_math": True})
+    bounds = (LANES, 2) if crowded else None
+    make = wp.kernel(module="unique", module_options={"fast_math": True}, launch_bounds=bounds)
     return make(advance_sculptures.func)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from balloon_usd.solver.kernels.rubber import CURVE_KNOTS, FIRST_OCTAVE, OCTAVE_KNOTS, Law
+from balloon_usd.solver.kernels.rubber import Law
 from balloon_usd.solver.latex.membrane_data import step_viscosity
 
 if TYPE_CHECKING:
@@ -20,25 +22,65 @@ MEMBRANE_DAMPING = 0.35
 """Damping of the fastest mesh mode, share of critical."""
 STRETCH_LIMIT = 9.0
 """Stretch up to which rubber laws are followed: beyond burst (7 to 7.5) they only need to stay finite."""
+STRESS_OCTAVES = 100.0
+"""Doublings of stress up to which they are followed, where a float can still hold it."""
+LEAST_KNOTS = 16
+"""Least knots of a curve per doubling of the squared stretch."""
+STEP_POWER = 1.0 / 6.0
+"""Largest product of a knot's share of a doubling and the largest power of the squared stretch: cubics then
+are off by less than a float's last digits.
+"""
+MANTISSA_BITS, EXPONENT_BIAS = 23, 127
+"""Layout of a float."""
+
+
+@dataclass(frozen=True)
+class Knots:
+    """Where a curve has its knots: evenly within every doubling of the squared stretch."""
+
+    most: float
+    """Largest squared stretch."""
+    first_octave: int
+    """Power of two of the smallest squared stretch."""
+    octaves: int
+    """Doublings."""
+    each: int
+    """Knots in one of them, a power of two."""
+
+    @property
+    def squared(self) -> NDArray[np.float64]:
+        """Squared stretches at all knots and at the end of the last step, (K + 1,)."""
+        step = np.arange(self.octaves * self.each + 1)
+        octave = np.exp2(self.first_octave + step // self.each)
+        return np.asarray(octave * (1.0 + (step % self.each) / self.each), dtype=np.float64)
 
 
 def device_laws(rubbers: Sequence[Rubber], dt: float) -> tuple[list[Law], NDArray[np.float32]]:
-    """Return rubbers as the kernels take them, and the curves of all that differ, (knots, 2, 4) float32."""
-    found: list[Rubber] = []
+    """Return rubbers as the kernels take them, and the curves of all that differ, (K, 2, 4) float32."""
+    first: dict[Rubber, int] = {}
+    curves: list[NDArray[np.float32]] = []
     for rubber in rubbers:
-        if rubber not in found:
-            found.append(rubber)
-    curves = np.concatenate([ogden_curve(rubber) for rubber in found])
-    return [_device_law(rubber, dt, CURVE_KNOTS * found.index(rubber)) for rubber in rubbers], curves
+        if rubber not in first:
+            first[rubber] = sum(len(curve) for curve in curves)
+            curves.append(ogden_curve(rubber))
+    return [_device_law(rubber, dt, first[rubber]) for rubber in rubbers], np.concatenate(curves)
+
+
+def knots_of(rubber: Rubber) -> Knots:
+    """Return where the curve of a rubber has its knots."""
+    power = 0.5 * max(map(abs, rubber.alpha), default=1.0)
+    most = min(STRETCH_LIMIT**2, 2.0 ** (STRESS_OCTAVES / power))
+    # Where both stretches in the wall are at their limit, it is as thin as can be.
+    first = math.floor(math.log2(most**-2.0))
+    each = max(LEAST_KNOTS, 2 ** math.ceil(math.log2(power / STEP_POWER)))
+    return Knots(most, first, math.ceil(math.log2(most)) - first, each)
 
 
 def ogden_curve(rubber: Rubber) -> NDArray[np.float32]:
     """Return the sums over a rubber's Ogden terms of mu stretch^alpha (Pa) and mu / alpha (stretch^alpha - 1)
-    (J/m3) as cubics between knots (Hermite) of the squared stretch, (CURVE_KNOTS, 2, 4) float32.
+    (J/m3) as cubics of the squared stretch between knots (Hermite), (K, 2, 4) float32.
     """
-    step = np.arange(CURVE_KNOTS + 1)
-    octave = 2.0 ** (FIRST_OCTAVE + step // OCTAVE_KNOTS)
-    squared = octave * (1.0 + (step % OCTAVE_KNOTS) / OCTAVE_KNOTS)
+    squared = knots_of(rubber).squared
     mu, half = np.array(rubber.mu)[:, None], 0.5 * np.array(rubber.alpha)[:, None]
     power = mu * squared**half
     stress, stress_slope = power.sum(axis=0), (half * power).sum(axis=0) / squared
@@ -53,10 +95,14 @@ def ogden_curve(rubber: Rubber) -> NDArray[np.float32]:
     return cubic.astype(np.float32)
 
 
-def _device_law(rubber: Rubber, dt: float, curve: int) -> Law:
+def _device_law(rubber: Rubber, dt: float, first_knot: int) -> Law:
     """Return a rubber whose curve begins at a knot."""
-    law = Law()
-    law.curve, law.most = curve, STRETCH_LIMIT**2
+    law, knots = Law(), knots_of(rubber)
+    law.first_knot, law.last_knot = first_knot, first_knot + knots.octaves * knots.each - 1
+    law.zero_knot = first_knot - (knots.first_octave + EXPONENT_BIAS) * knots.each
+    law.step_bits = MANTISSA_BITS - (knots.each.bit_length() - 1)
+    law.step_share = 0.5**law.step_bits
+    law.most = knots.most
     law.gent_mu, law.gent_limit = rubber.gent_mu, min(rubber.gent_limit, 1e9)
     if rubber.softening is not None:
         law.soft_depth, law.soft_width = 1.0 / rubber.softening.r, rubber.softening.c

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from balloon_usd.balloon.detail import Detail
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan, Strip
 
@@ -87,6 +88,11 @@ class LatexModel:
         self._load = np.zeros(0, dtype=np.float32)
         self._shown: list[_Shown] = []
         self._fetch()
+
+    @staticmethod
+    def usual_substeps(detail: Detail) -> int:
+        """Return the substeps of a frame at 24 frames per second: a finer mesh needs more."""
+        return detail.substeps
 
     def advance(self, begin: float, end: float) -> None:
         """Let the makers act and start the physics from `begin` to `end` (s)."""
