@@ -8,14 +8,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal, cast
+from typing import TYPE_CHECKING, Literal
 
-import networkx as nx
-
+from balloon_usd.plan.connections import Connections
 from balloon_usd.recipe.steps import MERGING, Joint
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
+
+    import networkx as nx
 
     from balloon_usd.plan.strip import PlannedBubble, Strip
     from balloon_usd.recipe import Recipe
@@ -70,6 +71,8 @@ class SculptureGraph:
     @cached_property
     def multigraph(self) -> nx.MultiGraph[int]:
         """The same as a networkx multigraph: nodes are joint indices, keys are bubble names."""
+        import networkx as nx  # noqa: PLC0415  # slow to import, and a simulation needs none
+
         graph: nx.MultiGraph[int] = nx.MultiGraph()
         graph.add_nodes_from(range(len(self.joints)))
         for edge in self.edges:
@@ -111,9 +114,13 @@ class SculptureGraph:
         return tuple(joint.index for joint in self.joints if self.degree(joint.index) % 2)
 
     @cached_property
+    def _connections(self) -> Connections:
+        return Connections(len(self.joints), [(edge.start, edge.end) for edge in self.edges])
+
+    @cached_property
     def pieces(self) -> tuple[frozenset[int], ...]:
         """Joints of every connected piece."""
-        return tuple(frozenset(piece) for piece in nx.connected_components(self.multigraph))
+        return self._connections.pieces
 
     @property
     def rings(self) -> int:
@@ -137,10 +144,7 @@ class SculptureGraph:
     @cached_property
     def bridges(self) -> frozenset[str]:
         """Bubbles that belong to no closed ring."""
-        plain: nx.MultiGraph[int] = nx.MultiGraph()
-        plain.add_edges_from((edge.start, edge.end) for edge in self.edges if edge.start != edge.end)
-        pairs = {frozenset(pair) for pair in cast("Iterable[tuple[int, int]]", nx.bridges(plain))}
-        return frozenset(edge.bubble for edge in self.edges if frozenset((edge.start, edge.end)) in pairs)
+        return frozenset(self.edges[edge].bubble for edge in self._connections.bridges)
 
 
 def sculpture_graph(

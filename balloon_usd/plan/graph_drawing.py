@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-import networkx as nx
 import numpy as np
 
 from balloon_usd.plan import svg
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
+
+    import networkx as nx
 
     from balloon_usd.plan.graph import GraphEdge, SculptureGraph
     from balloon_usd.plan.svg import Point
@@ -60,6 +61,8 @@ def _bundles(graph: SculptureGraph) -> list[list[GraphEdge]]:
 
 def _spots(graph: SculptureGraph, piece: frozenset[int], corner: Point) -> dict[int, Point]:
     """Places of a piece's joints in its cell; by springs where it is small enough to gain from them."""
+    import networkx as nx  # noqa: PLC0415  # slow to import, and only drawings need it
+
     plain: nx.Graph[int] = nx.Graph()
     plain.add_nodes_from(sorted(piece))
     plain.add_edges_from((edge.start, edge.end) for edge in graph.edges if edge.start in piece)

@@ -62,9 +62,10 @@ def chunk_surface(
     quad_area: wp.array[wp.vec3],
     chunk_low: wp.array[wp.vec3],
     chunk_high: wp.array[wp.vec3],
+    hit_count: wp.array[int],
 ):
     """Write the middle (m) and the vector area (m2) of every quad, and the lowest and the highest coordinates
-    (m) of the middles of a chunk of quads; a warp of lanes each on a GPU.
+    (m) of the middles of a chunk of quads; nothing touches them yet. A warp of lanes each on a GPU.
     """
     chunk, lane = wp.tid()
     high = wp.vec3(-FAR)
@@ -74,6 +75,7 @@ def chunk_surface(
         middle = 0.25 * (x[c[0]] + x[c[1]] + x[c[2]] + x[c[3]])
         quad_middle[q] = middle
         quad_area[q] = 0.5 * wp.cross(x[c[2]] - x[c[0]], x[c[3]] - x[c[1]])
+        hit_count[q] = 0
         high = wp.max(high, middle)
         low = wp.min(low, middle)
     high = lanes_max3(high)

@@ -181,6 +181,7 @@ def advance_gas(
     """
     first = balloon_segment[b]
     last = balloon_segment_end[b]
+    blows = blowing[b]
     into = inlet[b]
     inflow = pump_flow[b]
     limit = pump_limit[b]
@@ -189,7 +190,7 @@ def advance_gas(
         begin = chamber_first[s]
         end = chamber_last[s]
         press_chamber(s, begin, end, into, air, dt, inflow, limit, wanted, volume, room, amount, pressure)
-    if blowing[b] == 0:
+    if blows == 0:
         return
     lanes_meet()
     for s in range(first + lane, last, lanes):

@@ -183,6 +183,12 @@ def move_joint(
     side = beside[0]
     inside = pressure[side]
     outside = pressure[beside[1]]
+    heavy = joint_mass[j]
+    grip = hand_force[j]
+    stiffness = hand_stiffness[j]
+    free = hand_free[j]
+    # The sine of the angle between two corners.
+    sine = corner[first + 1][1]
     force = wp.vec3(0.0)
     for k in range(lane, joint_struts.shape[1], lanes):
         strut = joint_struts[j, k]
@@ -223,12 +229,12 @@ def move_joint(
     away = goal - home - c
     load = wp.vec3(0.0)
     if mode == LEAD:
-        load = lead_load(away, w - wanted, hand_stiffness[j], joint_mass[j], hand_force[j], hand_free[j])
+        load = lead_load(away, w - wanted, stiffness, heavy, grip, free)
         force += load
-    kick = force * (dt / joint_mass[j])
+    kick = force * (dt / heavy)
     shift = kick * dt
     if held(mode) == 1:
-        load = (wanted - w) * (joint_mass[j] / dt)
+        load = (wanted - w) * (heavy / dt)
         kick = wanted - w
         shift = away
     turn = wp.vec3(0.0)
@@ -243,8 +249,7 @@ def move_joint(
                 turn = closing_spin(n, closed, dt, axes, a, b, lanes_sum3(va), lanes_sum3(vb), own)
         if closed > 0.0:
             normal = wp.cross(axes * wp.vec2(1.0, 0.0), axes * wp.vec2(0.0, 1.0))
-            # The sine of the angle between two corners.
-            area = (0.5 * float(n) * corner[first + 1][1] * closed * closed) * normal
+            area = (0.5 * float(n) * sine * closed * closed) * normal
     lanes_meet()
     for k in range(lane, n, lanes):
         i = first + k
