@@ -42,12 +42,12 @@ HOLD = 0.5
 
 @dataclass(frozen=True)
 class Sculpture:
-    """A recipe, and how far its details may be apart."""
+    """A recipe, and how far a detail may be from full detail, and from itself with substeps half as long."""
 
     name: str
     recipe: str
     gas: dict[str, float]
-    """Largest difference from full detail, root mean square over the bubbles, %."""
+    """Largest difference of the volumes by detail, root mean square over the bubbles, %."""
     rest: dict[str, float]
     """The same of the rest, %."""
     joints: dict[str, float]
@@ -64,9 +64,9 @@ SMALL = Sculpture(
 LARGE = Sculpture(
     "dog",
     DOG,
-    gas={"draft": 4.0, "preview": 2.0},
-    rest={"draft": 6.0, "preview": 3.0},
-    joints={"draft": 5.0, "preview": 3.0},
+    gas={"draft": 4.0, "preview": 1.5},
+    rest={"draft": 5.0, "preview": 2.5},
+    joints={"draft": 3.0, "preview": 1.5},
 )
 CASES = [
     (SMALL, "cpu"),
@@ -133,7 +133,7 @@ def test_a_coarser_sculpture_is_that_of_full_detail_within_what_is_stated(verify
     verify("V27", quantity, found, 0.0, getattr(sculpture, what)[detail])
 
 
-@pytest.mark.parametrize("what", MEASURES)
+@pytest.mark.parametrize("what", ["gas", "joints"])
 def test_a_finer_mesh_is_nearer_to_the_finest(verify, case, what):
     apart = MEASURES[what]
     coarse, fine = (apart(made(case, detail), made(case, "full")) for detail in ("draft", "preview"))
@@ -142,7 +142,8 @@ def test_a_finer_mesh_is_nearer_to_the_finest(verify, case, what):
 
 @pytest.mark.parametrize("detail", ["draft", "preview"])
 @pytest.mark.parametrize("what", MEASURES)
-def test_half_a_substep_changes_less_than_a_finer_mesh(verify, case, what, detail):
-    apart, usual = MEASURES[what], made(case, detail)
-    by_time, by_mesh = apart(made(case, detail, finer=2), usual), apart(usual, made(case, "full"))
-    verify("V27c", f"{case[0].name}, {what}, {detail}, half a substep, in mesh", by_time / by_mesh, 0.0, 1.0)
+def test_half_a_substep_changes_no_more_than_is_stated_for_the_detail(verify, case, what, detail):
+    sculpture, _ = case
+    found = MEASURES[what](made(case, detail, finer=2), made(case, detail))
+    quantity = f"{sculpture.name}, {detail}, half a substep, {UNITS[what]}"
+    verify("V27c", quantity, found, 0.0, getattr(sculpture, what)[detail])

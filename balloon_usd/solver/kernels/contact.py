@@ -183,6 +183,44 @@ def distance_beside(
     return distance
 
 
+@wp.func
+def distance_of_wall(
+    q: int,
+    d: wp.vec3,
+    mine: int,
+    home: int,
+    along: float,
+    apart: float,
+    depth: float,
+    n: wp.vec3,
+    p: wp.vec3,
+    touch: Touch,
+    quads: wp.array[wp.vec4i],
+    quad_segment: wp.array[int],
+    quad_ring: wp.array[int],
+    quad_along: wp.array[float],
+    quad_balloon: wp.array[int],
+    x: wp.array[wp.vec3],
+    quad_area: wp.array[wp.vec3],
+    ring_radius: wp.array[float],
+):
+    """Return the distance (m) of a vertex from a quad that faces it, or FAR where the two never meet.
+
+    `d`: from the quad's middle to the vertex, m; `mine`, `home`, `along`: its balloon, bubble and place.
+    """
+    distance = float(FAR)
+    elsewhere = quad_balloon[q] != mine or wp.abs(quad_along[q] - along) > apart
+    if elsewhere or (home >= 0 and quad_segment[q] != home):
+        a = quad_area[q]
+        size = wp.length(a)
+        face = a / wp.max(size, 1.0e-12)
+        height = wp.dot(d, face)
+        limit = wp.min(depth, DEPTH_LIMIT * ring_radius[quad_ring[q]])
+        if wp.dot(face, n) < FACING and height > -limit and height < touch.offset + touch.margin:
+            distance = distance_beside(q, face, SIDE_SLIP * wp.sqrt(size), p, quads, x)
+    return distance
+
+
 @wp.kernel
 def find_walls(
     world_chunk: wp.array[int],
@@ -225,6 +263,7 @@ def find_walls(
     mine = vertex_balloon[i]
     # The bubble of a vertex; a ring between two bubbles belongs to neither.
     home = vertex_segment[i]
+    along = vertex_along[i]
     apart = touch.apart * balloon_radius[mine]
     depth = DEPTH_LIMIT * ring_radius[vertex_ring[i]]
     reach = REACH * wp.sqrt(area[i]) + touch.offset + touch.margin
@@ -238,34 +277,50 @@ def find_walls(
     for begin in range(world_chunk[world], last, lanes):
         mine_too = int(0)
         if begin + lane < last:
-            off = wp.max(wp.max(chunk_low[begin + lane] - p, p - chunk_high[begin + lane]), wp.vec3(0.0))
-            if wp.dot(off, off) < reach * reach:
-                mine_too = 1
+            low = chunk_low[begin + lane]
+            high = chunk_high[begin + lane]
+            # Most are far away along the balloon already.
+            if low[0] - p[0] < reach and p[0] - high[0] < reach:
+                off = wp.max(wp.max(low - p, p - high), wp.vec3(0.0))
+                if wp.dot(off, off) < reach * reach:
+                    mine_too = 1
         chunks = lanes_that(mine_too)
         while chunks != 0:
             chunk = begin + lowest(chunks)
             chunks &= chunks - 1
             for q in range(chunk_quad[chunk] + lane, chunk_quad[chunk + 1], lanes):
                 d = p - quad_middle[q]
-                elsewhere = quad_balloon[q] != mine or wp.abs(quad_along[q] - vertex_along[i]) > apart
-                if wp.dot(d, d) < reach * reach and (elsewhere or (home >= 0 and quad_segment[q] != home)):
-                    a = quad_area[q]
-                    size = wp.length(a)
-                    face = a / wp.max(size, 1.0e-12)
-                    height = wp.dot(d, face)
-                    limit = wp.min(depth, DEPTH_LIMIT * ring_radius[quad_ring[q]])
-                    if wp.dot(face, n) < FACING and height > -limit and height < touch.offset + touch.margin:
-                        distance = distance_beside(q, face, SIDE_SLIP * wp.sqrt(size), p, quads, x)
-                        if distance < near[0]:
-                            if nearest[0] >= 0 and quad_segment[nearest[0]] != quad_segment[q]:
-                                near = wp.vec2(distance, near[0])
-                                nearest = wp.vec2i(q, nearest[0])
-                            else:
-                                near = wp.vec2(distance, near[1])
-                                nearest = wp.vec2i(q, nearest[1])
-                        elif distance < near[1] and quad_segment[nearest[0]] != quad_segment[q]:
-                            near = wp.vec2(near[0], distance)
-                            nearest = wp.vec2i(nearest[0], q)
+                if wp.dot(d, d) < reach * reach:
+                    distance = distance_of_wall(
+                        q,
+                        d,
+                        mine,
+                        home,
+                        along,
+                        apart,
+                        depth,
+                        n,
+                        p,
+                        touch,
+                        quads,
+                        quad_segment,
+                        quad_ring,
+                        quad_along,
+                        quad_balloon,
+                        x,
+                        quad_area,
+                        ring_radius,
+                    )
+                    if distance < near[0]:
+                        if nearest[0] >= 0 and quad_segment[nearest[0]] != quad_segment[q]:
+                            near = wp.vec2(distance, near[0])
+                            nearest = wp.vec2i(q, nearest[0])
+                        else:
+                            near = wp.vec2(distance, near[1])
+                            nearest = wp.vec2i(q, nearest[1])
+                    elif distance < near[1] and quad_segment[nearest[0]] != quad_segment[q]:
+                        near = wp.vec2(near[0], distance)
+                        nearest = wp.vec2i(nearest[0], q)
     # The nearest of all lanes, and the nearest of another bubble than that.
     found = wp.vec2i(-1, -1)
     least = lanes_least(near[0])
