@@ -37,7 +37,7 @@ ROUGH = 28
 BATCH = 64
 PLACES = (0, 31, 63)
 """Where in a batch the sculpture stands that is also made alone."""
-JOINTS_APART = 1.0e-3
+JOINTS_APART = 1.5e-3
 """Largest difference of a distance between joints from that on the CPU, m."""
 GAS_APART = 0.01
 """Largest difference of the volume of a bubble from that on the CPU, as a share."""

@@ -35,9 +35,6 @@ def bursting():
     return short("bursting", head=9, kind="loop", physics="{hold: 0.2, burst: stop}")
 
 
-"""Where simulations can run on this machine."""
-
-
 def last_frames(plans, device="cpu"):
     last = [None] * len(plans)
     for frames in simulate_many(plans, detail="draft", device=device).frames():

@@ -106,7 +106,7 @@ def verification_lines(rows):
     for case in {row.case for row in rows}:
         all_of_it = [row for row in rows if row.case == case]
         worst = max(all_of_it, key=lambda row: row.error / row.tolerance)
-        numbers = f"{worst.theory:.6g} | {worst.measured:.6g} | {worst.error:.1e} | {worst.tolerance:.0e}"
+        numbers = f"{worst.theory:.6g} | {worst.measured:.6g} | {worst.error:.1e} | {worst.tolerance:.1e}"
         lines[case] = f"| {case} ({len(all_of_it)}) | {worst.quantity} | {numbers} |"
     head = [
         "| case | nearest to its limit | theory | solver | error | allowed |",

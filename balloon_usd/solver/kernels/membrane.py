@@ -2,7 +2,7 @@
 
 import warp as wp
 
-from balloon_usd.solver.kernels.rubber import Knot, Law, membrane_law, softening_factor
+from balloon_usd.solver.kernels.rubber import LEAST_ENERGY, Knot, Law, membrane_law, softening_factor
 
 MIN_STRETCH = wp.constant(0.05)
 """Smallest stretch that enters a rubber law (1): a collapsed quad must not divide by zero."""
@@ -48,25 +48,28 @@ def wall_of_quad(
     c22 = wp.dot(f2, f2)
     c12 = wp.dot(f1, f2)
 
-    # Squared principal stretches of the mean deformation.
+    # Squared principal stretches of the mean deformation. Divisions come first: nothing waits for them then.
+    known = peak_energy[q]
+    inverse_known = 1.0 / wp.max(known, LEAST_ENERGY)
     mean = 0.5 * (c11 + c22)
     radius = wp.sqrt(wp.max(0.25 * (c11 - c22) * (c11 - c22) + c12 * c12, 0.0))
     large2 = wp.max(mean + radius, MIN_STRETCH * MIN_STRETCH)
     small2 = wp.max(mean - radius, MIN_STRETCH * MIN_STRETCH)
+    apart = large2 - small2
+    inverse_apart = 1.0 / wp.max(apart, SLACK)
     stress_large = float(0.0)
     stress_small = float(0.0)
     if large2 > 1.0:
         t = membrane_law(law, curves, large2, small2)
-        known = peak_energy[q]
         peak = wp.max(known, t[2])
         peak_energy[q] = known + softening_rate[quad_law[q]] * (peak - known)
-        soft = softening_factor(law, t[2], peak)
+        soft = softening_factor(law, t[2], peak, inverse_known)
         stress_large = soft * t[0]
         stress_small = soft * t[1]
     isotropic = stress_large
     linear = float(0.0)
-    if large2 - small2 > SLACK:
-        linear = (stress_large - stress_small) / (large2 - small2)
+    if apart > SLACK:
+        linear = (stress_large - stress_small) * inverse_apart
         isotropic = stress_large - linear * large2
     s11 = isotropic + linear * c11
     s22 = isotropic + linear * c22

@@ -30,8 +30,8 @@ class Law:
     """Gent's Jm: the largest I1 - 3."""
     soft_depth: float
     """1/r of Ogden & Roxburgh 1999; 0 switches softening off."""
-    soft_width: float
-    """c of Ogden & Roxburgh 1999."""
+    soft_steepness: float
+    """1/c of Ogden & Roxburgh 1999."""
     viscosity: float
     """Resistance to the rate of strain, Pa s."""
     hourglass_damping: float
@@ -40,6 +40,8 @@ class Law:
 
 GENT_NEAR_LIMIT = wp.constant(0.9)
 """Share of Jm at which the Gent term is continued by its value: beyond it the law would lock."""
+LEAST_ENERGY = wp.constant(1.0)
+"""Energy below which rubber counts as new, J/m3: a ten-millionth of what a bubble holds."""
 ERF_1 = wp.constant(0.0705230784)
 ERF_2 = wp.constant(0.0422820123)
 ERF_3 = wp.constant(0.0092705272)
@@ -95,16 +97,17 @@ def membrane_law(law: Law, curves: wp.array[Knot], large2: float, small2: float)
 
 
 @wp.func
-def softening_factor(law: Law, energy: float, peak: float):
-    """Return Ogden & Roxburgh's factor on the stress after a peak energy (1999, their eq. for eta)."""
+def softening_factor(law: Law, energy: float, peak: float, inverse_peak: float):
+    """Return Ogden & Roxburgh's factor on the stress after a peak energy (1999, their eq. for eta), all in
+    J/m3.
+    """
     factor = float(1.0)
-    if law.soft_depth > 0.0:
-        if peak > energy:
-            z = (peak - energy) / (law.soft_width * peak)
-            z3 = z * z * z
-            t = 1.0 + z * (ERF_1 + z * ERF_2) + z3 * ((ERF_3 + z * ERF_4) + z * z * (ERF_5 + z * ERF_6))
-            t2 = t * t
-            t4 = t2 * t2
-            t8 = t4 * t4
-            factor = 1.0 - law.soft_depth * (1.0 - 1.0 / (t8 * t8))
+    if law.soft_depth > 0.0 and peak > LEAST_ENERGY and peak > energy:
+        z = (1.0 - energy * inverse_peak) * law.soft_steepness
+        z3 = z * z * z
+        t = 1.0 + z * (ERF_1 + z * ERF_2) + z3 * ((ERF_3 + z * ERF_4) + z * z * (ERF_5 + z * ERF_6))
+        t2 = t * t
+        t4 = t2 * t2
+        t8 = t4 * t4
+        factor = 1.0 - law.soft_depth * (1.0 - 1.0 / (t8 * t8))
     return factor

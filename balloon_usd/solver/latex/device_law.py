@@ -105,7 +105,7 @@ def _device_law(rubber: Rubber, dt: float, first_knot: int) -> Law:
     law.most = knots.most
     law.gent_mu, law.gent_limit = rubber.gent_mu, min(rubber.gent_limit, 1e9)
     if rubber.softening is not None:
-        law.soft_depth, law.soft_width = 1.0 / rubber.softening.r, rubber.softening.c
+        law.soft_depth, law.soft_steepness = 1.0 / rubber.softening.r, 1.0 / rubber.softening.c
     law.viscosity = step_viscosity(rubber, dt, MEMBRANE_DAMPING)
     law.hourglass_damping = MEMBRANE_DAMPING * dt
     return law
