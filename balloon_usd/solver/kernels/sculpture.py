@@ -281,7 +281,8 @@ def advance_sculptures(
                 for q in range(quad_begin + other, quad_end, others):
                     press_quad_back(q, quads, hit_count, hits, contact_force, contact_place, x, corner_force)
             slots = joint_struts.shape[1]
-            for at in range(joint_begin * slots + other, joint_end * slots, others):
+            # From the other end: those that press no wall back.
+            for at in range(joint_begin * slots + others - 1 - other, joint_end * slots, others):
                 strut = joint_struts[at // slots, at % slots]
                 if strut > 0:
                     load_strut(
