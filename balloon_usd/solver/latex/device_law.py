@@ -82,7 +82,8 @@ def ogden_curve(rubber: Rubber) -> NDArray[np.float32]:
     """
     squared = knots_of(rubber).squared
     mu, half = np.array(rubber.mu)[:, None], 0.5 * np.array(rubber.alpha)[:, None]
-    power = mu * squared**half
+    # Beyond the knot after the last stretch that is followed it need only stay a number.
+    power = mu * np.minimum(squared**half, 2.0 ** (STRESS_OCTAVES + 1.0))
     stress, stress_slope = power.sum(axis=0), (half * power).sum(axis=0) / squared
     energy = (0.5 / half * (power - mu)).sum(axis=0)
     curves = np.stack([stress, energy], axis=1)
