@@ -68,10 +68,12 @@ class BalloonMesh:
         return int(np.argmin(np.abs(self.ring_along - along)))
 
 
-def ring_stations(detail: Detail, size: BalloonSize, joints: tuple[float, ...]) -> NDArray[np.float64]:
+def ring_stations(
+    detail: Detail, size: BalloonSize, joints: tuple[float, ...], guides: tuple[float, ...] = ()
+) -> NDArray[np.float64]:
     """Return the unstressed positions of the tube's rings, (R,) float64, m.
 
-    There is one at every joint, and they stand closer beside joints.
+    There is one at every joint, and they stand closer beside joints; every guide has one of its own near.
 
     Raises:
         ValueError: a joint lies outside the tube.
@@ -83,25 +85,37 @@ def ring_stations(detail: Detail, size: BalloonSize, joints: tuple[float, ...]) 
     fine, coarse = detail.axial_at_joint * size.radius, detail.axial * size.radius
     stations = [np.zeros(1)]
     for low, high in pairwise(marks):
-        stations.append(_graded(low, high, fine, coarse, tail=high == last))
+        own = [guide for guide in guides if low < guide < high]
+        stations.append(_graded(low, high, fine, coarse, own, tail=high == last))
     return np.concatenate(stations)
 
 
-def _graded(low: float, high: float, fine: float, coarse: float, *, tail: bool) -> NDArray[np.float64]:
+def _graded(
+    low: float, high: float, fine: float, coarse: float, guides: list[float], *, tail: bool
+) -> NDArray[np.float64]:
     """Cut (low, high] so that the spacing grows from both joints; at the tip it only grows from `low`."""
     s = np.linspace(low, high, 512)
     distance = s - low if tail else np.minimum(s - low, high - s)
     spacing = np.minimum(coarse, fine + GRADING * distance)
     cells = np.concatenate([[0.0], np.cumsum(0.5 * (1 / spacing[1:] + 1 / spacing[:-1]) * np.diff(s))])
     count = max(2, round(float(cells[-1])))
-    stations: NDArray[np.float64] = np.interp(np.arange(1, count + 1) * cells[-1] / count, cells, s)
-    return stations
+    while True:
+        stations: NDArray[np.float64] = np.interp(np.arange(count + 1) * cells[-1] / count, cells, s)
+        led = [int(np.argmin(np.abs(stations - guide))) for guide in guides]
+        if len({0, *led, count}) == len(led) + 2:
+            return stations[1:]
+        # Two hands cannot lead one ring.
+        count += 1
 
 
 def tube_mesh(
-    size: BalloonSize, detail: Detail, joints: tuple[float, ...], bubble_ends: tuple[float, ...]
+    size: BalloonSize,
+    detail: Detail,
+    joints: tuple[float, ...],
+    bubble_ends: tuple[float, ...],
+    guides: tuple[float, ...] = (),
 ) -> BalloonMesh:
-    """Return the mesh of a balloon with a ring at every joint (m along the flat tube).
+    """Return the mesh of a balloon with a ring at every joint (m along the flat tube), one for each guide.
 
     `bubble_ends`: where each bubble ends, m along the flat tube, ascending; the knot and lip belong to the
     first bubble and the tip to the last.
@@ -113,7 +127,7 @@ def tube_mesh(
     behind = np.concatenate(
         [-knot - lip + lip * np.linspace(0, 1, 4), -knot + knot * np.linspace(0, 1, 5)[1:-1]]
     )
-    along = np.concatenate([behind, ring_stations(detail, size, joints)])
+    along = np.concatenate([behind, ring_stations(detail, size, joints, guides)])
     rings, n = len(along), detail.around
     radius = np.full(rings, size.radius / math.cos(math.pi / n))
     flare = np.clip((-knot - along) / lip, 0.0, 1.0)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from balloon_usd.balloon.capsule_mesh import capsule_mesh
 from balloon_usd.balloon.tube_mesh import BalloonMesh, tube_mesh
+from balloon_usd.plan.rings import guide_places
 
 if TYPE_CHECKING:
     from balloon_usd.balloon.detail import Detail
@@ -22,4 +23,4 @@ def mesh_of(strip: Strip, detail: Detail) -> BalloonMesh:
     ends = tuple(bubble.rest_end for bubble in strip.bubbles)
     if strip.capsule:
         return capsule_mesh(ends[-1], strip.inflated_radius, detail.capsule_around, ends)
-    return tube_mesh(strip.size, detail, joint_places(strip), ends)
+    return tube_mesh(strip.size, detail, joint_places(strip), ends, guide_places(strip))

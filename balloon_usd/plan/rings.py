@@ -80,6 +80,11 @@ class RingTable:
         return self._guides.get(bubble, ())
 
 
+def guide_places(strip: Strip) -> tuple[float, ...]:
+    """Return the unstressed distances of the rings that only guide from a strip's knot, m."""
+    return tuple(ring.along for ring in _rings(strip) if not ring.joint)
+
+
 def _rings(strip: Strip) -> list[PlannedRing]:
     """Rings of one balloon: its knot, every joint, and guides inside the bubbles."""
     balloon = strip.balloon

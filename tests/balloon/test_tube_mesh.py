@@ -75,3 +75,14 @@ def test_texture_runs_once_round_the_tube_and_once_along_it():
 def test_a_joint_beyond_the_tube_is_refused():
     with pytest.raises(ValueError, match="joints must lie between"):
         ring_stations(detail_named("draft"), size_named("260"), (0.5,))
+
+
+@pytest.mark.parametrize("length", [0.008, 0.014, 0.021])
+@pytest.mark.parametrize("detail", ["draft", "preview", "full"])
+def test_every_guide_of_a_short_bubble_has_a_ring_of_its_own(detail, length):
+    guides = tuple(0.03 + length * k / 8 for k in range(1, 8))
+    stations = ring_stations(detail_named(detail), size_named("260"), (0.03, 0.03 + length), guides)
+    led = [int(np.argmin(np.abs(stations - guide))) for guide in guides]
+    ends = [int(np.argmin(np.abs(stations - end))) for end in (0.03, 0.03 + length)]
+    assert len({*led, *ends}) == len(led) + len(ends)
+    assert np.all(np.diff(stations) > 0.0)

@@ -28,7 +28,7 @@ class LatexHands(Hands):
         super().__init__(scene)
         self.passage = np.where(self.closed, 0.0, OPEN_PASSAGE).astype(np.float32)
         self.passage_goal = self.passage.copy()
-        self._beside = scene.joint_segment.numpy()
+        self.beside = scene.joint_segment.numpy()
         """Segments before and after every ring, (J, 2)."""
         self._joint_body = np.repeat(np.arange(len(scene.bodies)), np.diff(scene.joint_start))
         """Balloon of every ring, (J,)."""
@@ -99,7 +99,7 @@ class LatexHands(Hands):
     def split_gas(self, joint: int) -> None:
         """Share the gas of the open chambers by volume, before a neck between them begins to close."""
         first, last = self.chambers()
-        beside = self._beside[joint, 0]
+        beside = self.beside[joint, 0]
         run = slice(first[beside], last[beside] + 1)
         volume = self.volume[run].astype(float)
         self.amount[run] = self.amount[run].sum() * volume / volume.sum()

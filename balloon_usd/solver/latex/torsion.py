@@ -162,7 +162,8 @@ class Torsion:
             self._slip(slipping, [move for move in welds if move.turns >= HOLDING_TURNS], struts)
         found = [self._loosened(loose) for loose in self.plan.holding.loose]
         # One after another: those of the fewest turns first, and those nearest to the tip.
-        found.sort(key=lambda loose: (abs(self.joints[loose.ring].turns), -loose.ring))
+        # Turns are added up frame by frame: rounding must not decide.
+        found.sort(key=lambda loose: (round(abs(self.joints[loose.ring].turns), 3), -loose.ring))
         self._loose = found
         for loose in found:
             self.joints[loose.ring].held = False
@@ -215,7 +216,10 @@ class Torsion:
             self._loose.pop(0)
 
     def _widen(self, loose: _Loose, wound: WoundJoint) -> None:
-        radius = max(wound.neck, wound.waist)
+        # No wider than the smaller bubble beside it could be.
+        room = float(self.hands.volume[self.hands.beside[loose.joint]].min())
+        ball = (3.0 * max(room, 0.0) / (4.0 * math.pi)) ** (1.0 / 3.0)
+        radius = max(wound.neck, min(wound.waist, ball))
         if wound.turns == 0.0:
             self.hands.free_neck(loose.joint)
         else:
