@@ -11,6 +11,7 @@ import subprocess
 import sys
 import time
 from dataclasses import asdict, dataclass
+from itertools import islice
 from typing import IO, Any
 
 
@@ -57,7 +58,8 @@ class Child:
         return self._told()
 
     def end(self) -> None:
-        """Wait for its end."""
+        """End it, whatever it is at."""
+        self._process.kill()
         self._process.communicate()
 
     def _told(self) -> float:
@@ -98,9 +100,9 @@ def work(task: ChildTask) -> None:
     if task.frames:
         sys.stdin.readline()
         begin = time.perf_counter()
-        for _ in range(task.frames):
-            next(frames)
-        _tell(time.perf_counter() - begin)
+        made = sum(1 for _ in islice(frames, task.frames))
+        # An animation that is over sooner is told as if it had gone on.
+        _tell((time.perf_counter() - begin) * task.frames / max(made, 1))
 
 
 def _tell(value: float) -> None:

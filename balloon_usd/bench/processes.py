@@ -13,11 +13,13 @@ def together(count: int, detail: str, device: str, frames: int | None) -> float:
     """Let so many processes simulate a dog each at once and return their frames per second in all."""
     task = ChildTask((CLASSIC_DOG,), detail, device, frames or FRAMES)
     children = [Child(task) for _ in range(count)]
-    for child in children:
-        child.first_frame()
-    for child in children:
-        child.run()
-    slowest = max(child.seconds() for child in children)
-    for child in children:
-        child.end()
+    try:
+        for child in children:
+            child.first_frame()
+        for child in children:
+            child.run()
+        slowest = max(child.seconds() for child in children)
+    finally:
+        for child in children:
+            child.end()
     return count * task.frames / slowest
