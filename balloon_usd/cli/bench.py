@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import click
+from click.core import ParameterSource
 
 from balloon_usd.cli.bench_peers import PINCHES, VERTICES, bench_peers, peer_names
 from balloon_usd.cli.bench_rows import bench_first_frame, bench_mixed, bench_processes, bench_table
@@ -13,6 +14,15 @@ from balloon_usd.cli.run import DETAILS
 MOST_COPIES = 65_536
 MOST_PROCESSES = 1024
 MODELS = ("latex", "kosaka")
+TABLE = ("model", "detail", "copies", "frames")
+"""Options of the table that is printed where nothing else is asked for."""
+OPTIONS: dict[str, tuple[str, ...]] = {
+    "mixed": ("detail", "frames"),
+    "first_frame": ("detail",),
+    "processes": ("detail", "frames"),
+    "peers": ("vertices", "pinch"),
+}
+"""Options of everything else that is measured."""
 
 
 @click.command(epilog=EXIT_CODES_HELP)
@@ -77,13 +87,7 @@ def bench(
     Of the latex model the classic dog, of the kosaka model the capsule of the thesis's experiment and longer
     ones, up to a whole 260. Beside what is promised stands whether it was kept here.
     """
-    chosen = [mixed, first_frame, processes is not None, peers is not None]
-    if sum(chosen) > 1:
-        raise Failure(
-            "--mixed, --first-frame, --processes and --peer are measured one at a time", ExitCode.BAD_INPUT
-        )
-    if model != MODELS[0] and any(chosen):
-        raise Failure(f"with --model {model} only the table is measured", ExitCode.BAD_INPUT)
+    _refuse_what_does_not_apply()
     used = start_device(device)
     with compiling():
         if peers is not None:
@@ -96,3 +100,22 @@ def bench(
             bench_processes(processes, detail, used, frames)
         else:
             bench_table(model, detail, copies, used, frames)
+
+
+def _refuse_what_does_not_apply() -> None:
+    """Refuse options that what is measured would ignore, and two things at a time."""
+    context = click.get_current_context()
+    given = {
+        name for name in context.params if context.get_parameter_source(name) is ParameterSource.COMMANDLINE
+    }
+    flags = {option.name: option.opts[0] for option in context.command.params}
+    chosen = [name for name in OPTIONS if name in given]
+    if len(chosen) > 1:
+        raise Failure(
+            "--mixed, --first-frame, --processes and --peer are measured one at a time", ExitCode.BAD_INPUT
+        )
+    used = OPTIONS[chosen[0]] if chosen else TABLE
+    idle = sorted(flags[name] for name in given - {*chosen, *used, "device"})
+    if idle:
+        what = f"with {flags[chosen[0]]}" if chosen else "without --peer"
+        raise Failure(f"{', '.join(idle)}: not used {what}", ExitCode.BAD_INPUT)

@@ -124,10 +124,19 @@ def test_two_measurements_at_once_are_bad_input(cli):
     assert "one at a time" in result.stderr
 
 
-def test_only_the_table_knows_other_models(cli):
-    result = cli("bench", "--model", "kosaka", "--mixed")
+@pytest.mark.parametrize(
+    ("asked", "told"),
+    [
+        (("--model", "kosaka", "--mixed"), "--model: not used with --mixed\n"),
+        (("--peer", "none", "--frames", 5, "--copies", 7), "--copies, --frames: not used with --peer\n"),
+        (("--first-frame", "--frames", 3), "--frames: not used with --first-frame\n"),
+        (("--vertices", 6402), "--vertices: not used without --peer\n"),
+    ],
+)
+def test_options_that_would_be_ignored_are_bad_input(cli, asked, told):
+    result = cli("bench", *asked)
     assert result.exit_code == 2
-    assert result.stderr == "with --model kosaka only the table is measured\n"
+    assert result.stderr == told
 
 
 def test_peers_do_the_task_of_ours_and_are_measured_alike(cli, monkeypatch):
