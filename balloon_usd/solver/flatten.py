@@ -107,10 +107,9 @@ def segment_arrays(scene: Scene, host: Arrays) -> None:
     host["segment_quad"], host["segment_quad_end"] = np.array(quad, np.int32), np.array(quad_end, np.int32)
     host["segment_origin"] = np.array(origin, np.int32)
     host["start_joint"], host["end_joint"] = np.array(start_joint, np.int32), np.array(end_joint, np.int32)
-    host["joint_segment"] = sides
     # A ring that parts nothing lies within one segment.
     home = host["vertex_segment"][host["joint_first"]][:, None]
-    host["joint_beside"] = np.where(sides[: len(home)] < 0, np.maximum(home, 0), sides).astype(np.int32)
+    host["joint_beside"] = np.where(sides < 0, np.maximum(home, 0), sides)
 
 
 def chunk_arrays(scene: Scene, host: Arrays) -> None:

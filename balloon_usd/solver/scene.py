@@ -157,7 +157,6 @@ _VECTORS = {
     "to_rest": wp.mat22,
     "hourglass": wp.vec4,
     "corner": wp.vec2,
-    "joint_segment": wp.vec2i,
     "joint_beside": wp.vec2i,
     "air": wp.vec3,
     "spring_ends": wp.vec4i,

@@ -28,7 +28,7 @@ class LatexHands(Hands):
         super().__init__(scene)
         self.passage = np.where(self.closed, 0.0, OPEN_PASSAGE).astype(np.float32)
         self.passage_goal = self.passage.copy()
-        self.beside = scene.joint_segment.numpy()
+        self.beside = scene.joint_beside.numpy()
         """Segments before and after every ring, (J, 2)."""
         self._joint_body = np.repeat(np.arange(len(scene.bodies)), np.diff(scene.joint_start))
         """Balloon of every ring, (J,)."""
