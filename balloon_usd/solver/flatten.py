@@ -115,10 +115,8 @@ def segment_arrays(scene: Scene, host: Arrays) -> None:
 def chunk_arrays(scene: Scene, host: Arrays) -> None:
     """Chunks: runs of quads of one segment that a warp of lanes works on at once."""
     host["chunk_quad"], host["segment_chunk"] = chunks_of(host["segment_quad"], host["segment_quad_end"])
-    worlds = np.arange(max(scene.worlds) + 2)
-    body = np.searchsorted(np.asarray(scene.worlds), worlds)
     host["chunk_origin"] = np.repeat(host["segment_origin"], np.diff(host["segment_chunk"]))
-    host["world_chunk"] = host["segment_chunk"][scene.segment_start[body]]
+    host["world_chunk"] = scene.by_world(host["segment_chunk"][scene.segment_start])
 
 
 def chunks_of(

@@ -77,6 +77,13 @@ class Scene:
         """Sculpture of a ring."""
         return self.worlds[int(np.searchsorted(self.joint_start, joint, side="right")) - 1]
 
+    def by_world(self, first: NDArray[Any]) -> NDArray[np.int32]:
+        """Return the first thing of every sculpture and the end of the last, (W + 1,), given those of every
+        body, (B + 1,).
+        """
+        body = np.searchsorted(np.asarray(self.worlds), np.arange(max(self.worlds) + 2))
+        return first[body].astype(np.int32)
+
     def put(self, host: Arrays) -> None:
         """Put host arrays on the device under their names."""
         for name, values in host.items():

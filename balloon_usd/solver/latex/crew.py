@@ -30,7 +30,6 @@ class Crew:
         """Share out a device; a GPU in as many blocks a sculpture as this fills, and as run at once."""
         self.scene = scene
         worlds = max(scene.worlds) + 1
-        body = np.searchsorted(np.asarray(scene.worlds), np.arange(worlds + 1))
         scene.zeros("chunk_share", len(scene.chunk_low), float)
         for name, starts in (
             ("balloon", np.arange(len(scene.bodies) + 1)),
@@ -39,7 +38,7 @@ class Crew:
             ("segment", scene.segment_start),
             ("joint", scene.joint_start),
         ):
-            scene.put({f"world_{name}": np.asarray(starts)[body].astype(np.int32)})
+            scene.put({f"world_{name}": scene.by_world(starts)})
         # While some look after the quads of a chunk, others see to the vertices that touch something.
         vertices, chunks = scene.world_vertex.numpy(), scene.world_chunk.numpy()
         need = int((np.diff(vertices) + WARP * np.diff(chunks)).max())
