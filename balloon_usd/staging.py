@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from balloon_usd.balloon.detail import detail_named
+from balloon_usd.balloon.rubber import BURST_STRETCH
 from balloon_usd.plan.meshing import mesh_of
 from balloon_usd.plan.particles import experiment_spacing, start_particles
 from balloon_usd.stage import AirDescription, MeshDescription, StageDescription
@@ -23,6 +24,9 @@ if TYPE_CHECKING:
 
 SOLVERS = {"latex": "latex 1", "kosaka": "kosaka 1"}
 """Models of the physics and their versions: another version may move points."""
+HIGHEST_STRETCH = {"latex": BURST_STRETCH, "kosaka": 3.0}
+"""Where the colours of stretch end: latex bursts there; springs stand at twice their natural length and
+rarely reach three times."""
 DRAWN = 0.4
 """Diameter of a drawn air particle, in distances of neighbouring ones."""
 
@@ -34,23 +38,40 @@ def write_stage(
     *,
     detail: str | None = None,
     flat: bool = False,
+    usdz: bool = False,
+    look: str | None = None,
+    shot: bool = False,
 ) -> WrittenStage:
     """Write the frames of a plan as they come to a USD stage in a folder.
 
     Args:
         plan: what the frames show.
         frames: those of `simulate`, or some that follow each other.
-        folder: gets NAME/NAME.usda and its payload, or NAME.usdc, where NAME is the recipe's name.
+        folder: gets NAME/NAME.usda and its payload, or one file, where NAME is the recipe's name.
         detail: level of detail of the frames; None takes that of the performance that they are, else draft.
-        flat: write the one file NAME.usdc.
+        flat: write the one file NAME.usdc, with one look.
+        usdz: write the one file NAME.usdz, with one look, y up and without textures, for AR viewers.
+        look: recipe, clear, chrome, clay or stress, and thesis with the model kosaka; None takes recipe, and
+            thesis where it can be.
+        shot: write NAME_shot.usda beside the stage, with camera, lights and ground.
 
     Raises:
-        StageError: the folder cannot be written, the disk is full, or a frame is of another detail or plan.
+        StageError: the folder cannot be written, the disk is full, a frame is of another detail or plan,
+            there is no such look, or the choices exclude each other.
         ValueError: there is no such level of detail.
     """
     level = detail_named(getattr(frames, "detail", "draft") if detail is None else detail)
     meshes = [mesh_of(strip, level) for strip in plan.strips.values()]
-    return write_described_stage(describe_stage(plan, meshes), frames, folder, detail=level.name, flat=flat)
+    return write_described_stage(
+        describe_stage(plan, meshes),
+        frames,
+        folder,
+        detail=level.name,
+        flat=flat,
+        usdz=usdz,
+        look=look,
+        shot=shot,
+    )
 
 
 def describe_stage(plan: Plan, meshes: Sequence[BalloonMesh]) -> StageDescription:
@@ -65,9 +86,10 @@ def describe_stage(plan: Plan, meshes: Sequence[BalloonMesh]) -> StageDescriptio
             for strip, mesh in zip(plan.strips.values(), meshes, strict=True)
         ),
         bubble_names=tuple(bubble.name for bubble in plan.bubbles),
-        provenance=provenance_of(recipe),
+        provenance={**provenance_of(recipe), **_mesh_files(plan)},
         twists=moves_in_time(plan),
         airs=_describe_airs(plan),
+        highest_stretch=HIGHEST_STRETCH[recipe.physics.model],
     )
 
 
@@ -79,6 +101,12 @@ def provenance_of(recipe: Recipe) -> dict[str, str]:
         "recipe_sha256": recipe.sha256,
         "solver": SOLVERS[recipe.physics.model],
     }
+
+
+def _mesh_files(plan: Plan) -> dict[str, str]:
+    """Return the hashes of the files that balloons come from, in the order of the strips."""
+    hashes = [strip.shape.file_sha256 for strip in plan.strips.values() if strip.shape is not None]
+    return {"mesh_sha256": " ".join(hashes)} if hashes else {}
 
 
 def _describe_airs(plan: Plan) -> tuple[AirDescription, ...]:

@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING
 from balloon_usd.cli.failure import ExitCode, Failure
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
     from pathlib import Path
+
+    from balloon_usd.cli.form import Form
 
 
 def require_writable(folder: Path) -> None:
@@ -42,17 +44,17 @@ def require_readable_name(path: Path) -> None:
         raise Failure(f"{shown}: the path is not UTF-8, which USD needs", ExitCode.BAD_INPUT) from error
 
 
-def stage_path(folder: Path, name: str, *, flat: bool) -> Path:
-    """Return the file of a sculpture's stage that people open."""
-    return folder / f"{name}.usdc" if flat else folder / name / f"{name}.usda"
-
-
 def sheet_path(folder: Path, name: str) -> Path:
     """Return the file of a sculpture's contact sheet."""
     return folder / f"{name}.png"
 
 
-def require_free(folder: Path, names: Iterable[str], *, flat: bool, files: Iterable[Path] = ()) -> None:
+def shot_path(folder: Path, name: str) -> Path:
+    """Return the file of a sculpture's shot."""
+    return folder / f"{name}_shot.usda"
+
+
+def require_free(folder: Path, names: Sequence[str], form: Form, files: Iterable[Path] = ()) -> None:
     """Check that no file stands where a folder must go, nor a folder where a file must.
 
     `files`: what is written besides the stages of these names.
@@ -60,12 +62,13 @@ def require_free(folder: Path, names: Iterable[str], *, flat: bool, files: Itera
     Raises:
         Failure: with all that are in the way.
     """
-    in_the_way = [f"{file}: a folder is in the way" for file in files if file.is_dir()]
+    shots = [shot_path(folder, name) for name in names] if form.shot else []
+    in_the_way = [f"{file}: a folder is in the way" for file in (*files, *shots) if file.is_dir()]
     for name in names:
-        stage = stage_path(folder, name, flat=flat)
-        if flat and stage.is_dir():
+        stage = form.stage(folder, name)
+        if form.ending and stage.is_dir():
             in_the_way.append(f"{stage}: a folder is in the way")
-        if not flat and stage.parent.exists() and not stage.parent.is_dir():
+        if not form.ending and stage.parent.exists() and not stage.parent.is_dir():
             in_the_way.append(f"{stage.parent}: a file is in the way")
     if in_the_way:
         raise Failure("\n".join(in_the_way), ExitCode.BAD_INPUT)

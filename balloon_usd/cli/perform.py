@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 from balloon_usd.cli.failure import ExitCode, Failure
-from balloon_usd.cli.progress import progress_bar
+from balloon_usd.cli.progress import show_progress
 from balloon_usd.cli.stage_writer import stage_writers
 from balloon_usd.report import History
 from balloon_usd.solver.errors import SimulationFailed
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
     from pathlib import Path
 
+    from balloon_usd.cli.form import Form
     from balloon_usd.cli.frame_range import FrameRange
     from balloon_usd.cli.stage_writer import StageWriter
     from balloon_usd.plan import Plan
@@ -35,8 +36,10 @@ class Order:
     folder: Path
     detail: str
     device: str
-    flat: bool
+    form: Form
     frames: FrameRange
+    lines: bool
+    """Progress in lines for programs."""
 
 
 class _Seen(NamedTuple):
@@ -81,12 +84,17 @@ def perform(plans: Sequence[Plan], order: Order) -> list[Outcome]:
         raise Failure(str(error), ExitCode.BAD_INPUT) from error
     pairs = zip(plans, simulation.meshes, strict=True)
     descriptions = [describe_stage(plan, meshes) for plan, meshes in pairs]
-    with stage_writers(descriptions, order.folder, order.detail, flat=order.flat) as writers:
-        return _stream(plans, simulation, wanted, writers)
+    with stage_writers(descriptions, order.folder, order.detail, order.form) as writers:
+        return _stream(plans, simulation, wanted, writers, lines=order.lines)
 
 
 def _stream(
-    plans: Sequence[Plan], simulation: Simulation, wanted: Sequence[range], writers: Sequence[StageWriter]
+    plans: Sequence[Plan],
+    simulation: Simulation,
+    wanted: Sequence[range],
+    writers: Sequence[StageWriter],
+    *,
+    lines: bool,
 ) -> list[Outcome]:
     """Pass frames on until every plan has its last one wanted, or has failed."""
     outcomes: list[Outcome | None] = [None] * len(plans)
@@ -94,14 +102,14 @@ def _stream(
         _Seen(plan, Tally(plan, meshes), History(plan, meshes))
         for plan, meshes in zip(plans, simulation.meshes, strict=True)
     ]
-    with progress_bar(sum(codes[-1] for codes in wanted)) as bar:
+    with show_progress(sum(codes[-1] for codes in wanted), lines=lines) as shown:
         for frames in simulation.frames():
             advanced = [frame for frame in frames if isinstance(frame, Frame)]
             for world, frame in enumerate(frames):
                 if outcomes[world] is None:
                     outcomes[world] = _pass_on(seen[world], frame, wanted[world], writers[world])
             running = sum(outcome is None for outcome in outcomes)
-            bar.advance(_doing(advanced, running), len(advanced))
+            shown.advance(_doing(advanced, running), len(advanced))
             if running == 0:
                 break
     return [outcome for outcome in outcomes if outcome is not None]

@@ -38,8 +38,8 @@ SMALLEST, LARGEST = 16, 4096
 )
 @click.option(
     "--look",
-    metavar="latex|thesis",
-    help="Draw another look than the one selected in the stage: rubber, or orange wire and the air inside.",
+    metavar="LOOK",
+    help="Draw another look than the one selected in the stage: recipe, clear, chrome, clay, stress, thesis.",
 )
 @click.option("--view", type=click.Choice(VIEWS), default="three-quarter", show_default=True)
 @click.option(

@@ -1,10 +1,11 @@
-"""The progress bar: what the hands do, how far, how fast."""
+"""Progress: what the hands do, how far, how fast. A bar for people, lines for programs."""
 
 from __future__ import annotations
 
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
+import click
 from rich.console import Console
 from rich.markup import escape
 from rich.progress import BarColumn, Progress, ProgressColumn, TaskProgressColumn, TextColumn
@@ -26,7 +27,14 @@ class FrameRate(ProgressColumn):
         return Text("" if speed is None else f"{speed:.0f} frames/s")
 
 
-class Doing:
+class Shown(Protocol):
+    """Progress on the error stream."""
+
+    def advance(self, doing: str, frames: int) -> None:
+        """Say what is done now, and count frames."""
+
+
+class _Bar:
     """A running bar."""
 
     def __init__(self, progress: Progress, total: int) -> None:
@@ -34,14 +42,28 @@ class Doing:
         self._task = progress.add_task("getting ready".ljust(DOING_WIDTH), total=total)
 
     def advance(self, doing: str, frames: int) -> None:
-        """Say what is done now, and count frames."""
         shown = doing if len(doing) <= DOING_WIDTH else doing[: DOING_WIDTH - 3] + "..."
         self._progress.update(self._task, description=escape(shown.ljust(DOING_WIDTH)), advance=frames)
 
 
+class _Lines:
+    """A line for each step of all sculptures: progress DONE/TOTAL DOING."""
+
+    def __init__(self, total: int) -> None:
+        self._done, self._total = 0, total
+        self.advance("getting ready", 0)
+
+    def advance(self, doing: str, frames: int) -> None:
+        self._done += frames
+        click.echo(f"progress {self._done}/{self._total} {doing}", err=True)
+
+
 @contextmanager
-def progress_bar(total: int) -> Iterator[Doing]:
-    """Show a bar for `total` frames on the error stream; away from a terminal only its end is printed."""
+def show_progress(total: int, *, lines: bool) -> Iterator[Shown]:
+    """Show how many of `total` frames are done; away from a terminal only the end of a bar is printed."""
+    if lines:
+        yield _Lines(total)
+        return
     columns = (TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), FrameRate())
     with Progress(*columns, console=Console(stderr=True)) as progress:
-        yield Doing(progress, total)
+        yield _Bar(progress, total)

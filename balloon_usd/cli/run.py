@@ -10,8 +10,9 @@ import click
 
 from balloon_usd.cli.device import compiling, device_option, start_device
 from balloon_usd.cli.failure import EXIT_CODES_HELP, ExitCode, Failure
+from balloon_usd.cli.form import LOOKS, WITH_AIR, Form
 from balloon_usd.cli.frame_range import FrameRange, frame_range
-from balloon_usd.cli.output import require_free, require_writable, sheet_path, stage_path
+from balloon_usd.cli.output import require_free, require_writable, sheet_path
 from balloon_usd.cli.sources import plans_of, recipe_files
 
 if TYPE_CHECKING:
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from balloon_usd.plan import Plan
 
 DETAILS = ("draft", "preview", "full")
+PROGRESS = ("bar", "lines")
 
 
 @click.command(epilog=EXIT_CODES_HELP)
@@ -41,6 +43,15 @@ DETAILS = ("draft", "preview", "full")
 )
 @device_option
 @click.option("--flat", is_flag=True, help="Write one NAME.usdc instead of the folder NAME with its layers.")
+@click.option("--usdz", is_flag=True, help="Write one NAME.usdz instead, for AR viewers: y up, no textures.")
+@click.option(
+    "--look",
+    metavar="|".join((*LOOKS, WITH_AIR)),
+    help="Look that the stage shows: the only one with --flat and --usdz, else the one selected.",
+)
+@click.option(
+    "--shot", is_flag=True, help="Write NAME_shot.usda too: the stage with camera, lights and ground."
+)
 @click.option(
     "--frames",
     type=frame_range,
@@ -49,15 +60,26 @@ DETAILS = ("draft", "preview", "full")
 )
 @click.option("--no-preview", is_flag=True, help="Draw no contact sheet.")
 @click.option("--no-report", is_flag=True, help="Write no report.")
+@click.option(
+    "--progress",
+    type=click.Choice(PROGRESS),
+    default=PROGRESS[0],
+    show_default=True,
+    help='What the error stream tells meanwhile; "lines" is for programs: progress DONE/TOTAL DOING.',
+)
 def run(
     recipes: tuple[Path, ...],
     output: Path,
     detail: str,
     device: str,
     flat: bool,
+    usdz: bool,
+    look: str | None,
+    shot: bool,
     frames: FrameRange | None,
     no_preview: bool,
     no_report: bool,
+    progress: str,
 ) -> None:
     """Make sculptures: simulate recipes and write a USD stage, a contact sheet and a report of each.
 
@@ -65,21 +87,25 @@ def run(
     If a recipe is wrong nothing is run, and all problems of all recipes are listed.
 
     Writes OUTPUT/NAME/NAME.usda with its payload, OUTPUT/NAME.png, OUTPUT/NAME.report.json and its figure
-    OUTPUT/NAME.report.png, where NAME is the recipe's name.
+    OUTPUT/NAME.report.png, where NAME is the recipe's name. --flat and --usdz write one file instead.
     """
+    form = Form(flat=flat, usdz=usdz, look=look, shot=shot)
     plans = plans_of(recipe_files(recipes))
+    form.require_look(plans)
     require_writable(output)
     names = [plan.recipe.name for plan in plans]
     sheets = [] if no_preview else [sheet_path(output, name) for name in names]
     reports = [] if no_report else _report_paths(output, names)
-    require_free(output, names, flat=flat, files=[*sheets, *reports])
+    require_free(output, names, form, [*sheets, *reports])
     used = start_device(device)
     _print_cautions(plans)
-    outcomes = _perform_all(plans, output, detail, used, flat=flat, frames=frames or FrameRange())
+    outcomes = _perform_all(
+        plans, output, detail, used, form, frames=frames or FrameRange(), lines=progress == "lines"
+    )
     if not no_report:
         _report(outcomes, output, detail)
     if not no_preview:
-        _draw(outcomes, output, used, flat=flat)
+        _draw(outcomes, output, used, form)
     failed = [f"{o.plan.recipe.file}: simulation failed {o.failed}" for o in outcomes if o.failed]
     if failed:
         raise Failure("\n".join(failed), ExitCode.SIMULATION_FAILED)
@@ -93,12 +119,19 @@ def _print_cautions(plans: Sequence[Plan]) -> None:
 
 
 def _perform_all(
-    plans: Sequence[Plan], output: Path, detail: str, device: str, *, flat: bool, frames: FrameRange
+    plans: Sequence[Plan],
+    output: Path,
+    detail: str,
+    device: str,
+    form: Form,
+    *,
+    frames: FrameRange,
+    lines: bool,
 ) -> list[Outcome]:
     from balloon_usd.cli.perform import Order, perform, together  # noqa: PLC0415
     from balloon_usd.cli.summary import print_summary  # noqa: PLC0415
 
-    order = Order(output, detail, device, flat, frames)
+    order = Order(output, detail, device, form, frames, lines)
     begin = time.perf_counter()
     with compiling():
         outcomes = [outcome for group in together(plans) for outcome in perform(group, order)]
@@ -127,7 +160,7 @@ def _report(outcomes: Sequence[Outcome], output: Path, detail: str) -> None:
         click.echo(f"report {numbers}")
 
 
-def _draw(outcomes: Sequence[Outcome], output: Path, device: str, *, flat: bool) -> None:
+def _draw(outcomes: Sequence[Outcome], output: Path, device: str, form: Form) -> None:
     from balloon_usd.preview import PreviewError, draw_contact_sheet  # noqa: PLC0415
 
     for outcome in outcomes:
@@ -135,9 +168,7 @@ def _draw(outcomes: Sequence[Outcome], output: Path, device: str, *, flat: bool)
             continue
         name = outcome.plan.recipe.name
         try:
-            sheet = draw_contact_sheet(
-                stage_path(output, name, flat=flat), sheet_path(output, name), device=device
-            )
+            sheet = draw_contact_sheet(form.stage(output, name), sheet_path(output, name), device=device)
         except PreviewError as error:
             raise Failure(str(error), ExitCode.NOT_WRITTEN) from error
         click.echo(f"contact sheet {sheet}")

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
     from pathlib import Path
 
+    from balloon_usd.cli.form import Form
     from balloon_usd.stage import StageDescription, StageFrame, WrittenStage
 
 FRAMES_WAITING = 2
@@ -34,14 +35,21 @@ class StageWriter:
         description: StageDescription,
         folder: Path,
         detail: str,
-        *,
-        flat: bool,
+        form: Form,
     ) -> None:
         """Start writing; needs a thread of its own among `threads`."""
         self.name = description.name
         self._frames: queue.Queue[StageFrame | _Stopped | None] = queue.Queue(FRAMES_WAITING)
         self._writing: Future[WrittenStage] = threads.submit(
-            write_stage, description, self._arriving(), folder, detail=detail, flat=flat
+            write_stage,
+            description,
+            self._arriving(),
+            folder,
+            detail=detail,
+            flat=form.flat,
+            usdz=form.usdz,
+            look=form.look,
+            shot=form.shot,
         )
 
     def _arriving(self) -> Iterator[StageFrame]:
@@ -90,14 +98,14 @@ class StageWriter:
 
 @contextmanager
 def stage_writers(
-    descriptions: Sequence[StageDescription], folder: Path, detail: str, *, flat: bool
+    descriptions: Sequence[StageDescription], folder: Path, detail: str, form: Form
 ) -> Iterator[list[StageWriter]]:
     """Write stages side by side; those that are not finished at the end of the block leave nothing."""
     with ThreadPoolExecutor(max_workers=len(descriptions)) as threads:
         writers: list[StageWriter] = []
         try:
             for description in descriptions:
-                writers.append(StageWriter(threads, description, folder, detail, flat=flat))  # noqa: PERF401
+                writers.append(StageWriter(threads, description, folder, detail, form))  # noqa: PERF401
             yield writers
         finally:
             for writer in writers:

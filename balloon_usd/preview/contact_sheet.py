@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
-from balloon_usd.preview.painter import painter_of
+from balloon_usd.preview.painter import Painter
 from balloon_usd.preview.png_file import require_place, write_png
 from balloon_usd.preview.read_stage import read_stage
 
@@ -63,7 +63,7 @@ def draw_contact_sheet(
         columns: pictures in a row.
         size: width and height of one picture (pixels).
         view: side, three-quarter, top or front.
-        look: a variant of the stage's looks, such as latex or thesis; None takes the stage's own.
+        look: a variant of the stage's looks, such as stress or thesis; None takes the stage's own.
         device: cpu, cuda:N, or auto for the first CUDA device and else the CPU.
 
     Raises:
@@ -73,10 +73,10 @@ def draw_contact_sheet(
     require_place(Path(png_path))
     scene = read_stage(stage_path, look)
     moments = tuple(frames) if frames is not None else spread_moments(scene.start, scene.end)
-    painter = painter_of(scene, device)
+    painter = Painter(scene, device)
     sheet = _empty_sheet(scene, len(moments), columns, size)
     for number, moment in enumerate(moments):
-        shot = painter.shoot(scene.points(moment), view, size, scene.particles(moment))
+        shot = painter.shoot(moment, view, size)
         row, column = divmod(number, columns)
         left = MARGIN + column * (size[0] + GUTTER)
         top = HEADER + MARGIN + row * (size[1] + CAPTION + GUTTER)

@@ -31,18 +31,27 @@ def require_place(path: Path) -> None:
 
 
 def write_png(image: Image.Image, path: Path) -> Path:
-    """Write a picture beside its final name, then replace that: no half-written one is ever seen.
+    """Write a picture whole or not at all.
 
     Raises:
         PictureNotWrittenError: the disk is full, or the folder cannot be written.
     """
     encoded = BytesIO()
     image.save(encoded, format="PNG")
+    return write_whole(encoded.getvalue(), path)
+
+
+def write_whole(data: bytes, path: Path) -> Path:
+    """Write a file beside its final name, then replace that: no half-written one is ever seen.
+
+    Raises:
+        PictureNotWrittenError: the disk is full, or the folder cannot be written.
+    """
     # A name of its own, since another run may write the same picture.
     partial = path.with_name(f".{path.name}.{secrets.token_hex(4)}.partial")
     try:
         with partial.open("xb") as file:
-            file.write(encoded.getbuffer())
+            file.write(data)
         partial.replace(path)
     except OSError as error:
         partial.unlink(missing_ok=True)

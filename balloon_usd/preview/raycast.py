@@ -9,7 +9,7 @@ import warp as wp
 
 from balloon_usd.preview.balls import ball_tree, balls_of
 from balloon_usd.preview.camera import Axes, frame_points
-from balloon_usd.preview.device import drawing_device, vectors
+from balloon_usd.preview.device import drawing_device, opaque, vectors
 from balloon_usd.preview.floor import bake_floor
 from balloon_usd.preview.kernels.raycast import Scene, draw, light_vertices, smooth_edges
 from balloon_usd.preview.lighting import DIRECTIONS, sphere_directions
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from balloon_usd.preview.camera import View
+    from balloon_usd.preview.camera import Framing, View
     from balloon_usd.preview.kernels.balls import Balls
     from balloon_usd.preview.kernels.raycast import Camera
     from balloon_usd.preview.kernels.studio import Studio
@@ -41,6 +41,7 @@ class Raycaster:
         self,
         surfaces: Sequence[SmoothSurface],
         colors: Sequence[npt.ArrayLike],
+        finishes: Sequence[npt.ArrayLike] | None = None,
         *,
         device: str = "auto",
     ) -> None:
@@ -49,6 +50,7 @@ class Raycaster:
         Args:
             surfaces: one a mesh.
             colors: one a mesh, linear rgb: (3,) or one row for each face of the cage (F, 3).
+            finishes: one a mesh, metallic, opacity and shine (0..1) in the same form; None draws latex.
             device: cpu, cuda:N, or auto for the first CUDA device and else the CPU.
         """
         self._surfaces = tuple(surfaces)
@@ -56,11 +58,30 @@ class Raycaster:
         offsets = np.cumsum([0] + [s.vertex_count for s in surfaces])
         quads = np.concatenate([s.quads + o for s, o in zip(surfaces, offsets[:-1], strict=True)])
         triangles = quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3).astype(np.int32)
-        faces = [_face_colors(c, s) for c, s in zip(colors, surfaces, strict=True)]
+        self._plain = [_of_quads(c, s) for c, s in zip(colors, surfaces, strict=True)]
         with wp.ScopedDevice(self._device):
             self._triangles: Any = wp.array(triangles, dtype=wp.int32)
-            self._colors = vectors(np.repeat(np.concatenate(faces), 2, axis=0))
+            self._colors = _of_triangles(self._plain)
+            self._finishes = opaque(len(triangles))
+            if finishes is not None:
+                rows = [_of_quads(f, s) for f, s in zip(finishes, surfaces, strict=True)]
+                self._finishes = _of_triangles(rows)
             self._directions = vectors(sphere_directions(DIRECTIONS))
+
+    def paint(self, colors: Sequence[Points | None]) -> None:
+        """Colour the frames that follow by vertex.
+
+        Args:
+            colors: one a mesh, linear rgb (V, 3) of the cage's points; None keeps the colours of its faces.
+        """
+        if all(by_vertex is None for by_vertex in colors):
+            return
+        painted = [
+            plain if by_vertex is None else surface.refine(by_vertex)[surface.quads].mean(axis=1)
+            for surface, plain, by_vertex in zip(self._surfaces, self._plain, colors, strict=True)
+        ]
+        with wp.ScopedDevice(self._device):
+            self._colors = _of_triangles(painted)
 
     def shoot(
         self,
@@ -68,6 +89,7 @@ class Raycaster:
         view: View = "three-quarter",
         size: tuple[int, int] = (480, 320),
         particles: Particles | None = None,
+        framing: Framing | None = None,
     ) -> Shot:
         """Draw one frame.
 
@@ -76,6 +98,8 @@ class Raycaster:
             view: side, three-quarter, top or front.
             size: width and height (pixels).
             particles: drawn as balls where no wall hides them.
+            framing: where the camera stands, for pictures that are compared; None lets all points fill the
+                picture.
 
         Raises:
             PreviewError: a point is not finite or out of all reach.
@@ -86,7 +110,7 @@ class Raycaster:
         refined = [s.spread(u) for s, u in zip(self._surfaces, used, strict=True)]
         everything = np.concatenate([*refined, balls.bounds])
         axes = Axes.of(view)
-        framing = frame_points(everything, axes, size[0] / size[1])
+        framing = framing or frame_points(everything, axes, size[0] / size[1])
         with wp.ScopedDevice(self._device):
             # The mesh and the tree must outlive every launch that knows their ids.
             mesh = wp.Mesh(vectors(np.concatenate(refined)), self._triangles.flatten())
@@ -108,6 +132,7 @@ class Raycaster:
         scene.triangles = self._triangles
         scene.normals = vectors(np.concatenate(normals))
         scene.colors = self._colors
+        scene.finishes = self._finishes
         scene.balls = balls
         light_directions(scene, studio, self._directions)
         scene.light = self._light(scene, camera, refined, normals)
@@ -126,9 +151,14 @@ class Raycaster:
         return vectors(np.concatenate([s.spread(g) for s, g in zip(self._surfaces, shares, strict=True)]))
 
 
-def _face_colors(colors: npt.ArrayLike, surface: SmoothSurface) -> npt.NDArray[np.float32]:
-    """Return the colour of every refined quad, (Q, 3)."""
-    rows = np.asarray(colors, dtype=np.float32)
+def _of_triangles(quads: Sequence[npt.NDArray[np.float32]]) -> Any:
+    """Copy rows (Q, 3) of the quads of all meshes to the current device, for each of their two triangles."""
+    return vectors(np.repeat(np.concatenate(quads), 2, axis=0))
+
+
+def _of_quads(given: npt.ArrayLike, surface: SmoothSurface) -> npt.NDArray[np.float32]:
+    """Return a row for every refined quad (Q, 3), of one row (3,) or one for each face of the cage (F, 3)."""
+    rows = np.asarray(given, dtype=np.float32)
     if rows.ndim == 1:
         return np.broadcast_to(rows, (len(surface.quads), 3))
     return rows[surface.cage_face]

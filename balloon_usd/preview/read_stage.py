@@ -7,7 +7,7 @@ from math import inf, isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pxr import Tf, Usd, UsdGeom
+from pxr import Kind, Pcp, Tf, Usd, UsdGeom, UsdUtils
 
 from balloon_usd.preview.error import PreviewError
 from balloon_usd.preview.particles import Particles
@@ -20,6 +20,10 @@ from balloon_usd.stage.animated import STEP
 if TYPE_CHECKING:
     from balloon_usd.preview.stage_mesh import StageMesh
     from balloon_usd.preview.subdivide import Points
+
+
+MISSING_FILE = {Pcp.ErrorType_InvalidAssetPath, Pcp.ErrorType_InvalidSublayerPath}
+"""Errors of a composition that lacks a file."""
 
 
 @dataclass(frozen=True)
@@ -48,6 +52,10 @@ class StageScene:
         world = World.of(self.stage, time_code)
         return [mesh.points_at(time_code, world) for mesh in self.meshes]
 
+    def vertex_colors(self, time_code: float) -> list[Points | None]:
+        """Return the linear rgb (V, 3) of every mesh that is painted by vertex, at a time code."""
+        return [mesh.vertex_colors_at(time_code) for mesh in self.meshes]
+
     def particles(self, time_code: float) -> Particles:
         """Return the particles of all clouds at a time code.
 
@@ -67,17 +75,14 @@ class StageScene:
 def read_stage(path: str | Path, look: str | None = None) -> StageScene:
     """Open a stage in one of its looks, None for its own, and find its meshes and points.
 
+    Where there are component models only these are read: what stands round them in a shot is scenery.
+
     Raises:
-        PreviewError: the file is not there, is no USD file, has no such look, or shows no mesh.
+        PreviewError: the file is not there, no USD file or not whole, has no such look, or shows no mesh.
     """
-    if not _is_file(Path(path)):
-        raise PreviewError(f"{path} is not a file")
-    try:
-        stage = Usd.Stage.Open(str(path))
-    except Tf.ErrorException as error:
-        raise PreviewError(f"{path} is not a USD file") from error
-    selected = select_look(stage, look, path)
+    stage, selected = _opened(path, look)
     drawn = [prim for prim in stage.Traverse(Usd.TraverseInstanceProxies()) if _is_drawn(prim)]
+    drawn = [prim for prim in drawn if _is_of_component(prim)] or drawn
     meshes = [read_mesh(prim) for prim in drawn if prim.IsA(UsdGeom.Mesh)]
     clouds = [StageCloud(str(prim.GetPath()), prim) for prim in drawn if prim.IsA(UsdGeom.Points)]
     meshes = [mesh for mesh in meshes if len(mesh.corners)]
@@ -85,6 +90,30 @@ def read_stage(path: str | Path, look: str | None = None) -> StageScene:
         raise PreviewError(f"{path} shows no mesh")
     title, (start, end, fps) = _title(stage, Path(path)), _times(stage, path)
     return StageScene(title, start, end, fps, tuple(meshes), stage, selected, tuple(clouds))
+
+
+def _opened(path: str | Path, look: str | None) -> tuple[Any, str]:
+    """Open a stage in a look, and return that too, without what USD prints of layers that are missing."""
+    if not _is_file(Path(path)):
+        raise PreviewError(f"{path} is not a file")
+    said = UsdUtils.CoalescingDiagnosticDelegate()
+    try:
+        stage = Usd.Stage.Open(str(path))
+        _require_whole(stage, path)
+        selected = select_look(stage, look, path)
+        _require_whole(stage, path)
+    except Tf.ErrorException as error:
+        raise PreviewError(f"{path} is not a USD file") from error
+    finally:
+        said.TakeUncoalescedDiagnostics()
+    return stage, selected
+
+
+def _require_whole(stage: Any, path: str | Path) -> None:
+    """Refuse a stage that lacks a file which it is composed of."""
+    for error in stage.GetCompositionErrors():
+        if error.errorType in MISSING_FILE:
+            raise PreviewError(f"{path} is not whole: {' '.join(str(error).split())}")
 
 
 def _times(stage: Any, path: str | Path) -> tuple[float, float, float]:
@@ -102,6 +131,15 @@ def _title(stage: Any, path: Path) -> str:
     documented = stage.GetRootLayer().documentation.partition("\n")[0]
     root = stage.GetDefaultPrim()
     return str(documented or (root.GetName() if root else path.stem))
+
+
+def _is_of_component(prim: Any) -> bool:
+    """Tell whether a prim belongs to a component model."""
+    while prim:
+        if Kind.Registry.IsA(Usd.ModelAPI(prim).GetKind(), Kind.Tokens.component):
+            return True
+        prim = prim.GetParent()
+    return False
 
 
 def _is_drawn(prim: Any) -> bool:

@@ -32,11 +32,32 @@ def face_colors(mesh: Any, face_counts: npt.NDArray[np.int64], corners: npt.NDAr
     for subset in binding.GetMaterialBindSubsets():
         color = _material_color(UsdShade.MaterialBindingAPI(subset.GetPrim()))
         if color is not None:
-            colors[_faces_of(subset, len(face_counts))] = color
+            colors[subset_faces(subset, len(face_counts))] = color
     return colors
 
 
-def _faces_of(subset: Any, count: int) -> npt.NDArray[np.int64]:
+def vertex_colors(mesh: Any, time_code: float) -> Colors | None:
+    """Return the linear rgb of every vertex (V, 3) at a time code; None where the faces have colours.
+
+    They do where displayColor has a value for each vertex, and no material has a colour of its own.
+    """
+    primvar = mesh.GetDisplayColorPrimvar()
+    binding = UsdShade.MaterialBindingAPI(mesh.GetPrim())
+    painted = [binding, *(UsdShade.MaterialBindingAPI(s.GetPrim()) for s in binding.GetMaterialBindSubsets())]
+    by_vertex = primvar.GetInterpolation() in {UsdGeom.Tokens.vertex, UsdGeom.Tokens.varying}
+    if not by_vertex or any(_material_color(bound) is not None for bound in painted):
+        return None
+    values = np.asarray(primvar.ComputeFlattened(time_code) or [], dtype=np.float32).reshape(-1, 3)
+    points = mesh.GetPointsAttr().Get(time_code)
+    return values if len(values) == len(points or []) else None
+
+
+def subset_faces(subset: Any, count: int) -> npt.NDArray[np.int64]:
+    """Return the faces of a subset.
+
+    Raises:
+        PreviewError: they are not among the `count` faces of the mesh.
+    """
     faces = np.asarray(subset.GetIndicesAttr().Get() or [], dtype=np.int64)
     if len(faces) and (faces.min() < 0 or faces.max() >= count):
         raise PreviewError(f"{subset.GetPath()} names faces that its mesh has not")

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any
 
 from balloon_usd.preview.error import PreviewError
 from balloon_usd.stage.looks import VARIANT_SET
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
     from pathlib import Path
 
 
@@ -22,8 +24,15 @@ def select_look(stage: Any, look: str | None, path: str | Path) -> str:
     names = variants.GetVariantNames()
     if look is not None:
         if look not in names:
-            there = f"only {', '.join(names)}" if names else "nor any other"
-            raise PreviewError(f'{path} has no look "{look}", {there}')
+            raise PreviewError(f'{path} has no look "{look}", {_instead(look, names)}')
         stage.SetEditTarget(stage.GetSessionLayer())
         variants.SetVariantSelection(look)
     return str(variants.GetVariantSelection())
+
+
+def _instead(look: str, names: Sequence[str]) -> str:
+    """Name the look that was probably meant, or those that there are."""
+    meant = get_close_matches(look.lower(), names, n=1)
+    if meant:
+        return f'did you mean "{meant[0]}"?'
+    return f"only {', '.join(names)}" if names else "nor any other"

@@ -9,7 +9,8 @@ import numpy as np
 from pxr import Usd, UsdGeom
 
 from balloon_usd.preview.error import PreviewError
-from balloon_usd.preview.stage_color import face_colors
+from balloon_usd.preview.stage_color import face_colors, vertex_colors
+from balloon_usd.preview.stage_finish import face_finishes, is_wire
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -29,6 +30,10 @@ class StageMesh:
     """(C,) vertex of each corner, counter-clockwise seen from outside."""
     colors: npt.NDArray[np.float32]
     """(F, 3) linear rgb."""
+    finishes: npt.NDArray[np.float32]
+    """(F, 3) metallic, opacity and shine, 0..1."""
+    wire: bool
+    """Whether only the edges of its faces show."""
     prim: Any
 
     def points_at(self, time_code: float, world: World) -> Points:
@@ -41,6 +46,10 @@ class StageMesh:
         if points.ndim != 2 or len(points) <= self.corners.max():
             raise PreviewError(f"{self.path} has too few points at time code {time_code:g}")
         return world.place(self.prim, points)
+
+    def vertex_colors_at(self, time_code: float) -> npt.NDArray[np.float32] | None:
+        """Return the linear rgb of every vertex (V, 3) at a time code; None where `colors` say it all."""
+        return vertex_colors(UsdGeom.Mesh(self.prim), time_code)
 
 
 def read_mesh(prim: Any) -> StageMesh:
@@ -57,7 +66,8 @@ def read_mesh(prim: Any) -> StageMesh:
     colors = face_colors(mesh, counts, corners)
     if mesh.GetOrientationAttr().Get() == UsdGeom.Tokens.leftHanded:
         corners = _reversed_faces(counts, corners)
-    return StageMesh(path, counts, corners, colors, prim)
+    finishes = face_finishes(mesh, len(counts))
+    return StageMesh(path, counts, corners, colors, finishes, is_wire(mesh), prim)
 
 
 def _require_polygons(path: str, counts: Numbers, corners: Numbers) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 import warp as wp
 
 from balloon_usd.preview.camera import Axes, frame_points
-from balloon_usd.preview.device import drawing_device, vectors
+from balloon_usd.preview.device import drawing_device, opaque, vectors
 from balloon_usd.preview.floor import bake_floor
 from balloon_usd.preview.kernels.raycast import Floor, Scene
 from balloon_usd.preview.kernels.wire import Sheet, draw_sheet
@@ -111,6 +111,7 @@ class Wireframe:
         scene = Scene()
         scene.mesh = mesh.id
         scene.colors = self._walls
+        scene.finishes = opaque(len(self._walls))
         light_directions(scene, studio, self._directions)
         floor = bake_floor(everything, scene, studio.floor)
         shade: Any = floor.shade

@@ -7,7 +7,6 @@ is true of every stage written here.
 
 from __future__ import annotations
 
-from balloon_usd.stage.compare import differences
 from balloon_usd.stage.description import AirDescription, MeshDescription, StageDescription, StageFrame
 from balloon_usd.stage.error import StageError
 from balloon_usd.stage.write import StageWriter, WrittenStage, write_stage
@@ -20,6 +19,5 @@ __all__ = [
     "StageFrame",
     "StageWriter",
     "WrittenStage",
-    "differences",
     "write_stage",
 ]

@@ -18,8 +18,9 @@ def author_air(stage: Any, path: Any, air: AirDescription, pose: AirPose) -> Non
     """Author the particles at a path; their default is the pose."""
     cloud = UsdGeom.Points.Define(stage, path)
     cloud.CreateIdsAttr(Vt.Int64Array.FromNumpy(np.arange(air.count, dtype=np.int64)))
-    cloud.CreateWidthsAttr(Vt.FloatArray([air.width]))
-    cloud.SetWidthsInterpolation(UsdGeom.Tokens.constant)
+    # One width for all is allowed, but USD's own extents want one a point.
+    cloud.CreateWidthsAttr(Vt.FloatArray(air.count, air.width))
+    cloud.SetWidthsInterpolation(UsdGeom.Tokens.vertex)
     for moving in ON_AIR:
         cloud.GetPrim().CreateAttribute(moving.name, moving.type_name, custom=False).Set(moving.read(pose))
     primvars = UsdGeom.PrimvarsAPI(cloud)

@@ -15,7 +15,5 @@ class Built:
 
     files: tuple[Path, ...]
     """Files relative to the built path; the first one is the one to open."""
-    beside: tuple[str, ...] = ()
-    """Names of files that stand beside the built path."""
     stale: tuple[str, ...] = ()
     """Earlier details that were left out."""

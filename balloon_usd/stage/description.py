@@ -11,6 +11,7 @@ from pxr import Sdf
 
 from balloon_usd.stage.error import StageError
 from balloon_usd.stage.provenance import GIVEN, problems
+from balloon_usd.stage.stretch_color import LOWEST_STRETCH
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -110,6 +111,21 @@ class MeshDescription:
         """Number of quads around each vertex (V,)."""
         return np.bincount(self.quads.ravel(), minlength=self.vertex_count)
 
+    @cached_property
+    def vertex_bubble(self) -> NDArray[np.int32]:
+        """A bubble of each vertex (V,), an index into this mesh's `bubble_names`."""
+        bubble = np.zeros(self.vertex_count, dtype=np.int32)
+        bubble[self.quads] = self.quad_bubble[:, None]
+        return bubble
+
+    @cached_property
+    def seam_corners(self) -> NDArray[np.int64]:
+        """Corners (C,), counted through all quads, that lie at vertices of several bubbles."""
+        corners, at_corners = self.quads.ravel(), np.repeat(self.quad_bubble, 4)
+        mixed = np.zeros(self.vertex_count, dtype=bool)
+        mixed[corners[at_corners != self.vertex_bubble[corners]]] = True
+        return np.flatnonzero(mixed[corners])
+
 
 @dataclass(frozen=True)
 class AirDescription:
@@ -155,11 +171,15 @@ class StageDescription:
     """When each step of the recipe begins: (time code, what is done)."""
     airs: tuple[AirDescription, ...] = ()
     """Air of the balloons, in the order of `StageFrame.air`; empty for models without particles."""
+    highest_stretch: float = 7.0
+    """Stretch at which the colours of the look `stress` end: that at which latex bursts."""
 
     def __post_init__(self) -> None:
         require_identifier(self.name)
         _require(len(self.meshes) > 0, f'"{self.name}" has no meshes')
         _require(0.0 < self.fps < float("inf"), f'"{self.name}": fps is {self.fps}')
+        highest = self.highest_stretch
+        _require(LOWEST_STRETCH < highest < float("inf"), f'"{self.name}": highest stretch is {highest}')
         prims = [*(mesh.name for mesh in self.meshes), *(air.name for air in self.airs)]
         for names in (prims, self.bubble_names):
             twice = {name for name in names if list(names).count(name) > 1}
@@ -171,11 +191,14 @@ class StageDescription:
         for problem in problems(self.provenance, GIVEN):
             raise StageError(f'"{self.name}": {problem}')
 
+    def numbers_of(self, mesh: MeshDescription) -> NDArray[np.int32]:
+        """Each of a mesh's `bubble_names` as an index into the sculpture's; -1 where it has no quad."""
+        number = {name: index for index, name in enumerate(self.bubble_names)}
+        return np.array([number.get(name, -1) for name in mesh.bubble_names], dtype=np.int32)
+
     def bubbles_of(self, mesh: MeshDescription) -> NDArray[np.int32]:
         """Bubble of each quad of a mesh (Q,) int32, as an index into the sculpture's `bubble_names`."""
-        number = {name: index for index, name in enumerate(self.bubble_names)}
-        lookup = np.array([number.get(name, -1) for name in mesh.bubble_names], dtype=np.int32)
-        return lookup[mesh.quad_bubble]
+        return self.numbers_of(mesh)[mesh.quad_bubble]
 
 
 def require_identifier(name: str) -> None:

@@ -7,57 +7,66 @@ import os
 import shutil
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
-import numpy as np
 from pxr import Sdf, Tf
 
-from balloon_usd.stage.interface import EXTENTS_HINT, VARIANT_SET
+from balloon_usd.stage.interface import FINISHED, VARIANT_SET, read_extents
+from balloon_usd.stage.looks import STRESS
 from balloon_usd.stage.provenance import KEY
 from balloon_usd.stage.wire_texture import FILE_NAME, wire_png
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from numpy.typing import NDArray
+    from balloon_usd.stage.interface import Extents
 
-MATERIALS = Path("payload", "materials.usda")
-TEXTURE = Path("payload", FILE_NAME)
+PAYLOAD = Path("payload")
+MATERIALS = PAYLOAD / "materials.usda"
+TEXTURE = PAYLOAD / FILE_NAME
 
 
 @dataclass(frozen=True)
 class Earlier:
     """What an asset folder holds besides the detail that is written now."""
 
-    kept: dict[str, NDArray[np.float32]] = field(default_factory=dict)
-    """Details that show the same recipe, and the room they take (2, 3) [m]."""
+    kept: dict[str, Extents] = field(default_factory=dict)
+    """Details that show the same recipe, and the room they take."""
     stale: tuple[str, ...] = ()
     """Details of another recipe text, colour or length: they would show another sculpture."""
 
 
-def detail_files(detail: str) -> tuple[Path, Path, Path]:
-    """Files of one detail, relative to the asset: payload, samples, geometry."""
-    payload = Path("payload")
-    return payload / f"{detail}.usda", payload / f"{detail}_sim.usdc", payload / f"{detail}_geo.usdc"
+class DetailFiles(NamedTuple):
+    """Files of one detail, relative to the asset."""
+
+    payload: Path
+    samples: Path
+    geometry: Path
+    finished: Path
+    stress: Path
+
+
+def detail_files(detail: str) -> DetailFiles:
+    """Files of one detail, relative to the asset."""
+    endings = (".usda", "_sim.usdc", "_geo.usdc", f"_{FINISHED}.usda", f"_{STRESS}.usdc")
+    return DetailFiles(*(PAYLOAD / f"{detail}{ending}" for ending in endings))
 
 
 def find_earlier(asset: Path, built: Path, name: str, written: str) -> Earlier:
     """Look through the asset folder for details other than the one that was just built."""
     try:
         interface = Sdf.Layer.OpenAsAnonymous(str(asset / f"{name}.usda"))
-        variants = dict(interface.GetPrimAtPath(f"/{name}").variantSets[VARIANT_SET].variants)
+        details = list(interface.GetPrimAtPath(f"/{name}").variantSets[VARIANT_SET].variants.keys())
     except (Tf.ErrorException, AttributeError, KeyError):
         return Earlier()
     materials = asset / MATERIALS
     fits = materials.is_file() and filecmp.cmp(materials, built / MATERIALS, shallow=False)
-    kept: dict[str, NDArray[np.float32]] = {}
+    kept: dict[str, Extents] = {}
     stale = []
-    for detail, variant in sorted(variants.items()):
-        hint = variant.primSpec.attributes.get(EXTENTS_HINT)
-        if detail == written:
-            continue
-        if hint and fits and _head(asset, detail) == _head(built, written):
-            kept[detail] = np.array(hint.default, dtype=np.float32)
+    for detail in sorted({*details} - {written}):
+        extents = read_extents(interface, name, detail)
+        if extents and fits and _head(asset, detail) == _head(built, written):
+            kept[detail] = extents
         else:
             stale.append(detail)
     return Earlier(kept, tuple(stale))
@@ -81,16 +90,17 @@ def carry_over(asset: Path, built: Path, leave_out: Iterable[Path]) -> None:
 
 
 def _head(asset: Path, detail: str) -> tuple[object, ...] | None:
-    """What two details must have in common: recipe, rate and range; None without readable samples."""
-    payload, samples, geometry = (asset / file for file in detail_files(detail))
-    if not (payload.is_file() and geometry.is_file()):
+    """What two details must have in common: recipe, layout, rate and range; None without readable samples."""
+    files = detail_files(detail)
+    if not all((asset / file).is_file() for file in files):
         return None
     try:
-        layer = Sdf.Layer.OpenAsAnonymous(str(samples), metadataOnly=True)
+        layer = Sdf.Layer.OpenAsAnonymous(str(asset / files.samples), metadataOnly=True)
     except Tf.ErrorException:
         return None
     facts = layer.customLayerData.get(KEY, {})
-    return facts.get("recipe_sha256"), layer.timeCodesPerSecond, layer.startTimeCode, layer.endTimeCode
+    rate, first, last = layer.timeCodesPerSecond, layer.startTimeCode, layer.endTimeCode
+    return facts.get("recipe_sha256"), facts.get("schema"), rate, first, last
 
 
 def _link_or_copy(source: Path, target: Path) -> None:

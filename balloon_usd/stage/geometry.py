@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pxr import Gf, Sdf, UsdGeom, Vt
+from pxr import Sdf, UsdGeom, Vt
 
 from balloon_usd.stage.air import author_air
 from balloon_usd.stage.animated import ON_MESH, ON_ROOT
@@ -31,7 +31,7 @@ def author_geometry(stage: Any, description: StageDescription, final: Pose) -> N
     UsdGeom.Scope.Define(stage, scope)
     for mesh, pose in zip(description.meshes, final.meshes, strict=True):
         usd_mesh = UsdGeom.Mesh.Define(stage, part_path(description.name, mesh.name))
-        _author_topology(usd_mesh, mesh, seen_through=bool(description.airs))
+        _author_topology(usd_mesh, mesh)
         _author_pose(usd_mesh.GetPrim(), pose)
         _author_primvars(usd_mesh.GetPrim(), mesh, description.bubbles_of(mesh))
         _author_subsets(usd_mesh, description.bubble_names, description.bubbles_of(mesh))
@@ -47,14 +47,13 @@ def author_geometry(stage: Any, description: StageDescription, final: Pose) -> N
         attribute.Set(moving.read(final))
 
 
-def _author_topology(usd_mesh: Any, mesh: MeshDescription, *, seen_through: bool) -> None:
+def _author_topology(usd_mesh: Any, mesh: MeshDescription) -> None:
     counts = np.full(len(mesh.quads), 4, dtype=np.int32)
     usd_mesh.CreateFaceVertexCountsAttr(_integers(counts))
     usd_mesh.CreateFaceVertexIndicesAttr(_integers(mesh.quads.ravel()))
     usd_mesh.CreateSubdivisionSchemeAttr(UsdGeom.Tokens.catmullClark)
     usd_mesh.CreateInterpolateBoundaryAttr(UsdGeom.Tokens.edgeAndCorner)
     usd_mesh.CreateOrientationAttr(UsdGeom.Tokens.rightHanded)
-    usd_mesh.CreateDoubleSidedAttr(seen_through)
 
 
 def _author_pose(prim: Any, pose: MeshPose) -> None:
@@ -70,12 +69,6 @@ def _author_primvars(prim: Any, mesh: MeshDescription, bubbles: NDArray[np.int32
     corners = np.ascontiguousarray(mesh.st.reshape(-1, 2), dtype=np.float32)
     for name, type_name, interpolation, value in (
         ("bubble", Sdf.ValueTypeNames.IntArray, UsdGeom.Tokens.uniform, _integers(bubbles)),
-        (
-            "displayColor",
-            Sdf.ValueTypeNames.Color3fArray,
-            UsdGeom.Tokens.constant,
-            Vt.Vec3fArray([Gf.Vec3f(*mesh.color)]),
-        ),
         (
             "st",
             Sdf.ValueTypeNames.TexCoord2fArray,

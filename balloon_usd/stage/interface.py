@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from pxr import Sdf, Vt
 
 from balloon_usd import __version__
 from balloon_usd.stage.layer_metadata import set_provenance, set_time_range, set_units
+from balloon_usd.stage.looks import STRESS
+from balloon_usd.stage.looks import VARIANT_SET as LOOKS
 from balloon_usd.stage.prim_paths import class_path, root_path
+from balloon_usd.stage.stress import STILL
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -21,7 +24,22 @@ if TYPE_CHECKING:
 
 VARIANT_SET = "detail"
 """Variant set of the root prim: how fine the mesh is."""
+STATE = "state"
+"""Variant set within each detail: the sculpture as it is made, or as it is in the end."""
+MADE = "made"
+"""The whole animation."""
+FINISHED = "finished"
+"""The final pose alone, without any time sample."""
 EXTENTS_HINT = "extentsHint"
+
+
+class Extents(NamedTuple):
+    """Room that one detail takes: smallest and largest corner (2, 3) [m]."""
+
+    made: NDArray[np.float32]
+    """Over all time codes."""
+    finished: NDArray[np.float32]
+    """In the end."""
 
 
 def author_root(layer: Any, description: StageDescription, facts: Mapping[str, str | int | float]) -> Any:
@@ -55,14 +73,31 @@ def set_extents_hint(prim: Any, extent: NDArray[np.float32]) -> None:
     hint.default = Vt.Vec3fArray.FromNumpy(np.ascontiguousarray(extent))
 
 
-def add_detail(root: Any, detail: str, extent: NDArray[np.float32]) -> None:
-    """Add a variant that brings the payload of one detail, with the room that this detail takes."""
-    if VARIANT_SET not in root.variantSets:
-        Sdf.VariantSetSpec(root, VARIANT_SET)
-        root.variantSetNameList.prependedItems.append(VARIANT_SET)
-    variant = Sdf.VariantSpec(root.variantSets[VARIANT_SET], detail).primSpec
-    variant.payloadList.prependedItems.append(Sdf.Payload(f"./payload/{detail}.usda"))
-    set_extents_hint(variant, extent)
+def add_detail(root: Any, detail: str, extents: Extents) -> None:
+    """Add a variant for one detail, with one for each state in it, which brings the payload and its room."""
+    inside = _variant(root, VARIANT_SET, detail)
+    for state, ending, extent in ((MADE, "", extents.made), (FINISHED, f"_{FINISHED}", extents.finished)):
+        variant = _variant(inside, STATE, state)
+        variant.payloadList.prependedItems.append(Sdf.Payload(f"./payload/{detail}{ending}.usda"))
+        set_extents_hint(variant, extent)
+
+
+def read_extents(interface: Any, name: str, detail: str) -> Extents | None:
+    """The rooms that `add_detail` stored in an interface layer; None where they are not."""
+    inside = root_path(name).AppendVariantSelection(VARIANT_SET, detail)
+    paths = (inside.AppendVariantSelection(STATE, state) for state in (MADE, FINISHED))
+    hints = [interface.GetAttributeAtPath(path.AppendProperty(EXTENTS_HINT)) for path in paths]
+    if not all(hints):
+        return None
+    return Extents(*(np.array(hint.default, dtype=np.float32) for hint in hints))
+
+
+def _variant(prim: Any, variant_set: str, variant: str) -> Any:
+    """The spec of a prim within a new variant."""
+    if variant_set not in prim.variantSets:
+        Sdf.VariantSetSpec(prim, variant_set)
+        prim.variantSetNameList.prependedItems.append(variant_set)
+    return Sdf.VariantSpec(prim.variantSets[variant_set], variant).primSpec
 
 
 def payload_layer(description: StageDescription, take: Take, detail: str) -> Any:
@@ -70,8 +105,28 @@ def payload_layer(description: StageDescription, take: Take, detail: str) -> Any
 
     The order matters: the geometry's default pose in a stronger layer would hide all samples.
     """
+    layer = _stacked(description, "./materials.usda", f"./{detail}_sim.usdc", f"./{detail}_geo.usdc")
+    set_time_range(layer, description.fps, take.first, take.last)
+    _add_stress(layer, description, Sdf.Reference(f"./{detail}_stress.usdc"))
+    return layer
+
+
+def finished_layer(description: StageDescription, detail: str) -> Any:
+    """The layer that stacks materials over geometry, whose default pose is the finished sculpture."""
+    layer = _stacked(description, "./materials.usda", f"./{detail}_geo.usdc")
+    still = Sdf.Path.absoluteRootPath.AppendChild(STILL)
+    _add_stress(layer, description, Sdf.Reference(f"./{detail}_stress.usdc", still))
+    return layer
+
+
+def _stacked(description: StageDescription, *files: str) -> Any:
     layer = Sdf.Layer.CreateAnonymous(".usda")
     set_units(layer, description.name)
-    set_time_range(layer, description.fps, take.first, take.last)
-    layer.subLayerPaths = ["./materials.usda", f"./{detail}_sim.usdc", f"./{detail}_geo.usdc"]
+    layer.subLayerPaths = list(files)
     return layer
+
+
+def _add_stress(layer: Any, description: StageDescription, colors: Any) -> None:
+    """Bring the colours of stretch into the look that shows them, and into no other."""
+    root = Sdf.CreatePrimInLayer(layer, root_path(description.name))
+    _variant(root, LOOKS, STRESS).referenceList.prependedItems.append(colors)

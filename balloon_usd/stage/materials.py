@@ -1,86 +1,110 @@
-"""Latex, one material a colour, bound to every mesh of that colour; wire and air where there is air."""
+"""The materials of all looks: one a colour and finish, and those that all balloons share."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from pxr import Gf, Sdf, UsdGeom, UsdShade
+from pxr import UsdGeom, UsdShade
 
-from balloon_usd.stage.looks import author_looks
+from balloon_usd.stage.finish import FINISHES, Color, author_material
+from balloon_usd.stage.looks import (
+    CHROME,
+    CLAY,
+    CLAY_COLOR,
+    CLEAR,
+    RECIPE,
+    STRESS,
+    THESIS,
+    author_look,
+    author_looks,
+)
+from balloon_usd.stage.painted_material import AIR_ROUGHNESS, STRESS_ROUGHNESS, author_painted_material
 from balloon_usd.stage.prim_paths import materials_path, part_path
-from balloon_usd.stage.thesis_materials import AIR, WIRE, author_air_material, author_wire_material
+from balloon_usd.stage.thesis_materials import author_wire_material
 
 if TYPE_CHECKING:
-    from balloon_usd.stage.description import MeshDescription, StageDescription
+    from collections.abc import Iterable
 
-Color = tuple[float, float, float]
+    from balloon_usd.stage.description import StageDescription
 
-# Looks, not measurements: a blown-up balloon is a smooth, slightly cloudy film.
-REFRACTION = 1.52
-"""Index of refraction of natural rubber [1]."""
-ROUGHNESS = 0.18
-COAT = 0.5
-COAT_ROUGHNESS = 0.05
-SUBSURFACE = 0.35
+AIR, WIRE = "air", "wire"
+"""Materials of a stage with air; others that all balloons share are called as their look."""
+
+COLORED = (RECIPE, CLEAR, CHROME)
+"""Looks in the colours of the recipe."""
+LATEX = "latex"
+"""What names of materials in the colours of the recipe begin with, and those of other finishes do not."""
 
 
-def author_materials(stage: Any, description: StageDescription) -> None:
-    """Author the materials and bind them; meshes that are not in the stage become overs."""
-    names = materials_by_color(description.meshes, (AIR, WIRE) if description.airs else ())
+def author_materials(
+    stage: Any, description: StageDescription, looks: tuple[str, ...], shown: str | None = None
+) -> None:
+    """Author the materials of some looks and bind them; meshes that are not in the stage become overs.
+
+    `shown`: the one look that the stage gets; None gives it all of them, as variants.
+    """
     scope = materials_path(description.name)
     stage.OverridePrim(scope.GetParentPath())
     UsdGeom.Scope.Define(stage, scope)
-    materials = {color: _author_latex(stage, scope.AppendChild(name), color) for color, name in names.items()}
     for mesh in description.meshes:
         prim = stage.OverridePrim(part_path(description.name, mesh.name))
-        binding = UsdShade.MaterialBindingAPI.Apply(prim)
-        if not description.airs:
-            binding.Bind(materials[mesh.color])
+        UsdShade.MaterialBindingAPI.Apply(prim)
+    materials = {look: _materials_of(stage, description, look) for look in looks}
     if description.airs:
-        particles = author_air_material(stage, scope.AppendChild(AIR))
+        particles = author_painted_material(stage, scope.AppendChild(AIR), AIR_ROUGHNESS)
         for air in description.airs:
             prim = stage.OverridePrim(part_path(description.name, air.name))
             UsdShade.MaterialBindingAPI.Apply(prim).Bind(particles)
-        wire = author_wire_material(stage, scope.AppendChild(WIRE))
-        latex = {mesh.name: materials[mesh.color] for mesh in description.meshes}
-        author_looks(stage, description, latex, wire)
+    if shown is None:
+        author_looks(stage, description, materials)
+    else:
+        author_look(stage, description, shown, materials[shown])
 
 
-def materials_by_color(meshes: tuple[MeshDescription, ...], taken: tuple[str, ...] = ()) -> dict[Color, str]:
-    """Material name of each colour: the first mesh of a colour names it, a taken name is numbered."""
-    names: dict[Color, str] = {}
-    for mesh in meshes:
-        name, number = mesh.material, 2
-        while mesh.color not in names and name in (*names.values(), *taken):
-            name, number = f"{mesh.material}_{number}", number + 1
-        names.setdefault(mesh.color, name)
-    return names
+def _materials_of(stage: Any, description: StageDescription, look: str) -> dict[str, Any]:
+    """Author the materials of one look; returns that of each mesh by its name."""
+    scope = materials_path(description.name)
+    if look in COLORED:
+        made = {
+            color: author_material(stage, scope.AppendChild(name), color, FINISHES[look])
+            for color, name in material_names(description)[look].items()
+        }
+        return {mesh.name: made[mesh.color] for mesh in description.meshes}
+    if look == THESIS:
+        shared = author_wire_material(stage, scope.AppendChild(WIRE))
+    elif look == STRESS:
+        shared = author_painted_material(stage, scope.AppendChild(STRESS), STRESS_ROUGHNESS)
+    else:
+        shared = author_material(stage, scope.AppendChild(look), CLAY_COLOR, FINISHES[look])
+    return dict.fromkeys((mesh.name for mesh in description.meshes), shared)
 
 
-def _author_latex(stage: Any, path: Any, color: Color) -> Any:
-    """A preview surface that every reader knows, and OpenPBR beside it for those that know more."""
-    material = UsdShade.Material.Define(stage, path)
-    preview = _shader(stage, path.AppendChild("preview"), "UsdPreviewSurface", "diffuseColor", color)
-    _floats(preview, ior=REFRACTION, roughness=ROUGHNESS, clearcoat=COAT, clearcoatRoughness=COAT_ROUGHNESS)
-    surface = preview.CreateOutput("surface", Sdf.ValueTypeNames.Token)
-    material.CreateSurfaceOutput().ConnectToSource(surface)
+def material_names(description: StageDescription) -> dict[str, dict[Color, str]]:
+    """Name of the material of each colour, by look: latex_red, clear_red, chrome_red.
 
-    open_pbr = "ND_open_pbr_surface_surfaceshader"
-    shader = _shader(stage, path.AppendChild("openpbr"), open_pbr, "base_color", color)
-    _floats(shader, specular_ior=REFRACTION, specular_roughness=ROUGHNESS, subsurface_weight=SUBSURFACE)
-    _floats(shader, coat_weight=COAT, coat_roughness=COAT_ROUGHNESS)
-    out = shader.CreateOutput("out", Sdf.ValueTypeNames.Token)
-    material.CreateSurfaceOutput("mtlx").ConnectToSource(out)
-    return material
-
-
-def _shader(stage: Any, path: Any, identifier: str, color_input: str, color: Color) -> Any:
-    shader = UsdShade.Shader.Define(stage, path)
-    shader.CreateIdAttr(identifier)
-    shader.CreateInput(color_input, Sdf.ValueTypeNames.Color3f).Set(Gf.Vec3f(*color))
-    return shader
+    The first mesh of a colour names it; a name that is taken is numbered.
+    """
+    taken = {CLAY, STRESS, *((AIR, WIRE) if description.airs else ())}
+    found: dict[str, dict[Color, str]] = {}
+    for look in COLORED:
+        names: dict[Color, str] = {}
+        for mesh in description.meshes:
+            if mesh.color not in names:
+                wanted = mesh.material if look == RECIPE else f"{look}_{_paint(mesh.material)}"
+                names[mesh.color] = _free(wanted, taken)
+                taken.add(names[mesh.color])
+        found[look] = names
+    return found
 
 
-def _floats(shader: Any, **inputs: float) -> None:
-    for name, value in inputs.items():
-        shader.CreateInput(name, Sdf.ValueTypeNames.Float).Set(value)
+def _paint(material: str) -> str:
+    """What of a material's name says its colour: all but the word latex at its start."""
+    return material.removeprefix(f"{LATEX}_")
+
+
+def _free(name: str, taken: Iterable[str]) -> str:
+    """The name, or if it is taken the name with the first number that is not."""
+    free, number = name, 2
+    while free in taken:
+        free, number = f"{name}_{number}", number + 1
+    return free

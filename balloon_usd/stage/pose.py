@@ -77,7 +77,7 @@ def pose_of(frame: StageFrame, description: StageDescription) -> Pose:
                 points=points.copy(),
                 extent=extent_of(points),
                 stretch=stretch.copy(),
-                pressure=_at_vertices(frame.pressure[description.bubbles_of(mesh)], mesh),
+                pressure=_at_vertices(frame.pressure[description.numbers_of(mesh)], mesh),
             )
             for mesh, points, stretch in meshes
         ),
@@ -115,8 +115,12 @@ def union(extents: list[NDArray[np.float32]]) -> NDArray[np.float32]:
     return np.stack([corners[:, 0].min(axis=0), corners[:, 1].max(axis=0)])
 
 
-def _at_vertices(per_quad: NDArray[np.float32], mesh: MeshDescription) -> NDArray[np.float32]:
+def _at_vertices(per_bubble: NDArray[np.float32], mesh: MeshDescription) -> NDArray[np.float32]:
     """Mean over the quads around each vertex: at a joint, the mean of the two bubbles."""
-    at_corners = np.repeat(per_quad, 4)
-    total = np.bincount(mesh.quads.ravel(), weights=at_corners, minlength=mesh.vertex_count)
-    return np.asarray(total / np.maximum(mesh.quads_at_vertex, 1), dtype=np.float32)
+    found = per_bubble[mesh.vertex_bubble]
+    seam = mesh.seam_corners
+    at_corners = per_bubble[mesh.quad_bubble[seam // 4]]
+    vertices, place = np.unique(mesh.quads.ravel()[seam], return_inverse=True)
+    total = np.bincount(place, weights=at_corners, minlength=len(vertices))
+    found[vertices] = total / mesh.quads_at_vertex[vertices]
+    return found

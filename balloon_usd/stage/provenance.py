@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
     from balloon_usd.stage.description import StageDescription
 
-SCHEMA = 1
+SCHEMA = 2
 """Version of the layout of prims, attributes and files."""
 
 KEY = "balloon_usd"

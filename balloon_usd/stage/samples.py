@@ -14,6 +14,7 @@ from balloon_usd.stage.held import HeldSamples
 from balloon_usd.stage.layer_metadata import set_time_range
 from balloon_usd.stage.pose import Pose, pose_of, union
 from balloon_usd.stage.prim_paths import part_path, root_path
+from balloon_usd.stage.stress import StressColors
 from balloon_usd.stage.tracks import Tracks
 
 if TYPE_CHECKING:
@@ -31,6 +32,31 @@ SAVE_BYTES = 8 * 2**20
 Saving costs about 6 kB of file each time, so small sculptures are saved once. A repack at the end
 (`Export`) would win 0.1 % of the file, and map all of it into memory.
 """
+
+
+@dataclass(frozen=True)
+class Layers:
+    """Where the samples go."""
+
+    samples: Any
+    """Layer of all that moves."""
+    stress: Any = None
+    """Layer of stretch as a colour: one of its own, the same, or none."""
+
+    @property
+    def apart(self) -> bool:
+        """Whether the colours have a layer of their own."""
+        return self.stress is not None and self.stress != self.samples
+
+    @property
+    def all(self) -> tuple[Any, ...]:
+        """Each layer once."""
+        return (self.samples, self.stress) if self.apart else (self.samples,)
+
+    def save(self) -> None:
+        """Bring to disk what was added."""
+        for layer in self.all:
+            layer.Save()
 
 
 @dataclass(frozen=True)
@@ -53,15 +79,17 @@ class Take:
 
 
 class SampleStream:
-    """Samples on their way into a layer, which is saved as it grows; memory does not grow with the frames."""
+    """Samples on their way into layers that are saved as they grow; memory does not grow with the frames."""
 
-    def __init__(self, layer: Any, description: StageDescription, target: Path) -> None:
-        """Prepare the layer's moving attributes; `target` names the stage in error messages."""
-        self.layer = layer
+    def __init__(self, layers: Layers, description: StageDescription, target: Path) -> None:
+        """Prepare the layers' moving attributes; `target` names the stage in error messages."""
+        self._layers = layers
         self._description = description
         self._target = target
+        layer = layers.samples
         self._tracks = Tracks.declare(layer, description)
         self._held = [HeldSamples(layer, part_path(description.name, air.name)) for air in description.airs]
+        self._stress = StressColors(layers.stress, description) if layers.stress else None
         self._take: Take | None = None
         self._unsaved = 0
 
@@ -73,18 +101,21 @@ class SampleStream:
         """
         check_frame(frame, self._description, self._take.last + 1 if self._take else None)
         pose = pose_of(frame, self._description)
-        self._tracks.sample(self.layer, frame.time_code, pose)
+        self._tracks.sample(self._layers.samples, frame.time_code, pose)
         for held, air in zip(self._held, pose.airs, strict=True):
             held.write(frame.time_code, air.cluster)
-        self._take = _longer(self._take, frame.time_code, pose)
         self._unsaved += pose.size
+        if self._stress:
+            self._stress.write(frame.time_code, pose)
+            self._unsaved += self._stress.bytes_a_frame
+        self._take = _longer(self._take, frame.time_code, pose)
         if self._unsaved >= SAVE_BYTES:
             with writing(self._target):
-                self.layer.Save()
+                self._layers.save()
             self._unsaved = 0
 
     def close(self) -> Take:
-        """Write the steps and the time range; the layer is left to be saved once more.
+        """Write the steps, the time range and the final colours; the layers are left to be saved once more.
 
         Raises:
             StageError: There was no frame.
@@ -92,8 +123,11 @@ class SampleStream:
         take = self._take
         if take is None:
             raise StageError(f'"{self._description.name}": there are no frames')
-        _write_steps(self.layer, self._description, take)
-        set_time_range(self.layer, self._description.fps, take.first, take.last)
+        _write_steps(self._layers.samples, self._description, take)
+        if self._stress:
+            self._stress.close(take.final, still=self._layers.apart)
+        for layer in self._layers.all:
+            set_time_range(layer, self._description.fps, take.first, take.last)
         return take
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 from pxr import Sdf, Usd
 
@@ -14,16 +14,24 @@ from balloon_usd.stage.description import require_identifier
 from balloon_usd.stage.earlier import MATERIALS
 from balloon_usd.stage.error import StageError, writing
 from balloon_usd.stage.flat import begin_flat, complete_flat, files_beside
+from balloon_usd.stage.interface import FINISHED
+from balloon_usd.stage.looks import default_look, require_look
 from balloon_usd.stage.properties import one_sample_per_time_code, opens_whole
 from balloon_usd.stage.samples import SampleStream
+from balloon_usd.stage.shot import shot_name, write_shot
+from balloon_usd.stage.usdz import begin_usdz, complete_usdz
+from balloon_usd.stage.wanted import Wanted
 from balloon_usd.stage.workspace import Workspace
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable, Iterator
     from os import PathLike
     from types import TracebackType
 
+    from balloon_usd.stage.built import Built
     from balloon_usd.stage.description import StageDescription, StageFrame
+    from balloon_usd.stage.properties import Finding
+    from balloon_usd.stage.samples import Layers, Take
 
 Corner = tuple[float, float, float]
 
@@ -42,6 +50,20 @@ class WrittenStage:
     """Details that an earlier run had left, removed since they show another recipe."""
 
 
+class _Form(NamedTuple):
+    """A form that a stage can have on disk."""
+
+    ending: str
+    """Of the file; "" for a folder with layers."""
+    begin: Callable[[StageDescription, Wanted, Workspace], Layers]
+    complete: Callable[[Layers, Take, StageDescription, Wanted, Workspace], Built]
+
+
+LAYERED = _Form("", begin_asset, complete_asset)
+FLAT = _Form(".usdc", begin_flat, complete_flat)
+USDZ = _Form(".usdz", begin_usdz, complete_usdz)
+
+
 class StageWriter:
     """A stage that takes its frames one by one, for several stages that grow side by side.
 
@@ -55,17 +77,24 @@ class StageWriter:
         *,
         detail: str = "draft",
         flat: bool = False,
+        usdz: bool = False,
+        look: str | None = None,
+        shot: bool = False,
     ) -> None:
         """Choose the place; see `write_stage`."""
         require_identifier(detail)
-        if detail == MATERIALS.stem:
+        if detail == MATERIALS.stem or detail.endswith(f"_{FINISHED}"):
             raise StageError(f'a detail cannot be called "{detail}"')
-        self._description, self._detail, self._flat = description, detail, flat
-        self._final = Path(folder) / (f"{description.name}.usdc" if flat else description.name)
-        if self._final.exists() and self._final.is_dir() == flat:
-            in_the_way = "folder" if flat else "file"
+        self._form = _form(flat=flat, usdz=usdz, shot=shot)
+        self._description = description
+        shown = default_look(description, textured=not usdz) if look is None else look
+        require_look(shown, description, textured=not usdz)
+        self._wanted = Wanted(detail, shown, shot)
+        self._final = Path(folder) / f"{description.name}{self._form.ending}"
+        if self._final.exists() and self._final.is_dir() == bool(self._form.ending):
+            in_the_way = "folder" if self._form.ending else "file"
             raise StageError(f"{self._final} could not be written: a {in_the_way} is in the way")
-        for beside in (self._final.with_name(name) for name in (files_beside(description) if flat else ())):
+        for beside in (self._final.with_name(name) for name in self._beside()):
             if beside.is_dir():
                 raise StageError(f"{beside} could not be written: a folder is in the way")
         self._work = Workspace(self._final)
@@ -74,9 +103,8 @@ class StageWriter:
         """Make the hidden files; raises `StageError` when the folder cannot be written."""
         with ExitStack() as stack:
             stack.enter_context(self._work)
-            begin = begin_flat if self._flat else begin_asset
-            layer = begin(self._description, self._detail, self._work)
-            self._stream = SampleStream(layer, self._description, self._final)
+            self._layers = self._form.begin(self._description, self._wanted, self._work)
+            self._stream = SampleStream(self._layers, self._description, self._final)
             self._stack = stack.pop_all()
         return self
 
@@ -87,12 +115,13 @@ class StageWriter:
     def finish(self) -> WrittenStage:
         """Write the rest and give the stage its final name; raises `StageError` when that fails."""
         take = self._stream.close()
-        complete = complete_flat if self._flat else complete_asset
-        built = complete(self._stream.layer, take, self._description, self._detail, self._work)
-        del self._stream
-        _verify(self._work.built / built.files[0])
-        self._work.publish(built.beside)
-        beside = tuple(self._final.with_name(name) for name in built.beside)
+        built = self._form.complete(self._layers, take, self._description, self._wanted, self._work)
+        del self._stream, self._layers
+        _verify(self._work.built / built.files[0], one_sample_per_time_code)
+        if self._wanted.shot:
+            _verify(write_shot(self._description, take, self._work, built.files[0]))
+        self._work.publish(self._beside())
+        beside = tuple(self._final.with_name(name) for name in self._beside())
         files = (*(self._final / file for file in built.files), *beside)
         _refresh(files)
         low, high = ((float(x), float(y), float(z)) for x, y, z in take.extent)
@@ -104,6 +133,11 @@ class StageWriter:
         """Remove what was not finished."""
         self._stack.close()
 
+    def _beside(self) -> tuple[str, ...]:
+        """Names of the files that stand beside the stage."""
+        textures = files_beside(self._description) if self._form == FLAT else ()
+        return (*textures, shot_name(self._description)) if self._wanted.shot else textures
+
 
 def write_stage(
     description: StageDescription,
@@ -112,28 +146,52 @@ def write_stage(
     *,
     detail: str = "draft",
     flat: bool = False,
+    usdz: bool = False,
+    look: str | None = None,
+    shot: bool = False,
 ) -> WrittenStage:
-    """Write frames as they come to `folder/NAME/NAME.usda` and its payload, or to one `folder/NAME.usdc`.
+    """Write frames as they come to `folder/NAME/NAME.usda` and its payload, or to one file.
 
     Memory does not grow with the number of frames. Until the last file is whole nothing stands under the
     final name, and what stood there before stays. Other details of the same recipe stay as variants.
-    Where there is air, the one file takes along the texture of the wire, `folder/wire.png`, which is the
-    same for every sculpture.
+
+    Args:
+        description: what the stage shows.
+        frames: at consecutive time codes.
+        folder: gets the stage; made if need be.
+        detail: name of the variant that the frames are.
+        flat: write the one file `NAME.usdc` with one look. Where there is air, it takes along the texture of
+            the wire, `wire.png`, which is the same for every sculpture.
+        usdz: write the one file `NAME.usdz` with one look, Y up and without textures, for AR viewers.
+        look: that is selected; None takes the recipe's colours, or with air and textures the thesis's look.
+        shot: write `NAME_shot.usda` beside it too, with camera, lights and ground.
 
     Raises:
-        StageError: The folder cannot be written, the disk is full, or a frame is not right.
+        StageError: The folder cannot be written, the disk is full, a frame is not right, there is no such
+            look, or the choices exclude each other.
     """
-    with StageWriter(description, folder, detail=detail, flat=flat) as writer:
+    with StageWriter(
+        description, folder, detail=detail, flat=flat, usdz=usdz, look=look, shot=shot
+    ) as writer:
         for frame in frames:
             writer.write(frame)
         return writer.finish()
 
 
-def _verify(file: Path) -> None:
+def _form(*, flat: bool, usdz: bool, shot: bool) -> _Form:
+    """The form that is asked for."""
+    if flat and usdz:
+        raise StageError("flat and usdz exclude each other: a stage has one form at a time")
+    if usdz and shot:
+        raise StageError("usdz and shot exclude each other: a shot refers to a stage whose z is up")
+    return USDZ if usdz else FLAT if flat else LAYERED
+
+
+def _verify(file: Path, *also: Callable[[Any], Iterator[Finding]]) -> None:
     """Open what was built: a write that failed unnoticed must not get the final name."""
     with writing(file):
         stage = Usd.Stage.Open(str(file))
-    for finding in (*opens_whole(stage), *one_sample_per_time_code(stage)):
+    for finding in (found for check in (opens_whole, *also) for found in check(stage)):
         raise StageError(f"{file.name} was not written whole: {finding}")
 
 

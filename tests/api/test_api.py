@@ -5,7 +5,7 @@ from __future__ import annotations
 import subprocess
 import sys
 from itertools import islice
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
@@ -96,6 +96,26 @@ def test_frames_of_another_detail_are_refused(plan: Plan, tmp_path: Path) -> Non
 def test_the_detail_of_a_performance_is_taken_over(plan: Plan, tmp_path: Path) -> None:
     written = write_stage(plan, simulate(plan, detail="preview", device="cpu"), tmp_path, flat=True)
     assert written.files == (tmp_path / "bud.usdc",)
+
+
+@pytest.mark.parametrize(
+    ("choices", "files"),
+    [
+        ({"look": "chrome", "usdz": True}, ["bud.usdz"]),
+        ({"look": "stress", "flat": True, "shot": True}, ["bud.usdc", "bud_shot.usda"]),
+    ],
+)
+def test_form_and_look_of_a_stage_can_be_chosen(
+    choices: dict[str, Any], files: list[str], plan: Plan, tmp_path: Path
+) -> None:
+    written = write_stage(plan, islice(simulate(plan, device="cpu"), 2), tmp_path, **choices)
+    assert [file.name for file in written.files] == files
+
+
+def test_a_look_that_a_stage_cannot_have_is_told(plan: Plan, tmp_path: Path) -> None:
+    with pytest.raises(StageError, match='has no look "crome", did you mean "chrome"'):
+        write_stage(plan, simulate(plan, device="cpu"), tmp_path, look="crome")
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_failed_simulation_is_raised_and_leaves_no_stage(

@@ -13,8 +13,10 @@ from balloon_usd.stage import StageError
 
 ASSET = [
     "snake/payload/draft.usda",
+    "snake/payload/draft_finished.usda",
     "snake/payload/draft_geo.usdc",
     "snake/payload/draft_sim.usdc",
+    "snake/payload/draft_stress.usdc",
     "snake/payload/materials.usda",
     "snake/snake.usda",
 ]

@@ -16,10 +16,9 @@ SMALL = ("--size", 48, 32, "--frames", "1,8", "--device", "cpu")
 
 @pytest.fixture
 def preview(tmp_path, monkeypatch, springs):
-    """Type the command in a folder that holds the flat stage of springs and air."""
+    """Type the command in a folder that holds the stage of springs and air."""
     monkeypatch.chdir(tmp_path)
-    for file in springs.parent.iterdir():
-        shutil.copy(file, tmp_path)
+    shutil.copytree(springs.parent, tmp_path, dirs_exist_ok=True)
 
     def type_command(*words):
         return CliRunner().invoke(main, ["preview", *map(str, words)], prog_name="balloon-usd")
@@ -35,17 +34,22 @@ def refused(result, code=2):
     return line
 
 
-@pytest.mark.parametrize("look", ["latex", "thesis"])
+@pytest.mark.parametrize("look", ["recipe", "stress", "thesis"])
 def test_a_look_can_be_chosen(look, preview, tmp_path):
-    assert preview("capsule.usdc", "-o", "own.png", *SMALL).exit_code == 0
-    assert preview("capsule.usdc", "-o", "asked.png", "--look", look, *SMALL).exit_code == 0
+    assert preview("capsule.usda", "-o", "own.png", *SMALL).exit_code == 0
+    assert preview("capsule.usda", "-o", "asked.png", "--look", look, *SMALL).exit_code == 0
     same = (tmp_path / "own.png").read_bytes() == (tmp_path / "asked.png").read_bytes()
     assert same is (look == "thesis")
 
 
 def test_a_look_that_is_not_there_is_refused_with_those_that_are(preview):
-    line = refused(preview("capsule.usdc", "--look", "wood"))
-    assert line == 'capsule.usdc has no look "wood", only latex, thesis'
+    line = refused(preview("capsule.usda", "--look", "wood"))
+    assert line == 'capsule.usda has no look "wood", only chrome, clay, clear, recipe, stress, thesis'
+
+
+def test_a_slip_of_the_pen_in_a_look_is_told_the_nearest(preview):
+    line = refused(preview("capsule.usda", "--look", "chome"))
+    assert line == 'capsule.usda has no look "chome", did you mean "chrome"?'
 
 
 def test_no_stage_is_refused(preview):
@@ -61,7 +65,7 @@ def test_a_folder_without_a_stage_is_refused(preview, tmp_path):
 
 def test_the_folder_one_stands_in_can_be_drawn(preview, tmp_path, monkeypatch):
     (tmp_path / "capsule").mkdir()
-    stage = Usd.Stage.Open("capsule.usdc")
+    stage = Usd.Stage.Open("capsule.usda")
     stage.Export(str(tmp_path / "capsule" / "capsule.usda"))
     monkeypatch.chdir(tmp_path / "capsule")
     result = preview(".", *SMALL)
@@ -74,9 +78,9 @@ def test_an_output_that_is_a_folder_is_refused_before_anything_is_drawn(preview,
     def never(*_, **__):
         raise AssertionError
 
-    monkeypatch.setattr("balloon_usd.preview.contact_sheet.painter_of", never)
+    monkeypatch.setattr("balloon_usd.preview.contact_sheet.Painter", never)
     (tmp_path / "taken.png").mkdir()
-    line = refused(preview("capsule.usdc", "-o", "taken.png"))
+    line = refused(preview("capsule.usda", "-o", "taken.png"))
     assert line == "taken.png cannot be written: a folder is in the way"
 
 
@@ -85,7 +89,7 @@ def test_a_full_disk_has_its_own_exit_code(preview, monkeypatch):
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr("pathlib.Path.replace", full)
-    line = refused(preview("capsule.usdc", "-o", "x.png", *SMALL), code=1)
+    line = refused(preview("capsule.usda", "-o", "x.png", *SMALL), code=1)
     assert line == "x.png cannot be written: No space left on device"
 
 

@@ -10,6 +10,8 @@ from pxr import Gf, Usd, UsdGeom, Vt
 
 from balloon_usd.preview import PictureNotWrittenError, PreviewError, draw_contact_sheet, spread_moments
 from balloon_usd.preview.png_file import write_png
+from balloon_usd.stage import write_stage
+from tests.stage.capsule import Capsule
 
 SMALL = (96, 64)
 
@@ -82,7 +84,7 @@ def test_a_sheet_shows_the_look_of_the_stage_or_the_one_asked_for(springs, tmp_p
                 springs, tmp_path / f"{look}.png", frames=(8,), size=SMALL, look=look, device="cpu"
             )
         )
-        for look in (None, "thesis", "latex")
+        for look in (None, "thesis", "recipe")
     )
     assert np.array_equal(own, thesis)
     is_red = latex[..., 0] > latex[..., 1] + 80
@@ -91,6 +93,48 @@ def test_a_sheet_shows_the_look_of_the_stage_or_the_one_asked_for(springs, tmp_p
     assert is_blue.any()
     assert not (latex[..., 2] > latex[..., 0] + 40).any()
     assert not (own[..., 0] > own[..., 1] + 150).any()
+
+
+def test_a_stage_in_one_file_is_drawn_as_wire_too(springs, tmp_path):
+    capsule = Capsule(n=4, along=10, grid=(12, 3, 3))
+    flat = write_stage(capsule.describe(), capsule.frames(8), tmp_path, flat=True).files[0]
+    of_layers, of_one_file = (
+        picture_of(draw_contact_sheet(stage, tmp_path / "x.png", frames=(8,), size=SMALL, device="cpu"))
+        for stage in (springs, flat)
+    )
+    assert np.array_equal(of_layers, of_one_file)
+
+
+def test_looks_can_be_told_apart(two_tubes, tmp_path):
+    """Foil has blacker shadows than latex, clay no colour, and through clear latex one sees the paper."""
+    seen = {}
+    for look in ("recipe", "clear", "chrome", "clay"):
+        sheet = draw_contact_sheet(
+            two_tubes, tmp_path / "x.png", frames=(12,), size=(240, 160), look=look, device="cpu"
+        )
+        seen[look] = picture_of(sheet, (240, 160))
+    on_rubber = np.ptp(seen["recipe"], axis=2) > 60
+    assert on_rubber.mean() > 0.05
+    dark = {look: float(np.percentile(picture[on_rubber].mean(axis=1), 10)) for look, picture in seen.items()}
+    assert dark["chrome"] < 0.8 * dark["recipe"]
+    assert dark["clear"] > 1.5 * dark["recipe"]
+    assert np.ptp(seen["clay"][on_rubber], axis=1).max() < 25
+    for look in ("clear", "chrome"):
+        rows = seen[look][on_rubber]
+        assert (rows[:, 0] > rows[:, 2] + 15).any(), look
+        assert (rows[:, 2] > rows[:, 0] + 15).any(), look
+
+
+def test_stress_is_drawn_in_the_colours_of_each_frame(two_tubes, tmp_path):
+    blue = []
+    for time in (1, 12):
+        sheet = draw_contact_sheet(
+            two_tubes, tmp_path / "x.png", frames=(time,), size=SMALL, look="stress", device="cpu"
+        )
+        picture = picture_of(sheet)
+        blue.append(float((picture[..., 2] > picture[..., 0] + 40).mean()))
+    assert blue[0] > 0.1
+    assert blue[1] < 0.5 * blue[0]
 
 
 def test_clusters_change_colour_with_the_frames(springs, tmp_path):

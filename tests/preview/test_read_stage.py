@@ -1,10 +1,14 @@
 from __future__ import annotations
 
+import shutil
+
 import numpy as np
 import pytest
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade, Vt
 
 from balloon_usd.preview import PreviewError, read_stage
+from balloon_usd.stage import write_stage
+from tests.stage.tubes import frames, sculpture
 
 CUBE = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=np.float32)
 QUADS = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
@@ -207,17 +211,22 @@ def test_hidden_particles_are_not_drawn(save):
 
 
 def test_a_stage_is_read_in_its_own_look_or_the_one_asked_for(springs):
-    own, latex = read_stage(springs), read_stage(springs, "latex")
+    own, latex = read_stage(springs), read_stage(springs, "recipe")
     assert (own.look, len(own.clouds), len(own.particles(3).radii)) == ("thesis", 1, 108)
-    assert (latex.look, latex.clouds) == ("latex", ())
+    assert (latex.look, latex.clouds) == ("recipe", ())
+    assert [mesh.wire for mesh in (*own.meshes, *latex.meshes)] == [True, False]
     assert np.allclose(own.meshes[0].colors[0], [0.871, 0.216, 0.005])
     assert np.allclose(latex.meshes[0].colors[0], [0.8, 0.05, 0.08])
     assert read_stage(springs).look == "thesis"
 
 
 def test_a_look_that_is_not_there_is_refused_with_those_that_are(springs, save):
-    with pytest.raises(PreviewError, match=r'has no look "wood", only latex, thesis$'):
+    with pytest.raises(
+        PreviewError, match=r'has no look "wood", only chrome, clay, clear, recipe, stress, thesis$'
+    ):
         read_stage(springs, "wood")
+    with pytest.raises(PreviewError, match=r'has no look "Crome", did you mean "chrome"\?$'):
+        read_stage(springs, "Crome")
     stage = new_stage()
     add_cube(stage)
     assert read_stage(save(stage)).look == ""
@@ -298,3 +307,31 @@ def test_an_end_before_the_start_is_no_trouble(save):
     add_cube(stage)
     stage.SetStartTimeCode(5)
     assert (read_stage(save(stage)).start, read_stage(save(stage)).end) == (5, 5)
+
+
+@pytest.mark.parametrize(
+    ("lost", "told", "look"),
+    [
+        ("payload/draft.usda", "for payload", None),
+        ("payload/draft.usda", "for payload", "stress"),
+        ("payload/draft_sim.usdc", "sublayer", None),
+        ("payload/draft_stress.usdc", "for reference", "stress"),
+    ],
+)
+def test_a_stage_that_lacks_a_file_is_refused_in_one_line(lost, told, look, springs, tmp_path, capfd):
+    shutil.copytree(springs.parent, tmp_path / "capsule")
+    (tmp_path / "capsule" / lost).unlink()
+    with pytest.raises(PreviewError) as caught:
+        read_stage(tmp_path / "capsule" / "capsule.usda", look)
+    (line,) = str(caught.value).splitlines()
+    assert line.startswith(f"{tmp_path / 'capsule' / 'capsule.usda'} is not whole: Could not ")
+    assert lost in line
+    assert told in line
+    assert capfd.readouterr().err == ""
+
+
+def test_of_a_shot_only_the_sculpture_is_drawn(tmp_path):
+    write_stage(sculpture(), frames(3), tmp_path, shot=True)
+    scene = read_stage(tmp_path / "dog_shot.usda")
+    assert [mesh.path.rpartition("/")[2] for mesh in scene.meshes] == ["main", "second"]
+    assert (scene.start, scene.end, scene.fps) == (1, 3, 24)

@@ -54,8 +54,8 @@ def test_a_still_viewer_sees_the_last_frame(capsule: Usd.Stage) -> None:
 
 def test_particles_have_one_width_and_numbers_that_stay(capsule: Usd.Stage) -> None:
     air = air_of(capsule)
-    assert list(air.GetWidthsAttr().Get()) == [pytest.approx(WIDTH)]
-    assert air.GetWidthsInterpolation() == "constant"
+    assert list(air.GetWidthsAttr().Get()) == [pytest.approx(WIDTH)] * len(air.GetIdsAttr().Get())
+    assert air.GetWidthsInterpolation() == "vertex"
     assert list(air.GetIdsAttr().Get()) == list(range(PARTICLES))
     assert str(air.GetIdsAttr().GetTypeName()) == "int64[]"
     assert not air.GetIdsAttr().GetNumTimeSamples() + air.GetWidthsAttr().GetNumTimeSamples()
@@ -177,5 +177,5 @@ def test_frames_need_no_air_where_none_is_described(tmp_path: Path) -> None:
     assert not hasattr(next(frames(1)), "air")
     stage = Usd.Stage.Open(str(write_stage(description, frames(2), tmp_path).files[0]))
     assert not [prim for prim in stage.Traverse() if prim.IsA(UsdGeom.Points)]
-    assert stage.GetDefaultPrim().GetVariantSets().GetNames() == ["detail"]
+    assert "thesis" not in stage.GetDefaultPrim().GetVariantSet("look").GetVariantNames()
     assert not list(tmp_path.rglob("*.png"))

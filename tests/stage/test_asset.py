@@ -23,16 +23,17 @@ def files_of(folder: Path) -> list[str]:
     return sorted(str(file.relative_to(folder)) for file in folder.rglob("*") if file.is_file())
 
 
-def test_an_asset_is_an_interface_over_a_payload_of_four_layers(tmp_path: Path) -> None:
+def test_an_asset_is_an_interface_over_a_payload_of_six_layers(tmp_path: Path) -> None:
     written = write_stage(sculpture(), frames(3), tmp_path / "new" / "out")
-    payload = ["draft.usda", "draft_geo.usdc", "draft_sim.usdc", "materials.usda"]
+    detail = ["draft.usda", "draft_finished.usda", "draft_geo.usdc", "draft_sim.usdc", "draft_stress.usdc"]
+    payload = [*detail, "materials.usda"]
     assert files_of(tmp_path / "new" / "out") == [
         "dog/dog.usda",
         *(f"dog/payload/{name}" for name in payload),
     ]
     assert written.files[0] == tmp_path / "new" / "out" / "dog" / "dog.usda"
     assert all(file.is_file() for file in written.files)
-    assert len(written.files) == 5
+    assert len(written.files) == 7
 
 
 def test_a_flat_stage_is_one_file(tmp_path: Path) -> None:
@@ -49,7 +50,9 @@ def test_the_result_tells_frames_and_extent(tmp_path: Path) -> None:
     assert high[0] == pytest.approx(LENGTH + RADIUS)
 
 
-@pytest.mark.parametrize("layer", ["dog.usda", "payload/draft.usda", "payload/materials.usda"])
+@pytest.mark.parametrize(
+    "layer", ["dog.usda", "payload/draft.usda", "payload/draft_finished.usda", "payload/materials.usda"]
+)
 def test_text_layers_stay_as_they_are(
     layer: str, tmp_path: Path, file_regression: FileRegressionFixture
 ) -> None:
@@ -58,7 +61,7 @@ def test_text_layers_stay_as_they_are(
     file_regression.check(text, extension=".usda", basename=Path(layer).stem)
 
 
-@pytest.mark.parametrize("layer", ["draft_geo.usdc", "draft_sim.usdc"])
+@pytest.mark.parametrize("layer", ["draft_geo.usdc", "draft_sim.usdc", "draft_stress.usdc"])
 def test_crate_layers_stay_as_they_are(
     layer: str, tmp_path: Path, file_regression: FileRegressionFixture
 ) -> None:
@@ -155,7 +158,8 @@ def test_meshes_of_one_colour_share_one_material(tmp_path: Path) -> None:
         if prim.IsA(UsdGeom.Mesh)
     }
     assert bound == {"/dog/mtl/latex_main"}
-    assert len(stage.GetPrimAtPath("/dog/mtl").GetChildren()) == 1
+    names = stage.GetPrimAtPath("/dog/mtl").GetAllChildrenNames()
+    assert names == ["latex_main", "clear_main", "chrome_main", "clay", "stress"]
 
 
 def test_two_colours_under_one_material_name_get_two_materials(tmp_path: Path) -> None:
@@ -163,7 +167,8 @@ def test_two_colours_under_one_material_name_get_two_materials(tmp_path: Path) -
     for mesh in meshes:
         object.__setattr__(mesh, "material", "latex")
     stage = Usd.Stage.Open(str(write_stage(sculpture(meshes=meshes), frames(2), tmp_path).files[0]))
-    assert stage.GetPrimAtPath("/dog/mtl").GetAllChildrenNames() == ["latex", "latex_2"]
+    names = stage.GetPrimAtPath("/dog/mtl").GetAllChildrenNames()
+    assert names[:4] == ["latex", "latex_2", "clear_latex", "clear_latex_2"]
 
 
 def test_the_room_is_known_without_the_payload(written: Path) -> None:

@@ -30,15 +30,21 @@ print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024)
 """
 
 
-@pytest.mark.parametrize("flat", [False, True])
-def test_two_runs_give_the_same_bytes(flat: bool, tmp_path: Path, child: Child) -> None:
-    code = 'write_stage(sculpture(), frames(30), os.environ["OUT"], flat=bool(os.environ["FLAT"]))'
-    write_stage(sculpture(), frames(30), tmp_path / "here", flat=flat)
-    for seed in ("1", "2"):
-        there = tmp_path / f"there_{seed}"
-        process = child(code, OUT=str(there), FLAT="1" if flat else "", PYTHONHASHSEED=seed)
+FORMS = """
+for name, choices in {"layers": {"shot": True}, "flat": {"flat": True}, "usdz": {"usdz": True},
+                      "stress": {"usdz": True, "look": "stress"}}.items():
+    write_stage(sculpture(), frames(30), Path(os.environ["OUT"], name), **choices)
+"""
+
+
+def test_two_runs_give_the_same_bytes_in_every_form(tmp_path: Path, child: Child) -> None:
+    """In another process, with another order of hashes and in another time zone."""
+    for place, seed, zone in (("here", "0", "UTC"), ("there", "1", "Asia/Tokyo"), ("west", "2", "HST10")):
+        there = tmp_path / place
+        process = child(FORMS, OUT=str(there), PYTHONHASHSEED=seed, TZ=zone)
         _, errors = process.communicate()
         assert process.returncode == 0, errors
+        assert sorted(folder.name for folder in there.iterdir()) == ["flat", "layers", "stress", "usdz"]
         assert list(same_bytes(tmp_path / "here", there)) == []
 
 

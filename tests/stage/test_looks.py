@@ -3,18 +3,24 @@ from __future__ import annotations
 import hashlib
 import struct
 import zlib
+from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
-from pxr import Usd, UsdGeom, UsdShade, UsdValidation
+from pxr import Usd, UsdGeom, UsdShade
 
 from balloon_usd import __version__
-from balloon_usd.stage import write_stage
-from balloon_usd.stage.properties import check_variants, flat_equals_composed
+from balloon_usd.diff import flat_equals_composed
+from balloon_usd.stage import StageError, write_stage
+from balloon_usd.stage.properties import check_variants
+from balloon_usd.stage.stretch_color import stretch_colors
 from balloon_usd.stage.wire_texture import CUT, LINE, SIDE, wire_png
 from tests.stage.capsule import Capsule
+from tests.stage.selections import complaints, every_selection
+from tests.stage.tubes import Frame, frames, sculpture
 
 if TYPE_CHECKING:
     from pytest_regressions.file_regression import FileRegressionFixture
@@ -56,28 +62,181 @@ def grey_pixels(png: bytes) -> np.ndarray:
 
 def test_a_stage_with_air_is_shown_as_in_the_thesis(capsule: Usd.Stage) -> None:
     looks = capsule.GetDefaultPrim().GetVariantSet("look")
-    assert looks.GetVariantNames() == ["latex", "thesis"]
-    assert looks.GetVariantSelection() == "thesis"
+    assert looks.GetVariantSelection() == ("thesis" if looks.GetVariantNames() else "")
     assert material_of(capsule, MAIN) == "/capsule/mtl/wire"
     assert is_visible(capsule, AIR)
 
 
-def test_in_the_look_of_latex_the_rubber_hides_the_air(capsule: Usd.Stage) -> None:
-    select(capsule, look="latex")
-    assert material_of(capsule, MAIN) == "/capsule/mtl/latex_red"
-    assert is_visible(capsule, MAIN)
-    assert not is_visible(capsule, AIR)
+@pytest.mark.parametrize(
+    ("look", "bound", "shown"),
+    [
+        ("recipe", "latex_red", False),
+        ("clear", "clear_red", True),
+        ("chrome", "chrome_red", False),
+        ("clay", "clay", False),
+        ("stress", "stress", False),
+        ("thesis", "wire", True),
+    ],
+)
+@pytest.mark.parametrize("form", ["layered", "flat"])
+def test_rubber_hides_the_air_unless_one_sees_through_it(
+    look: str, bound: str, shown: bool, form: str, tmp_path: Path
+) -> None:
+    written = write_stage(Capsule().describe(), Capsule().frames(2), tmp_path, flat=form == "flat", look=look)
+    stage = Usd.Stage.Open(str(written.files[0]))
+    assert material_of(stage, MAIN) == f"/capsule/mtl/{bound}"
+    assert is_visible(stage, MAIN)
+    assert is_visible(stage, AIR) is shown
+    assert UsdGeom.Mesh.Get(stage, MAIN).GetDoubleSidedAttr().Get() is shown
+
+
+def test_a_stage_in_one_file_has_one_look_and_needs_no_composition(aired: Path) -> None:
+    flat = Usd.Stage.Open(str(aired / "capsule.usdc"))
+    assert flat.GetDefaultPrim().GetVariantSets().GetNames() == []
+    assert flat.GetRootLayer().GetCompositionAssetDependencies() == []
+    spec = flat.GetRootLayer().GetPrimAtPath(MAIN)
+    assert spec.relationships["material:binding"].targetPathList.explicitItems == ["/capsule/mtl/wire"]
 
 
 def test_every_look_of_every_detail_has_every_property(capsule: Usd.Stage) -> None:
     assert check_variants(capsule) == []
 
 
+COLORED = ("recipe", "clear", "chrome")
+LOOKS = {"recipe", "clear", "chrome", "clay", "stress"}
+
+
+def surface_of(stage: Usd.Stage, path: str) -> UsdShade.Shader:
+    bound, _ = UsdShade.MaterialBindingAPI(stage.GetPrimAtPath(path)).ComputeBoundMaterial()
+    return bound.ComputeSurfaceSource()[0]
+
+
+def test_every_stage_has_looks_and_shows_the_recipe_s_colours(dog: Usd.Stage) -> None:
+    looks = dog.GetDefaultPrim().GetVariantSet("look")
+    assert {*looks.GetVariantNames()} == LOOKS
+    assert looks.GetVariantSelection() == "recipe"
+    color = surface_of(dog, "/dog/geo/render/main").GetInput("diffuseColor").Get()
+    assert np.allclose(color, (0.8, 0.05, 0.08))
+
+
+@pytest.mark.parametrize("look", COLORED)
+def test_two_colours_stay_told_apart(look: str, dog: Usd.Stage) -> None:
+    select(dog, look=look)
+    paths = [f"/dog/geo/render/{name}" for name in ("main", "second")]
+    assert [material_of(dog, path).rpartition("_")[2] for path in paths] == ["main", "second"]
+    red, blue = (surface_of(dog, path).GetInput("diffuseColor").Get() for path in paths)
+    assert red[0] > 2 * red[2]
+    assert blue[2] > 2 * blue[0]
+
+
+@pytest.mark.parametrize(
+    ("look", "inputs"),
+    [
+        ("recipe", {"ior": 1.52, "clearcoat": 0.5}),
+        ("clear", {"ior": 1.52, "opacity": 0.35}),
+        ("chrome", {"metallic": 1.0, "roughness": 0.08}),
+        ("clay", {"roughness": 1.0, "diffuseColor": (0.45, 0.45, 0.45)}),
+    ],
+)
+def test_each_look_has_its_finish_and_openpbr_beside_it(
+    look: str, inputs: dict[str, object], dog: Usd.Stage
+) -> None:
+    select(dog, look=look)
+    surface = surface_of(dog, "/dog/geo/render/second")
+    for name, value in inputs.items():
+        assert np.allclose(surface.GetInput(name).Get(), value), name
+    open_pbr = UsdShade.Shader(surface.GetPrim().GetParent().GetChild("openpbr"))
+    assert open_pbr.GetShaderId() == "ND_open_pbr_surface_surfaceshader"
+    color = open_pbr.GetInput("base_color").Get()
+    assert color == surface.GetInput("diffuseColor").Get()
+
+
+def stretched(count: int) -> Iterator[Frame]:
+    """Frames whose stretch runs along the tubes and grows."""
+    for frame in frames(count):
+        along = np.linspace(1.0, 6.0, len(frame.stretch[0]), dtype=np.float32)
+        yield replace(frame, stretch=(along + np.float32(0.1 * frame.time_code), along))
+
+
+def test_stress_is_stretch_as_a_colour_at_every_vertex_and_time_code(tmp_path: Path) -> None:
+    stage = Usd.Stage.Open(str(write_stage(sculpture(), stretched(5), tmp_path, look="stress").files[0]))
+    color = UsdGeom.Mesh.Get(stage, "/dog/geo/render/main").GetDisplayColorPrimvar()
+    assert color.GetInterpolation() == "vertex"
+    assert color.GetAttr().GetTimeSamples() == [1, 2, 3, 4, 5]
+    for frame in stretched(5):
+        assert np.array_equal(color.Get(frame.time_code), stretch_colors(frame.stretch[0], 7.0))
+    assert color.Get() == color.Get(5)
+    assert color.GetAttr().GetDocumentation().endswith("1 dark blue, 4 pale yellow, 7 dark red.")
+    (source,), _ = surface_of(stage, "/dog/geo/render/main").GetInput("diffuseColor").GetConnectedSources()
+    assert UsdShade.Shader(source.source.GetPrim()).GetInput("varname").Get() == "displayColor"
+
+
+def test_the_colours_of_stress_are_only_read_in_its_look(dog: Usd.Stage) -> None:
+    def read() -> set[str]:
+        return {Path(layer.realPath).name for layer in dog.GetUsedLayers() if layer.realPath}
+
+    assert "draft_stress.usdc" not in read()
+    assert not dog.GetAttributeAtPath("/dog/geo/render/main.primvars:displayColor").GetNumTimeSamples()
+    select(dog, look="stress")
+    assert "draft_stress.usdc" in read()
+
+
+def test_a_flat_stage_holds_the_colours_of_stress_if_that_is_its_look(tmp_path: Path) -> None:
+    flat, layered = (
+        Usd.Stage.Open(str(write_stage(sculpture(), stretched(4), tmp_path, flat=f, look="stress").files[0]))
+        for f in (True, False)
+    )
+    assert list(flat_equals_composed(flat, layered)) == []
+    plain = write_stage(sculpture(), stretched(4), tmp_path, flat=True).files[0]
+    assert not Usd.Stage.Open(str(plain)).GetDefaultPrim().GetVariantSets().GetNames()
+
+
+@pytest.mark.parametrize("look", [*COLORED, "clay"])
+def test_flat_and_layered_are_alike_in_every_look(look: str, tmp_path: Path) -> None:
+    flat, layered = (
+        Usd.Stage.Open(str(write_stage(sculpture(), frames(2), tmp_path, flat=f, look=look).files[0]))
+        for f in (True, False)
+    )
+    assert list(flat_equals_composed(flat, layered)) == []
+
+
+def test_another_look_of_the_next_run_keeps_the_other_details(tmp_path: Path) -> None:
+    write_stage(sculpture(rings=9), frames(4, rings=9), tmp_path, detail="full", look="clay")
+    written = write_stage(sculpture(), frames(4), tmp_path, look="chrome")
+    assert written.stale == ()
+    stage = Usd.Stage.Open(str(written.files[0]))
+    assert stage.GetDefaultPrim().GetVariantSet("look").GetVariantSelection() == "chrome"
+
+
+@pytest.mark.parametrize(
+    ("choices", "message"),
+    [
+        ({"look": "crome"}, '"dog" has no look "crome", did you mean "chrome"?'),
+        ({"look": "wood"}, '"dog" has no look "wood", expected one of recipe, clear, chrome, clay, stress'),
+        ({"look": "thesis"}, '"dog" has no look "thesis" since it has no air, take "recipe"'),
+        ({"flat": True, "usdz": True}, "flat and usdz exclude each other: a stage has one form at a time"),
+        (
+            {"shot": True, "usdz": True},
+            "usdz and shot exclude each other: a shot refers to a stage whose z is up",
+        ),
+    ],
+)
+def test_what_a_stage_cannot_have_is_told_before_the_first_frame(
+    choices: dict[str, Any], message: str, tmp_path: Path
+) -> None:
+    unasked = frames(2)
+    with pytest.raises(StageError) as caught:
+        write_stage(sculpture(), unasked, tmp_path, **choices)
+    assert str(caught.value) == message
+    assert next(unasked).time_code == 1
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_looks_and_details_do_not_disturb_each_other(aired: Path) -> None:
     stage = Usd.Stage.Open(str(aired / "capsule" / "capsule.usda"))
     stage.SetEditTarget(stage.GetSessionLayer())
     for detail, vertices in (("draft", 42), ("full", 92)):
-        for look, bound in (("latex", "latex_red"), ("thesis", "wire")):
+        for look, bound in (("recipe", "latex_red"), ("thesis", "wire")):
             select(stage, detail=detail, look=look)
             assert len(UsdGeom.Mesh.Get(stage, MAIN).GetPointsAttr().Get(2)) == vertices
             assert material_of(stage, MAIN) == f"/capsule/mtl/{bound}"
@@ -89,7 +248,7 @@ def test_a_shot_may_choose_another_look(aired: Path, tmp_path: Path) -> None:
     stage = Usd.Stage.CreateNew(str(tmp_path / "shot.usda"))
     prim = stage.DefinePrim("/toy")
     prim.GetReferences().AddReference(str(aired / "capsule" / "capsule.usda"))
-    prim.GetVariantSet("look").SetVariantSelection("latex")
+    prim.GetVariantSet("look").SetVariantSelection("recipe")
     assert material_of(stage, "/toy/geo/render/main") == "/toy/mtl/latex_red"
     assert not is_visible(stage, "/toy/geo/render/main_air")
 
@@ -163,7 +322,7 @@ def test_a_material_of_the_recipe_may_be_called_wire(tmp_path: Path) -> None:
     )
     assert material_of(stage, MAIN) == "/capsule/mtl/wire"
     stage.SetEditTarget(stage.GetSessionLayer())
-    select(stage, look="latex")
+    select(stage, look="recipe")
     assert material_of(stage, MAIN) == "/capsule/mtl/wire_2"
     stage.GetSessionLayer().Clear()
 
@@ -179,10 +338,7 @@ def test_the_texture_goes_with_the_air_but_somebody_elses_stays(tmp_path: Path) 
     assert texture.read_bytes() == b"mine"
 
 
-@pytest.mark.parametrize("look", ["latex", "thesis"])
-def test_the_validators_of_usd_have_nothing_to_say(look: str, capsule: Usd.Stage) -> None:
-    select(capsule, look=look)
-    validators = UsdValidation.ValidationRegistry().GetOrLoadAllValidators()
-    errors = UsdValidation.ValidationContext(validators).Validate(capsule)
-    said = [text for text in (error.GetErrorAsString() for error in errors) if "'ND_open_pbr" not in text]
-    assert said == []
+def test_the_validators_of_usd_have_nothing_to_say_in_any_variant(dog: Usd.Stage, capsule: Usd.Stage) -> None:
+    for stage in (dog, capsule):
+        for chosen in every_selection(stage):
+            assert complaints(stage) == [], chosen

@@ -3,6 +3,7 @@ from __future__ import annotations
 import errno
 import os
 import random
+import shutil
 import signal
 import tempfile
 import time
@@ -22,13 +23,15 @@ if TYPE_CHECKING:
 
 Child = Callable[..., "subprocess.Popen[str]"]
 
+FORMS: list[dict[str, bool]] = [{}, {"shot": True}, {"flat": True}, {"usdz": True}]
+
 SLOW_RUN = """
 def slowly():
     for frame in frames(int(os.environ.get("COUNT", "40"))):
         print(frame.time_code, flush=True)
         time.sleep(0.005)
         yield frame
-write_stage(sculpture(), slowly(), os.environ["OUT"], flat="FLAT" in os.environ)
+write_stage(sculpture(), slowly(), os.environ["OUT"], flat="FLAT" in os.environ, usdz="USDZ" in os.environ)
 print("done", flush=True)
 """
 
@@ -46,22 +49,22 @@ def frames_then(error: BaseException) -> Iterator[Frame]:
     raise error
 
 
-@pytest.mark.parametrize("flat", [False, True])
+@pytest.mark.parametrize("form", FORMS, ids=str)
 @pytest.mark.parametrize("error", [KeyboardInterrupt(), RuntimeError("burst at step 3"), GeneratorExit()])
 def test_what_stops_the_frames_passes_through_and_leaves_nothing(
-    error: BaseException, flat: bool, tmp_path: Path
+    error: BaseException, form: dict[str, bool], tmp_path: Path
 ) -> None:
     with pytest.raises(type(error)):
-        write_stage(sculpture(), frames_then(error), tmp_path, flat=flat)
+        write_stage(sculpture(), frames_then(error), tmp_path, **form)
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("flat", [False, True])
-def test_what_stood_under_the_name_stays_when_a_run_fails(flat: bool, tmp_path: Path) -> None:
-    write_stage(sculpture(), frames(4), tmp_path, flat=flat)
+@pytest.mark.parametrize("form", FORMS, ids=str)
+def test_what_stood_under_the_name_stays_when_a_run_fails(form: dict[str, bool], tmp_path: Path) -> None:
+    write_stage(sculpture(), frames(4), tmp_path, **form)
     before = bytes_of(tmp_path)
     with pytest.raises(KeyboardInterrupt):
-        write_stage(sculpture(fps=30.0), frames_then(KeyboardInterrupt()), tmp_path, flat=flat)
+        write_stage(sculpture(fps=30.0), frames_then(KeyboardInterrupt()), tmp_path, **form)
     assert bytes_of(tmp_path) == before
 
 
@@ -69,8 +72,8 @@ def test_what_stood_under_the_name_stays_when_a_run_fails(flat: bool, tmp_path: 
 def test_a_kill_at_a_random_moment_leaves_nothing_under_the_name(
     seed: int, tmp_path: Path, child: Child
 ) -> None:
-    flat = {"FLAT": "1"} if seed % 2 else {}
-    process = child(SLOW_RUN, OUT=str(tmp_path), COUNT="10000", **flat)
+    form = [{}, {"FLAT": "1"}, {"USDZ": "1"}, {}][seed]
+    process = child(SLOW_RUN, OUT=str(tmp_path), COUNT="10000", **form)
     assert process.stdout is not None
     process.stdout.readline()
     time.sleep(random.Random(seed).uniform(0.0, 0.3))
@@ -78,7 +81,7 @@ def test_a_kill_at_a_random_moment_leaves_nothing_under_the_name(
     process.communicate()
     assert [path.name[:5] for path in tmp_path.iterdir()] == [".dog."]
     assert list(whole_or_absent(tmp_path, "dog")) == []
-    write_stage(sculpture(), frames(3), tmp_path, flat=bool(flat))
+    write_stage(sculpture(), frames(3), tmp_path, **{name.lower(): True for name in form})
     assert hidden(tmp_path) == []
 
 
@@ -95,6 +98,25 @@ def test_a_kill_while_replacing_leaves_the_earlier_stage_whole(
     assert list(whole_or_absent(tmp_path, "dog")) == []
     with pytest.raises(RuntimeError, match="no more"):
         write_stage(sculpture(), frames_then(RuntimeError("no more")), tmp_path)
+    assert bytes_of(tmp_path) == before
+
+
+def test_a_full_disk_while_packing_leaves_the_earlier_package(tmp_path: Path, child: Child) -> None:
+    """The layer in the package fits below the limit, the package does not."""
+    write_stage(sculpture(), frames(4), tmp_path, usdz=True)
+    before = bytes_of(tmp_path)
+    size = write_stage(sculpture(), frames(40), tmp_path / "apart", usdz=True).files[0].stat().st_size
+    shutil.rmtree(tmp_path / "apart")
+    code = f"""
+resource.setrlimit(resource.RLIMIT_FSIZE, ({size - 10}, {size - 10}))
+try:
+    write_stage(sculpture(), frames(40), os.environ["OUT"], usdz=True)
+except StageError as error:
+    print(error)
+"""
+    output, errors = child(code, OUT=str(tmp_path)).communicate()
+    assert output.startswith(f"{tmp_path / 'dog.usdz'} could not be written: "), errors
+    assert (output.count("\n"), errors) == (1, "")
     assert bytes_of(tmp_path) == before
 
 
@@ -146,19 +168,22 @@ def test_only_the_leftovers_of_the_same_name_are_swept(tmp_path: Path) -> None:
     assert sorted(path.name for path in hidden(tmp_path)) == sorted(names[1:])
 
 
-@pytest.mark.parametrize("flat", ["", "FLAT"])
+@pytest.mark.parametrize(
+    ("form", "name"), [("shot=True", "dog"), ("flat=True", "dog.usdc"), ("usdz=True", "dog.usdz")]
+)
 @pytest.mark.parametrize("limit", [600, 20_000, 60_000])
-def test_a_full_disk_ends_in_one_clear_line(limit: int, flat: str, tmp_path: Path, child: Child) -> None:
+def test_a_full_disk_ends_in_one_clear_line(
+    limit: int, form: str, name: str, tmp_path: Path, child: Child
+) -> None:
     code = f"""
 resource.setrlimit(resource.RLIMIT_FSIZE, ({limit}, {limit}))
 try:
-    write_stage(sculpture(), frames(40), os.environ["OUT"], flat=bool(os.environ["KIND"]))
+    write_stage(sculpture(), frames(40), os.environ["OUT"], {form})
 except StageError as error:
     print(error)
 """
-    output, errors = child(code, OUT=str(tmp_path), KIND=flat).communicate()
-    final = tmp_path / ("dog.usdc" if flat else "dog")
-    assert (output, errors) == (f"{final} could not be written: File too large\n", "")
+    output, errors = child(code, OUT=str(tmp_path)).communicate()
+    assert (output, errors) == (f"{tmp_path / name} could not be written: File too large\n", "")
     assert list(tmp_path.iterdir()) == []
 
 
@@ -203,14 +228,22 @@ def test_an_output_folder_that_is_a_file_is_refused(tmp_path: Path) -> None:
         write_stage(sculpture(), frames(3), tmp_path / "out")
 
 
-@pytest.mark.parametrize("flat", [False, True])
-def test_what_is_in_the_way_is_told_and_kept(flat: bool, tmp_path: Path) -> None:
-    if flat:
-        (tmp_path / "dog.usdc").mkdir()
+@pytest.mark.parametrize(
+    ("form", "name"),
+    [
+        ({}, "dog"),
+        ({"flat": True}, "dog.usdc"),
+        ({"usdz": True}, "dog.usdz"),
+        ({"shot": True}, "dog_shot.usda"),
+    ],
+)
+def test_what_is_in_the_way_is_told_and_kept(form: dict[str, bool], name: str, tmp_path: Path) -> None:
+    if name == "dog":
+        (tmp_path / name).write_text("a file")
     else:
-        (tmp_path / "dog").write_text("a file")
+        (tmp_path / name).mkdir()
     with pytest.raises(StageError, match=r"a (file|folder) is in the way"):
-        write_stage(sculpture(), frames(3), tmp_path, flat=flat)
+        write_stage(sculpture(), frames(3), tmp_path, **form)
     assert len(list(tmp_path.iterdir())) == 1
 
 

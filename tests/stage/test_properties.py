@@ -1,29 +1,31 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
-from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade, UsdValidation, Vt
+from pxr import Sdf, Usd, UsdValidation, Vt
 
+from balloon_usd.diff import flat_equals_composed
 from balloon_usd.stage.properties import (
     PROPERTIES,
-    Finding,
+    check_property,
+    check_selections,
     check_stage,
     check_variants,
-    flat_equals_composed,
     same_bytes,
     whole_or_absent,
 )
+from tests.stage.damages import AIR, AIR_DAMAGES, DAMAGES, MAIN, air, normals, set_at, velocities, with_row
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-MAIN = "/dog/geo/render/main"
-AIR = "/capsule/geo/render/main_air"
-Damage = Callable[[Usd.Stage], object]
+    from tests.stage.damages import Damage
+
+OF_A_STAGE = range(1, 26)
+"""Properties that an open stage shows by itself."""
 
 
 @pytest.fixture
@@ -32,299 +34,20 @@ def stage(written: Path, tmp_path: Path) -> Usd.Stage:
     return Usd.Stage.Open(str(shutil.copy(written / "dog.usdc", tmp_path / "copy.usdc")))
 
 
-def mesh(stage: Usd.Stage) -> UsdGeom.Mesh:
-    return UsdGeom.Mesh.Get(stage, MAIN)
-
-
-def attribute(stage: Usd.Stage, name: str) -> Usd.Attribute:
-    return stage.GetPrimAtPath(MAIN).GetAttribute(name)
-
-
-def set_at(name: str, time: float | None, change: Callable[[np.ndarray], np.ndarray]) -> Damage:
-    """Change the value of an attribute of the mesh at one time code."""
-
-    def damage(stage: Usd.Stage) -> None:
-        code = Usd.TimeCode.Default() if time is None else time
-        changed = np.ascontiguousarray(change(np.array(attribute(stage, name).Get(code))))
-        attribute(stage, name).Set(changed, code)
-
-    return damage
-
-
-def with_row(row: int | slice, value: object) -> Callable[[np.ndarray], np.ndarray]:
-    def change(values: np.ndarray) -> np.ndarray:
-        values[row] = value
-        return values
-
-    return change
-
-
-def info(key: str, value: object | None) -> Damage:
-    def damage(stage: Usd.Stage) -> None:
-        head = stage.GetRootLayer().pseudoRoot
-        head.ClearInfo(key) if value is None else head.SetInfo(key, value)
-
-    return damage
-
-
-def facts(**changes: object) -> Damage:
-    def damage(stage: Usd.Stage) -> None:
-        layer = stage.GetRootLayer()
-        known = {**layer.customLayerData["balloon_usd"], **changes}
-        layer.customLayerData = {"balloon_usd": {k: v for k, v in known.items() if v is not None}}
-
-    return damage
-
-
-def primvar(name: str, type_name: str, interpolation: str, value: object) -> Damage:
-    def damage(stage: Usd.Stage) -> None:
-        api = UsdGeom.PrimvarsAPI(mesh(stage))
-        api.CreatePrimvar(name, Sdf.ValueTypeNames.Find(type_name), interpolation).Set(value)
-
-    return damage
-
-
-def faces(change: Callable[[np.ndarray], np.ndarray]) -> Damage:
-    """Change the vertex numbers of the quads (Q, 4)."""
-
-    def damage(stage: Usd.Stage) -> None:
-        quads = np.array(attribute(stage, "faceVertexIndices").Get()).reshape(-1, 4)
-        quads = np.ascontiguousarray(change(quads), dtype=np.int32)
-        attribute(stage, "faceVertexIndices").Set(Vt.IntArray.FromNumpy(quads.ravel()))
-        attribute(stage, "faceVertexCounts").Set(Vt.IntArray([4] * len(quads)))
-
-    return damage
-
-
-def velocities(factor: float) -> Damage:
-    """Finite differences per second, times a factor."""
-
-    def damage(stage: Usd.Stage) -> None:
-        points = mesh(stage).GetPointsAttr()
-        for time in points.GetTimeSamples():
-            moved = np.asarray(points.Get(time)) - np.asarray(points.Get(max(time - 1, 1)))
-            mesh(stage).CreateVelocitiesAttr().Set(
-                Vt.Vec3fArray.FromNumpy(moved * np.float32(24 * factor)), time
-            )
-
-    return damage
-
-
-def cloud(widths: list[float], ids: list[int]) -> Damage:
-    def damage(stage: Usd.Stage) -> None:
-        air = UsdGeom.Points.Define(stage, "/dog/geo/render/air")
-        air.CreatePointsAttr([(0, 0, 0)] * len(widths))
-        air.CreateWidthsAttr(widths)
-        air.CreateIdsAttr(ids)
-
-    return damage
-
-
-def air(stage: Usd.Stage) -> UsdGeom.Points:
-    return UsdGeom.Points.Get(stage, AIR)
-
-
-def set_air(name: str, time: float | None, change: Callable[[np.ndarray], np.ndarray]) -> Damage:
-    """Change the value of an attribute of the particles at one time code."""
-
-    def damage(stage: Usd.Stage) -> None:
-        changing = air(stage).GetPrim().GetAttribute(name)
-        code = Usd.TimeCode.Default() if time is None else time
-        changing.Set(np.ascontiguousarray(change(np.array(changing.Get(code)))), code)
-
-    return damage
-
-
-def drop_air(name: str) -> Damage:
-    return lambda stage: air(stage).GetPrim().RemoveProperty(name)
-
-
-def without_look(stage: Usd.Stage) -> None:
-    root = stage.GetRootLayer().GetPrimAtPath("/capsule")
-    root.variantSets["look"].RemoveVariant(root.variantSets["look"].variants["latex"])
-
-
-def latex_unbound(stage: Usd.Stage) -> None:
-    looks = stage.GetDefaultPrim().GetVariantSet("look")
-    looks.SetVariantSelection("latex")
-    with looks.GetVariantEditContext():
-        stage.GetPrimAtPath("/capsule/geo/render/main").RemoveProperty("material:binding")
-    looks.SetVariantSelection("thesis")
-
-
-def bind_subset(family: str) -> Damage:
-    def damage(stage: Usd.Stage) -> None:
-        subset = UsdGeom.Subset.CreateGeomSubset(
-            mesh(stage), "patch", "face", [0, 1], family, "nonOverlapping"
-        )
-        material = UsdShade.Material.Get(stage, "/dog/mtl/latex_main")
-        UsdShade.MaterialBindingAPI.Apply(subset.GetPrim()).Bind(material)
-
-    return damage
-
-
-def bind_outside(stage: Usd.Stage) -> None:
-    material = UsdShade.Material.Define(stage, "/shop/latex")
-    UsdShade.MaterialBindingAPI(mesh(stage)).Bind(material)
-
-
-def preview_color(value: tuple[float, float, float]) -> Damage:
-    def damage(stage: Usd.Stage) -> None:
-        stage.GetAttributeAtPath("/dog/mtl/latex_main/preview.inputs:diffuseColor").Set(Gf.Vec3f(value))
-
-    return damage
-
-
-def normals(stage: Usd.Stage) -> None:
-    mesh(stage).CreateNormalsAttr([(0, 0, 1)])
-
-
-def subset_indices(indices: list[int]) -> Damage:
-    return lambda stage: stage.GetAttributeAtPath(f"{MAIN}/nose.indices").Set(Vt.IntArray(indices))
-
-
-DAMAGES: list[tuple[int, str, Damage]] = [
-    (1, "missing reference", lambda s: s.GetDefaultPrim().GetReferences().AddReference("./gone.usda")),
-    (1, "missing sublayer", lambda s: s.GetRootLayer().subLayerPaths.append("./gone.usda")),
-    (2, "kind", lambda s: s.GetDefaultPrim().SetKind("group")),
-    (2, "second root", lambda s: UsdGeom.Xform.Define(s, "/stage_light")),
-    (2, "root is a scope", lambda s: s.GetDefaultPrim().SetTypeName("Scope")),
-    (2, "no default prim", lambda s: s.ClearDefaultPrim()),
-    (3, "Y up", info("upAxis", "Y")),
-    (3, "centimetres", info("metersPerUnit", 0.01)),
-    (3, "no rate", info("timeCodesPerSecond", None)),
-    (3, "no end", info("endTimeCode", None)),
-    (4, "rates differ", info("framesPerSecond", 30.0)),
-    (4, "an unknown rate", facts(fps=25.0)),
-    (5, "gap", lambda s: attribute(s, "points").ClearAtTime(3)),
-    (5, "between frames", set_at("points", 3.5, lambda p: p)),
-    (5, "outside the range", set_at("points", 99, lambda p: p)),
-    (5, "extent without points", set_at("extent", 3.5, lambda e: e)),
-    (5, "stretch without points", set_at("primvars:stretch", 0, lambda x: x)),
-    (
-        6,
-        "absolute texture",
-        lambda s: s.GetDefaultPrim().CreateAttribute("t", Sdf.ValueTypeNames.Asset).Set("/a.png"),
-    ),
-    (6, "absolute sublayer", lambda s: s.GetRootLayer().subLayerPaths.append("/tmp/gone.usda")),
-    (7, "dangling over", lambda s: s.OverridePrim("/dog/geo/ghost")),
-    (7, "typeless def", lambda s: s.DefinePrim("/dog/geo/ghost")),
-    (
-        8,
-        "as large as a house",
-        lambda s: UsdGeom.Xformable(s.GetDefaultPrim()).AddScaleOp().Set((100, 100, 100)),
-    ),
-    (8, "as small as a seed", lambda s: UsdGeom.Xformable(s.GetDefaultPrim()).AddScaleOp().Set((0.01,) * 3)),
-    (9, "no recipe", facts(recipe_sha256=None)),
-    (9, "host", facts(render_host="blade07")),
-    (9, "absolute recipe", facts(recipe="C:\\dog.yaml")),
-    (9, "no asset info", lambda s: s.GetDefaultPrim().ClearAssetInfo()),
-    (10, "no hint", lambda s: s.GetDefaultPrim().RemoveProperty("extentsHint")),
-    (
-        10,
-        "hint of one frame",
-        lambda s: UsdGeom.ModelAPI(s.GetDefaultPrim()).SetExtentsHint([(0, 0, 0), (1, 1, 1)]),
-    ),
-    (11, "blinking", lambda s: mesh(s).CreateVisibilityAttr().Set("invisible", 2)),
-    (12, "a point less at one time", set_at("points", 4, lambda p: p[1:])),
-    (12, "vertex out of range", set_at("faceVertexIndices", None, with_row(3, 99999))),
-    (12, "counts that do not add up", set_at("faceVertexCounts", None, with_row(3, 5))),
-    (13, "NaN in one sample", set_at("points", 7, with_row(2, np.nan))),
-    (13, "infinite stretch", set_at("primvars:stretch", 7, with_row(2, np.inf))),
-    (13, "NaN in the resting pose", set_at("primvars:pressure", None, with_row(0, np.nan))),
-    (14, "loose", set_at("extent", 2, lambda e: e * np.float32(1.1))),
-    (14, "too small", set_at("extent", 2, lambda e: e * np.float32(0.9))),
-    (15, "hole", faces(lambda q: q[1:])),
-    (15, "one face turned", faces(lambda q: np.concatenate([q[:1, ::-1], q[1:]]))),
-    (15, "inside out", faces(lambda q: q[:, ::-1])),
-    (15, "collapsed at one time", set_at("points", 5, with_row(slice(0, 8), 0.0))),
-    (
-        15,
-        "coincident at one time",
-        set_at("points", 5, lambda p: np.concatenate([p[:1], p[:1], p[2:]])),
-    ),
-    (15, "unused point", set_at("points", 1, lambda p: np.concatenate([p, p[:1] + 1]))),
-    (16, "no scheme", lambda s: mesh(s).GetPrim().RemoveProperty("subdivisionScheme")),
-    (16, "normals", normals),
-    (16, "normals as primvar", primvar("normals", "normal3f[]", "constant", [(0, 0, 1)])),
-    (17, "faces with samples", set_at("faceVertexIndices", 1, lambda i: i)),
-    (17, "subsets with samples", lambda s: s.GetAttributeAtPath(f"{MAIN}/nose.indices").Set([0, 1], 2)),
-    (18, "per frame", velocities(1.0 / 24.0)),
-    (18, "none", velocities(0.0)),
-    (18, "too few", lambda s: mesh(s).CreateVelocitiesAttr().Set([(0, 0, 1)])),
-    (19, "one point jumps", set_at("points", 6, with_row(0, 0.5))),
-    (20, "a stretch too few", set_at("primvars:stretch", 4, lambda x: x[1:])),
-    (20, "a bubble too many", set_at("primvars:bubble", None, lambda x: np.append(x, 0).astype(np.int32))),
-    (20, "half", primvar("heat", "half[]", "constant", [1.0])),
-    (20, "scalar", primvar("heat", "float", "constant", 1.0)),
-    (20, "names", primvar("note", "string[]", "constant", ["a"])),
-    (21, "face without bubble", subset_indices([1, 2])),
-    (21, "face in two bubbles", subset_indices(list(range(40)))),
-    (21, "no partition", lambda s: UsdGeom.Subset.SetFamilyType(mesh(s), "bubbles", "unrestricted")),
-    (21, "no bubbles", lambda s: [s.RemovePrim(f"{MAIN}/{n}") for n in ("nose", "left_ear", "right_ear")]),
-    (21, "bound subset in another family", bind_subset("patches")),
-    (21, "bound subset leaves faces out", bind_subset("materialBind")),
-    (22, "unbound", lambda s: UsdShade.MaterialBindingAPI(mesh(s)).UnbindAllBindings()),
-    (22, "binding without schema", lambda s: mesh(s).GetPrim().RemoveAPI(UsdShade.MaterialBindingAPI)),
-    (22, "material outside", bind_outside),
-    (22, "too bright", preview_color((1.5, 0, 0))),
-    (22, "no preview", lambda s: s.RemovePrim("/dog/mtl/latex_main/preview")),
-    (23, "no width", cloud([0.0, 1.0], [1, 2])),
-    (23, "same ids", cloud([1.0, 1.0], [2, 2])),
-    (23, "gprim below gprim", lambda s: UsdGeom.Sphere.Define(s, f"{MAIN}/knot")),
-    (24, "first frame at rest", lambda s: attribute(s, "points").Set(attribute(s, "points").Get(1))),
-    (24, "no resting pose", lambda s: attribute(s, "points").ClearDefault()),
-    (25, "no colour", lambda s: mesh(s).GetPrim().RemoveProperty("primvars:displayColor")),
-    (25, "sides left open", lambda s: mesh(s).GetPrim().RemoveProperty("doubleSided")),
-]
-
-
-AIR_DAMAGES: list[tuple[int, str, Damage]] = [
-    (
-        1,
-        "no texture",
-        lambda s: s.GetAttributeAtPath("/capsule/mtl/wire/texture.inputs:file").Set("./gone.png"),
-    ),
-    (5, "a particle sample missing", lambda s: air(s).GetPointsAttr().ClearAtTime(3)),
-    (5, "extent without particles", set_air("extent", 3.5, lambda e: e)),
-    (5, "clusters between frames", set_air("primvars:cluster", 4.5, lambda c: c)),
-    (5, "colours that blend", lambda s: air(s).GetDisplayColorAttr().ClearAtTime(4)),
-    (10, "a leak outside the hint", set_air("extent", 2, lambda e: e * np.float32(3))),
-    (11, "blinking air", lambda s: air(s).CreateVisibilityAttr().Set("invisible", 2)),
-    (12, "a particle less at one time", set_air("points", 4, lambda p: p[1:])),
-    (12, "no particles", lambda s: air(s).GetPrim().RemoveProperty("points")),
-    (13, "a particle nowhere", set_air("points", 4, with_row(2, np.nan))),
-    (14, "an extent of the centres", set_air("extent", 3, lambda e: e + np.float32([[0.0015], [-0.0015]]))),
-    (17, "ids with samples", set_air("ids", 2, lambda i: i)),
-    (17, "widths with samples", set_air("widths", 2, lambda w: w)),
-    (18, "wrong velocities", lambda s: air(s).CreateVelocitiesAttr().Set([(0, 0, 1)] * 24)),
-    (20, "a colour too few", set_air("primvars:displayColor", 5, lambda c: c[1:])),
-    (20, "a cluster too many", set_air("primvars:cluster", 5, lambda c: np.append(c, c[:1]))),
-    (22, "air without material", lambda s: UsdShade.MaterialBindingAPI(air(s)).UnbindAllBindings()),
-    (23, "two widths for all", set_air("widths", None, lambda w: np.repeat(w, 2))),
-    (23, "an id too few", set_air("ids", None, lambda i: i[1:])),
-    (23, "same ids", set_air("ids", None, lambda i: i // 2)),
-    (23, "flat particles", set_air("widths", None, lambda w: w * 0)),
-    (24, "first frame at rest", lambda s: air(s).GetPointsAttr().Set(air(s).GetPointsAttr().Get(1))),
-    (24, "first clusters at rest", set_air("primvars:cluster", None, lambda c: c * 0)),
-    (25, "no colour", drop_air("primvars:displayColor")),
-]
-
-
-@pytest.mark.parametrize("number", PROPERTIES)
+@pytest.mark.parametrize("number", OF_A_STAGE)
 def test_a_layered_stage_has_the_property(number: int, dog: Usd.Stage) -> None:
-    assert list(PROPERTIES[number](dog)) == []
+    assert check_property(number, dog) == []
 
 
-@pytest.mark.parametrize("number", PROPERTIES)
+@pytest.mark.parametrize("number", OF_A_STAGE)
 def test_a_flat_stage_has_the_property(number: int, stage: Usd.Stage) -> None:
-    assert list(PROPERTIES[number](stage)) == []
+    assert check_property(number, stage) == []
 
 
 @pytest.mark.parametrize(("number", "what", "damage"), DAMAGES, ids=[f"{n}-{w}" for n, w, _ in DAMAGES])
 def test_a_damaged_stage_is_found_out(number: int, what: str, damage: Damage, stage: Usd.Stage) -> None:
     damage(stage)
-    findings = list(PROPERTIES[number](stage))
+    findings = check_property(number, stage)
     assert findings
     assert {finding.number for finding in findings} == {number}
 
@@ -343,42 +66,113 @@ def test_damaged_air_is_found_out(number: int, what: str, damage: Damage, spring
     damage(springs)
     if number == 1:
         springs.GetRootLayer().Save()
-    findings = list(PROPERTIES[number](springs))
+    findings = check_property(number, springs)
     assert findings
     assert {finding.number for finding in findings} == {number}
 
 
-def test_widths_may_be_given_particle_by_particle(springs: Usd.Stage) -> None:
+def test_one_width_may_be_given_for_all_particles(springs: Usd.Stage) -> None:
     widths = air(springs).GetWidthsAttr()
-    widths.Set(list(widths.Get()) * 24)
-    assert [str(finding) for finding in PROPERTIES[23](springs)] == [
-        f"property 23: {AIR}: 24 widths, expected 1"
+    widths.Set(list(widths.Get())[:1])
+    assert [str(finding) for finding in check_property(23, springs)] == [
+        f"property 23: {AIR}: 1 widths, expected 24"
     ]
-    air(springs).SetWidthsInterpolation("vertex")
+    air(springs).SetWidthsInterpolation("constant")
     assert check_stage(springs) == []
+
+
+@pytest.fixture
+def layered(aired: Path, tmp_path: Path) -> Usd.Stage:
+    """A copy of the layered capsule with air, whose layers may be damaged."""
+    return Usd.Stage.Open(str(shutil.copytree(aired / "capsule", tmp_path / "capsule") / "capsule.usda"))
+
+
+def materials(stage: Usd.Stage) -> Sdf.Layer:
+    return Sdf.Layer.Find(
+        str(stage.GetRootLayer().realPath).replace("capsule.usda", "payload/materials.usda")
+    )
+
+
+def without_look(look: str) -> Damage:
+    def damage(stage: Usd.Stage) -> None:
+        looks = materials(stage).GetPrimAtPath("/capsule").variantSets["look"]
+        looks.RemoveVariant(looks.variants[look])
+
+    return damage
+
+
+def without_state(stage: Usd.Stage) -> None:
+    states = stage.GetRootLayer().GetPrimAtPath("/capsule{detail=draft}").variantSets["state"]
+    states.RemoveVariant(states.variants["finished"])
+
+
+def clay_unbound(stage: Usd.Stage) -> None:
+    mesh = materials(stage).GetPrimAtPath("/capsule{look=clay}geo/render/main")
+    mesh.RemoveProperty(mesh.properties["material:binding"])
+
+
+def moving_still(stage: Usd.Stage) -> None:
+    file = stage.GetRootLayer().realPath.replace("capsule.usda", "payload/draft_geo.usdc")
+    layer = Sdf.Layer.FindOrOpen(file)
+    path = "/capsule/geo/render/main.points"
+    layer.SetTimeSample(path, 1.0, layer.GetAttributeAtPath(path).default)
 
 
 @pytest.mark.parametrize(
     ("damage", "told"),
     [
-        (without_look, "property 32: there is air, but the looks are ['thesis']"),
-        (latex_unbound, "property 32: latex: property 22: /capsule/geo/render/main: no material"),
+        (without_look("thesis"), "property 32: /capsule: variant set look lacks thesis"),
+        (without_look("clear"), "property 32: /capsule: variant set look lacks clear"),
+        (without_state, "property 32: /capsule: variant set state lacks finished"),
+        (clay_unbound, "clay: property 22: /capsule/geo/render/main: no material"),
+        (moving_still, "property 5: /capsule/geo/render/main at time code 1: 1 points samples in a still"),
     ],
-    ids=["a look is missing", "a look is broken"],
+    ids=["no thesis look", "no clear look", "no still", "a look is broken", "a still that moves"],
 )
-def test_what_is_wrong_with_a_look_that_is_not_selected_is_found_out(
-    damage: Damage, told: str, springs: Usd.Stage
+def test_what_is_wrong_with_a_variant_that_is_not_selected_is_found_out(
+    damage: Damage, told: str, layered: Usd.Stage
 ) -> None:
-    damage(springs)
-    assert check_stage(springs) == []
-    assert [str(finding) for finding in check_variants(springs)] == [told]
+    assert check_variants(layered) == []
+    damage(layered)
+    found = [str(finding) for finding in check_variants(layered)]
+    assert any(text.endswith(told) for text in found), found
+    assert all(text.startswith("property 32: ") for text in found)
 
 
-def test_looking_at_the_variants_leaves_the_stage_as_it_is(springs: Usd.Stage) -> None:
-    before = springs.ExportToString()
-    assert check_variants(springs) == []
-    assert springs.ExportToString() == before
-    assert springs.GetDefaultPrim().GetVariantSet("look").GetVariantSelection() == "thesis"
+def test_every_selection_of_nested_variants_is_looked_at(layered: Usd.Stage) -> None:
+    found = [tuple(selection.items()) for selection, _, _ in check_selections(layered)]
+    assert len(found) == len(set(found)) == 2 * 2 * 6
+    assert dict(found[0]) == {"detail": "draft", "state": "made", "look": "thesis"}
+
+
+def test_looking_at_the_variants_leaves_the_stage_as_it_is(layered: Usd.Stage) -> None:
+    before = layered.ExportToString()
+    assert check_variants(layered) == []
+    assert layered.ExportToString() == before
+    assert layered.GetDefaultPrim().GetVariantSet("look").GetVariantSelection() == "thesis"
+
+
+def test_a_fault_in_the_samples_is_told_once_not_for_every_look(layered: Usd.Stage) -> None:
+    samples = layered.GetRootLayer().realPath.replace("capsule.usda", "payload/draft_sim.usdc")
+    path = "/capsule/geo/render/main.primvars:stretch"
+    layer = Sdf.Layer.FindOrOpen(samples)
+    layer.SetTimeSample(path, 3.0, Vt.FloatArray([np.nan] * len(layer.QueryTimeSample(path, 3.0))))
+    found = [finding for _, _, findings in check_selections(layered) for finding in findings]
+    assert [str(finding) for finding in found] == [f"property 13: {path} at time code 3: NaN or infinity"]
+
+
+def test_a_default_above_samples_hides_them_and_is_found_out(layered: Usd.Stage) -> None:
+    path = "/capsule/geo/render/main.primvars:stretch"
+    layered.GetAttributeAtPath(path).Set(layered.GetAttributeAtPath(path).Get())
+    text = "a default in capsule.usda hides the samples in draft_sim.usdc"
+    assert f"property 5: {path}: {text}" in [str(finding) for finding in check_stage(layered)]
+
+
+def test_a_layer_outside_of_the_folder_is_found_out(layered: Usd.Stage, tmp_path: Path) -> None:
+    Sdf.Layer.CreateNew(str(tmp_path / "studio.usda")).Save()
+    layered.GetRootLayer().subLayerPaths.append("../studio.usda")
+    (finding,) = check_property(6, layered)
+    assert finding.text == f"a layer outside the folder of the stage: {tmp_path / 'studio.usda'}"
 
 
 def test_a_stage_without_variants_is_checked_once(stage: Usd.Stage) -> None:
@@ -388,12 +182,23 @@ def test_a_stage_without_variants_is_checked_once(stage: Usd.Stage) -> None:
 
 
 def test_every_property_has_a_damage_that_shows_it() -> None:
-    assert {number for number, _, _ in DAMAGES} == set(PROPERTIES) == set(range(1, 26))
+    assert {number for number, _, _ in DAMAGES} == set(OF_A_STAGE)
 
 
-@pytest.mark.parametrize("check", [*PROPERTIES.values()])
-def test_an_empty_stage_has_findings_but_no_crash(check: Callable[[Usd.Stage], list[Finding]]) -> None:
-    for finding in check(Usd.Stage.CreateInMemory()):
+def test_all_32_properties_say_how_they_are_tested() -> None:
+    assert list(PROPERTIES) == list(range(1, 33))
+    for number, told in PROPERTIES.items():
+        assert told.says.endswith(".")
+        assert told.where
+        looks = (*told.of_stage, *told.of_values, *told.at_moments)
+        assert bool(looks) == (number in OF_A_STAGE)
+        for look in looks:
+            assert f"Property {number}: " in str(look.__doc__)
+
+
+@pytest.mark.parametrize("number", OF_A_STAGE)
+def test_an_empty_stage_has_findings_but_no_crash(number: int) -> None:
+    for finding in check_property(number, Usd.Stage.CreateInMemory()):
         assert str(finding).startswith("property ")
 
 
@@ -404,7 +209,7 @@ def test_right_velocities_are_no_finding(stage: Usd.Stage) -> None:
 
 def test_a_finding_tells_where_and_when(stage: Usd.Stage) -> None:
     set_at("points", 7, with_row(2, np.nan))(stage)
-    (finding,) = PROPERTIES[13](stage)
+    (finding,) = check_property(13, stage)
     assert str(finding) == f"property 13: {MAIN}.points at time code 7: NaN or infinity"
 
 
@@ -432,7 +237,7 @@ def test_the_flat_stage_equals_the_composed_one(written: Path) -> None:
 def test_a_flat_stage_that_is_not_the_composed_one_is_found_out(stage: Usd.Stage, dog: Usd.Stage) -> None:
     set_at("points", 5, with_row(0, 0.25))(stage)
     (finding,) = flat_equals_composed(stage, dog)
-    assert str(finding) == f"property 31: {MAIN}.points: values differ at 5.0 by up to 0.25"
+    assert str(finding) == f"property 31: {MAIN}.points: differ by up to 0.25 at 5; at 1 of 12 time codes"
 
 
 def test_a_truncated_file_is_not_whole(written: Path, tmp_path: Path) -> None:

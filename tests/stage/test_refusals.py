@@ -196,7 +196,7 @@ def test_no_frames_are_no_stage(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("detail", ["", "a/b", "very full", "materials"])
+@pytest.mark.parametrize("detail", ["", "a/b", "very full", "materials", "draft_finished"])
 def test_a_detail_that_cannot_be_a_file_is_refused(detail: str, tmp_path: Path) -> None:
     with pytest.raises(StageError):
         write_stage(sculpture(), frames(2), tmp_path, detail=detail)

@@ -1,4 +1,4 @@
-"""Ray casting of shiny, slightly translucent latex, and of balls."""
+"""Ray casting of shiny, slightly translucent latex, of foil and clay, and of balls."""
 
 import warp as wp
 
@@ -24,6 +24,10 @@ TURNED_AWAY = wp.constant(-0.2)
 """Cosine to the eye below which no pixel can see a vertex."""
 BALL_STRIDE = wp.constant(12)
 """Every so many directions light a ball, pixel by pixel: it is small."""
+WALLS = wp.constant(24)
+"""Walls behind each other through which a ray is followed."""
+OPAQUE = wp.constant(0.999)
+"""Opacity from which on nothing shows through."""
 EDGE = wp.constant(0.035)
 """Difference between neighbouring pixels, of a channel 0..1, that shows as a stair step."""
 
@@ -37,6 +41,8 @@ class Scene:
     normals: wp.array[wp.vec3]
     light: wp.array[wp.vec3]
     colors: wp.array[wp.vec3]
+    finishes: wp.array[wp.vec3]
+    """Metallic, opacity and shine of each triangle, 0..1."""
     directions: wp.array[wp.vec3]
     """Fixed unit directions all over the sphere."""
     radiances: wp.array[wp.float32]
@@ -132,7 +138,9 @@ def light_floor(scene: Scene, floor: Floor, shade: wp.array2d[wp.vec3]):
             hit = wp.mesh_query_ray(scene.mesh, origin, direction, FAR)
             if hit.result:
                 # A lit balloon is no black blocker: some light comes through in its colour.
-                total += 0.30 * radiance * scene.colors[hit.face]
+                finish = scene.finishes[hit.face]
+                dyed = 0.30 * (1.0 - 0.7 * finish[0]) * scene.colors[hit.face]
+                total += radiance * wp.lerp(wp.vec3(1.0, 1.0, 1.0), dyed, finish[1])
             elif first_ball(scene.balls, origin, direction, FAR).ball < 0:
                 total += radiance * wp.vec3(1.0, 1.0, 1.0)
     shade[row, column] = total / empty
@@ -168,19 +176,42 @@ def latex_body(scene: Scene, face: int, u: float, v: float, facing: float) -> wp
 
 
 @wp.func
-def latex(
+def reflectance(color: wp.vec3, finish: wp.vec3, facing: float) -> wp.vec3:
+    """Return the share (rgb) that a wall mirrors at a cosine to its normal: foil in its own colour."""
+    straight = wp.lerp(FRESNEL_0 * wp.vec3(1.0, 1.0, 1.0), color, finish[0])
+    grazing = wp.pow(1.0 - facing, 5.0)
+    return wp.vec3(finish[2] * (straight + grazing * (wp.vec3(1.0, 1.0, 1.0) - straight)))
+
+
+@wp.func
+def mirrored_wall(scene: Scene, studio: Studio, ray: wp.vec3, face: int, u: float, v: float) -> wp.vec3:
+    """Return the radiance of a wall that is seen in another one."""
+    finish = scene.finishes[face]
+    body = latex_body(scene, face, u, v, 1.0)
+    normal = wp.normalize(blend(scene.normals, scene.triangles, face, u, v))
+    onward = ray - 2.0 * wp.dot(ray, normal) * normal
+    foil = studio_radiance(studio, onward) * scene.colors[face]
+    return wp.vec3(wp.lerp(body, foil, finish[0]))
+
+
+@wp.func
+def wall(
     scene: Scene, studio: Studio, position: wp.vec3, ray: wp.vec3, face: int, u: float, v: float
 ) -> wp.vec3:
-    """Return the radiance of the wall seen along a ray: body colour under a clear, reflecting skin."""
+    """Return the radiance of a wall seen along a ray: what its body hides, under a clear, reflecting skin."""
+    finish = scene.finishes[face]
     normal = wp.normalize(blend(scene.normals, scene.triangles, face, u, v))
+    if finish[1] < OPAQUE and wp.dot(ray, normal) > 0.0:
+        normal = -normal
     facing = wp.max(-wp.dot(ray, normal), 0.0)
-    fresnel = FRESNEL_0 + (1.0 - FRESNEL_0) * wp.pow(1.0 - facing, 5.0)
-    mirrored = ray - 2.0 * wp.dot(ray, normal) * normal
-    seen = wp.vec3(1.0, 1.0, 1.0) * studio_radiance(studio, mirrored)
-    hit = wp.mesh_query_ray(scene.mesh, position + SKIN * normal, mirrored, FAR)
+    share = reflectance(scene.colors[face], finish, facing)
+    onward = ray - 2.0 * wp.dot(ray, normal) * normal
+    seen = wp.vec3(1.0, 1.0, 1.0) * studio_radiance(studio, onward)
+    hit = wp.mesh_query_ray(scene.mesh, position + SKIN * normal, onward, FAR)
     if hit.result:
-        seen = latex_body(scene, hit.face, hit.u, hit.v, 1.0)
-    return wp.vec3((1.0 - fresnel) * latex_body(scene, face, u, v, facing) + fresnel * seen)
+        seen = mirrored_wall(scene, studio, onward, hit.face, hit.u, hit.v)
+    body = finish[1] * (1.0 - finish[0]) * latex_body(scene, face, u, v, facing)
+    return wp.vec3(wp.cw_mul(wp.vec3(1.0, 1.0, 1.0) - share, body) + wp.cw_mul(share, seen))
 
 
 @wp.func
@@ -222,23 +253,43 @@ def backdrop(across: float, height: float) -> wp.vec3:
 
 
 @wp.func
+def behind(
+    studio: Studio, camera: Camera, floor: Floor, ray: wp.vec3, across: float, height: float
+) -> wp.vec3:
+    """Return what a ray sees where nothing is in its way: the paper, with the shadow on it."""
+    radiance = backdrop(across, height)
+    if ray[2] < -1.0e-4:
+        distance = (studio.floor - camera.eye[2]) / ray[2]
+        radiance = wp.cw_mul(radiance, floor_shade(floor, camera.eye + distance * ray))
+    return radiance
+
+
+@wp.func
 def seen_through(
     scene: Scene, studio: Studio, camera: Camera, floor: Floor, across: float, height: float
 ) -> wp.vec3:
     """Return the display-referred rgb at screen coordinates -1..1."""
     ray = wp.normalize(camera.forward + across * camera.right + height * camera.up)
-    radiance = backdrop(across, height)
-    hit = wp.mesh_query_ray(scene.mesh, camera.eye, ray, FAR)
-    nearest = first_ball(scene.balls, camera.eye, ray, wp.where(hit.result, hit.t, FAR))
-    if nearest.ball >= 0:
-        position = camera.eye + nearest.distance * ray
-        radiance = tone(ball_radiance(scene, studio, position, ray, nearest.ball))
-    elif hit.result:
-        radiance = tone(latex(scene, studio, camera.eye + hit.t * ray, ray, hit.face, hit.u, hit.v))
-    elif ray[2] < -1.0e-4:
-        distance = (studio.floor - camera.eye[2]) / ray[2]
-        radiance = wp.cw_mul(radiance, floor_shade(floor, camera.eye + distance * ray))
-    return encode(radiance)
+    origin = camera.eye
+    seen = wp.vec3(0.0, 0.0, 0.0)
+    through = float(1.0)
+    for _ in range(WALLS):
+        if through > 1.0 - OPAQUE:
+            hit = wp.mesh_query_ray(scene.mesh, origin, ray, FAR)
+            nearest = first_ball(scene.balls, origin, ray, wp.where(hit.result, hit.t, FAR))
+            if nearest.ball >= 0:
+                position = origin + nearest.distance * ray
+                seen += through * tone(ball_radiance(scene, studio, position, ray, nearest.ball))
+                through = 0.0
+            elif hit.result:
+                position = origin + hit.t * ray
+                seen += through * tone(wall(scene, studio, position, ray, hit.face, hit.u, hit.v))
+                through *= 1.0 - scene.finishes[hit.face][1]
+                origin = position + SKIN * ray
+            else:
+                seen += through * behind(studio, camera, floor, ray, across, height)
+                through = 0.0
+    return encode(seen)
 
 
 @wp.kernel

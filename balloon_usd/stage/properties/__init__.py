@@ -1,99 +1,93 @@
 """What is true of every stage that this package writes, as numbered checks.
 
-Each property is a function that yields a `Finding` for every place where a stage lacks it; the
-first line of its docstring is the property. 26 to 28 need other programs.
+`PROPERTIES` says what each of the 32 means, for which stages it holds and where it is tested. Those that
+can be seen on an open stage are functions that yield a `Finding` for every place where it is not true: of
+the stage, of each value of each attribute, or of each mesh at each sample of its points.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from balloon_usd.stage.properties.composition import (
-    extents_hint_is_union,
-    no_animated_visibility,
-    nothing_undefined,
-    one_component_root,
-    only_relative_paths,
-    opens_whole,
-    plausible_size,
-    provenance_complete,
-    rates_agree,
-    units_and_times_authored,
-)
-from balloon_usd.stage.properties.files import flat_equals_composed, same_bytes, whole_or_absent
+from balloon_usd.stage.properties.composition import opens_whole
+from balloon_usd.stage.properties.files import same_bytes, whole_or_absent
 from balloon_usd.stage.properties.finding import Finding
-from balloon_usd.stage.properties.looks import (
-    bubbles_partition,
-    color_and_sides_authored,
-    materials_bound,
-    points_and_nesting,
-    primvars_fit,
-)
-from balloon_usd.stage.properties.surface import (
-    all_finite,
-    closed_surface,
-    extents_tight,
-    subdivision_authored,
-    topology_valid,
-)
-from balloon_usd.stage.properties.timing import (
-    default_is_last,
-    no_teleport,
-    one_sample_per_time_code,
-    static_topology,
-    velocities_true,
-)
-from balloon_usd.stage.properties.variants import every_selection
+from balloon_usd.stage.properties.kinds import StageKind, kind_of
+from balloon_usd.stage.properties.samples import look_at_samples
+from balloon_usd.stage.properties.table import PROPERTIES, Property, properties_of
+from balloon_usd.stage.properties.timing import one_sample_per_time_code
+from balloon_usd.stage.properties.variants import Selection, missing_variants, selections
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Iterator
 
-PROPERTIES: dict[int, Callable[[Any], Iterator[Finding]]] = {
-    1: opens_whole,
-    2: one_component_root,
-    3: units_and_times_authored,
-    4: rates_agree,
-    5: one_sample_per_time_code,
-    6: only_relative_paths,
-    7: nothing_undefined,
-    8: plausible_size,
-    9: provenance_complete,
-    10: extents_hint_is_union,
-    11: no_animated_visibility,
-    12: topology_valid,
-    13: all_finite,
-    14: extents_tight,
-    15: closed_surface,
-    16: subdivision_authored,
-    17: static_topology,
-    18: velocities_true,
-    19: no_teleport,
-    20: primvars_fit,
-    21: bubbles_partition,
-    22: materials_bound,
-    23: points_and_nesting,
-    24: default_is_last,
-    25: color_and_sides_authored,
-}
-"""Properties of one open stage, by number."""
+    from balloon_usd.stage.properties.reading import Opinions
+
+
+def check_property(number: int, stage: Any) -> list[Finding]:
+    """Every finding of one property of one stage."""
+    return _findings(stage, {number: PROPERTIES[number]}, set())
 
 
 def check_stage(stage: Any) -> list[Finding]:
     """Every finding of every property of one stage, in order of the numbers."""
-    return [finding for check in PROPERTIES.values() for finding in check(stage)]
+    return _findings(stage, properties_of(kind_of(stage)), set())
+
+
+class Selected(NamedTuple):
+    """A stage in one selection of its variants."""
+
+    selection: Selection
+    stage: Any
+    """So selected until the next one is asked for."""
+    findings: list[Finding]
+    """What was not found in an earlier selection, where that has the same values."""
+
+
+def check_selections(stage: Any) -> Iterator[Selected]:
+    """Every selection of the variants with its findings; its own comes first, and values are looked at once.
+
+    The variants in a shot are those of the shot itself: its sculptures have stages of their own.
+    """
+    properties = properties_of(kind_of(stage))
+    seen: set[Opinions] = set()
+    for selection, selected in selections(stage):
+        findings = [*_findings(selected, properties, seen), *missing_variants(selected)]
+        yield Selected(selection, selected, findings)
 
 
 def check_variants(stage: Any) -> list[Finding]:
-    """Every finding of one stage under every selection of its variants."""
-    return list(every_selection(stage, check_stage))
+    """Every finding of one stage under every selection of its variants, as findings of property 32."""
+    return [
+        finding
+        if finding.number == 32
+        else Finding(32, f"{', '.join(selected.selection.values())}: {finding}")
+        for selected in check_selections(stage)
+        for finding in selected.findings
+    ]
+
+
+def _findings(stage: Any, properties: dict[int, Property], seen: set[Opinions]) -> list[Finding]:
+    found = [finding for told in properties.values() for look in told.of_stage for finding in look(stage)]
+    of_values = [look for told in properties.values() for look in told.of_values]
+    at_moments = [look for told in properties.values() for look in told.at_moments]
+    if of_values or at_moments:
+        found += look_at_samples(stage, of_values, at_moments, seen)
+    return sorted(found, key=lambda finding: finding.number)
 
 
 __all__ = [
     "PROPERTIES",
     "Finding",
+    "Property",
+    "Selected",
+    "Selection",
+    "StageKind",
+    "check_property",
+    "check_selections",
     "check_stage",
     "check_variants",
-    "flat_equals_composed",
+    "kind_of",
     "one_sample_per_time_code",
     "opens_whole",
     "same_bytes",

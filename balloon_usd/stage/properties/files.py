@@ -1,12 +1,11 @@
-"""Properties 29 to 31: what holds between files and runs."""
+"""Properties 29 and 30: what holds between files and runs."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from pxr import Tf, Usd
 
-from balloon_usd.stage.compare import differences
 from balloon_usd.stage.properties.composition import opens_whole
 from balloon_usd.stage.properties.finding import Finding
 from balloon_usd.stage.properties.timing import one_sample_per_time_code
@@ -43,12 +42,6 @@ def whole_or_absent(folder: Path, name: str) -> Iterator[Finding]:
             continue
         for finding in (*opens_whole(stage), *one_sample_per_time_code(stage)):
             yield Finding(30, f"{file}: {finding}")
-
-
-def flat_equals_composed(flat: Any, composed: Any) -> Iterator[Finding]:
-    """Property 31: the single layer equals the composed stage."""
-    for text in differences(flat, composed):
-        yield Finding(31, text)
 
 
 def _files(root: Path) -> list[Path]:

@@ -17,6 +17,8 @@ class Finding:
     """Path of the prim or property; empty for the stage itself."""
     time_code: float | None = None
     """Time code of the sample; None for what does not depend on time."""
+    remedy: str = ""
+    """What to do about it; empty where the table of properties says it."""
 
     def __str__(self) -> str:
         when = "" if self.time_code is None else f" at time code {self.time_code:g}"

@@ -1,4 +1,4 @@
-"""Properties 20 to 23 and 25: primvars, bubbles, materials and what stands below what."""
+"""Properties 21 to 23 and 25: bubbles, materials and what stands below what."""
 
 from __future__ import annotations
 
@@ -9,35 +9,23 @@ from pxr import UsdGeom, UsdShade
 
 from balloon_usd.stage.geometry import FAMILY
 from balloon_usd.stage.properties.finding import Finding
-from balloon_usd.stage.properties.reading import clouds_of, first_value, meshes_of, prims_of, samples_of
+from balloon_usd.stage.properties.reading import (
+    clouds_of,
+    first_value,
+    meshes_of,
+    mistyped,
+    prims_of,
+    samples_of,
+    sculpted,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-SAFE_TYPES = frozenset({"color3f[]", "float2[]", "float3[]", "float[]", "int[]", "point3f[]", "texCoord2f[]"})
-"""Primvar types that arrive in DCC tools; half, double, matrix, string and scalars get lost."""
-
-
-def primvars_fit(stage: Any) -> Iterator[Finding]:
-    """Property 20: primvar lengths fit their interpolation at every sample; DCC-safe types only."""
-    for shape in (*meshes_of(stage), *clouds_of(stage)):
-        lengths = _lengths(shape) if isinstance(shape, UsdGeom.Mesh) else _cloud_lengths(shape)
-        for primvar in UsdGeom.PrimvarsAPI(shape).GetAuthoredPrimvars():
-            path = str(primvar.GetAttr().GetPath())
-            if str(primvar.GetTypeName()) not in SAFE_TYPES:
-                yield Finding(20, f"type {primvar.GetTypeName()} gets lost in DCC tools", path)
-                continue
-            expected = lengths.get(primvar.GetInterpolation(), -1) * primvar.GetElementSize()
-            counted = primvar.GetIndicesAttr() if primvar.IsIndexed() else primvar.GetAttr()
-            for time, values in samples_of(counted):
-                if len(values) != expected:
-                    text = f"{len(values)} {primvar.GetInterpolation()} values, expected {expected}"
-                    yield Finding(20, text, path, time)
-
 
 def bubbles_partition(stage: Any) -> Iterator[Finding]:
     """Property 21: bubble subsets partition the faces; bound subsets cover the mesh, family materialBind."""
-    for mesh in meshes_of(stage):
+    for mesh in sculpted(stage, meshes_of(stage)):
         path = str(mesh.GetPath())
         if not UsdGeom.Subset.GetGeomSubsets(mesh, UsdGeom.Tokens.face, FAMILY):
             yield Finding(21, f'no subsets of family "{FAMILY}"', path)
@@ -53,20 +41,27 @@ def bubbles_partition(stage: Any) -> Iterator[Finding]:
 def materials_bound(stage: Any) -> Iterator[Finding]:
     """Property 22: all that is visible has one material inside the asset, with a preview surface in 0..1."""
     root = stage.GetDefaultPrim()
+    told: set[str] = set()
     for shape in (*meshes_of(stage), *clouds_of(stage)):
         path = str(shape.GetPath())
         if shape.ComputeVisibility() == UsdGeom.Tokens.invisible:
             continue
-        material, _ = UsdShade.MaterialBindingAPI(shape).ComputeBoundMaterial()
-        if not material:
-            yield Finding(22, "no material", path)
-            continue
-        if not shape.GetPrim().HasAPI(UsdShade.MaterialBindingAPI):
-            yield Finding(22, "MaterialBindingAPI is not applied", path)
-        if root and not material.GetPath().HasPrefix(root.GetPath()):
-            yield Finding(22, f"material {material.GetPath()} is outside the asset", path)
-        for text in _preview_faults(material):
-            yield Finding(22, text, str(material.GetPath()))
+        drawn = _bound_subsets(shape) if _covered_by_subsets(shape) else [shape]
+        for bound in drawn:
+            material, _ = UsdShade.MaterialBindingAPI(bound).ComputeBoundMaterial()
+            if not material:
+                yield Finding(22, "no material", path, remedy="bind a material of the asset")
+                continue
+            if not bound.GetPrim().HasAPI(UsdShade.MaterialBindingAPI):
+                remedy = "apply the schema MaterialBindingAPI to the prim"
+                yield Finding(22, "MaterialBindingAPI is not applied", str(bound.GetPath()), remedy=remedy)
+            if root and not material.GetPath().HasPrefix(root.GetPath()):
+                text = f"material {material.GetPath()} is outside the asset"
+                yield Finding(22, text, path, remedy="move the material below the root prim")
+            if str(material.GetPath()) not in told:
+                told.add(str(material.GetPath()))
+                for text in _preview_faults(material):
+                    yield Finding(22, text, str(material.GetPath()))
 
 
 def points_and_nesting(stage: Any) -> Iterator[Finding]:
@@ -93,19 +88,6 @@ def color_and_sides_authored(stage: Any) -> Iterator[Finding]:
             yield Finding(25, "primvars:displayColor is not authored", str(cloud.GetPath()))
 
 
-def _lengths(mesh: Any) -> dict[str, int]:
-    """Number of elements of each interpolation."""
-    counts = first_value(mesh.GetFaceVertexCountsAttr())
-    points = len(first_value(mesh.GetPointsAttr()))
-    return {
-        "constant": 1,
-        "uniform": len(counts),
-        "varying": points,
-        "vertex": points,
-        "faceVarying": int(counts.sum()),
-    }
-
-
 def _cloud_lengths(cloud: Any) -> dict[str, int]:
     """Number of elements of each interpolation."""
     points = len(first_value(cloud.GetPointsAttr()))
@@ -130,19 +112,28 @@ def _id_faults(cloud: Any) -> Iterator[Finding]:
             yield Finding(23, "ids are not unique", str(cloud.GetPath()), time)
 
 
+def _bound_subsets(shape: Any) -> list[Any]:
+    """Face subsets that have a material of their own."""
+    if not isinstance(shape, UsdGeom.Mesh):
+        return []
+    subsets = [s for s in UsdGeom.Subset.GetAllGeomSubsets(shape) if not any(mistyped(s.GetPrim()))]
+    return [s for s in subsets if UsdShade.MaterialBindingAPI(s).GetDirectBinding().GetMaterial()]
+
+
+def _covered_by_subsets(shape: Any) -> bool:
+    covered = {
+        face for subset in _bound_subsets(shape) for face in first_value(subset.GetIndicesAttr()).tolist()
+    }
+    return bool(covered) and len(covered) == len(first_value(shape.GetFaceVertexCountsAttr()))
+
+
 def _bound_subset_faults(mesh: Any) -> Iterator[Finding]:
-    path = str(mesh.GetPath())
-    covered: set[int] = set()
-    bound = False
-    for subset in UsdGeom.Subset.GetAllGeomSubsets(mesh):
-        if not UsdShade.MaterialBindingAPI(subset).GetDirectBinding().GetMaterial():
-            continue
-        bound = True
-        covered.update(first_value(subset.GetIndicesAttr()).tolist())
+    bound = _bound_subsets(mesh)
+    for subset in bound:
         if subset.GetFamilyNameAttr().Get() != UsdShade.Tokens.materialBind:
             yield Finding(21, "a bound subset outside family materialBind", str(subset.GetPath()))
-    if bound and len(covered) != len(first_value(mesh.GetFaceVertexCountsAttr())):
-        yield Finding(21, "bound subsets do not cover the mesh", path)
+    if bound and not _covered_by_subsets(mesh):
+        yield Finding(21, "bound subsets do not cover the mesh", str(mesh.GetPath()))
 
 
 def _preview_faults(material: Any) -> Iterator[str]:

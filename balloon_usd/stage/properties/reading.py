@@ -5,7 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pxr import Usd, UsdGeom
+from pxr import Kind, Usd, UsdGeom
+
+from balloon_usd.stage.properties.kinds import StageKind, kind_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -14,8 +16,22 @@ if TYPE_CHECKING:
 
 
 def prims_of(stage: Any, schema: Any) -> list[Any]:
-    """Active, loaded, defined prims of a schema, wrapped in it, in the order of the stage."""
-    return [schema(prim) for prim in stage.Traverse() if prim.IsA(schema)]
+    """Active, loaded, defined prims of a schema, wrapped in it, in the order of the stage.
+
+    Those with values of other types than the schema's are left out: nothing holds of them.
+    """
+    return [schema(prim) for prim in stage.Traverse() if prim.IsA(schema) and not any(mistyped(prim))]
+
+
+def mistyped(prim: Any) -> Iterator[tuple[str, str, str]]:
+    """Attributes that a layer gives another type than the prim's schema: path, that type, the schema's."""
+    definition = prim.GetPrimDefinition()
+    for attribute in prim.GetAuthoredAttributes():
+        meant = definition.GetAttributeDefinition(attribute.GetName())
+        for spec in attribute.GetPropertyStack() if meant else ():
+            wanted = meant.GetTypeName()
+            if spec.typeName.type != wanted.type:
+                yield str(attribute.GetPath()), str(spec.typeName), str(wanted)
 
 
 def meshes_of(stage: Any) -> list[Any]:
@@ -26,6 +42,21 @@ def meshes_of(stage: Any) -> list[Any]:
 def clouds_of(stage: Any) -> list[Any]:
     """All points, such as the particles of air."""
     return prims_of(stage, UsdGeom.Points)
+
+
+def sculpted(stage: Any, shapes: list[Any]) -> list[Any]:
+    """Those of the shapes that belong to a sculpture: in a shot what stands in components, else all."""
+    if kind_of(stage) is not StageKind.SHOT:
+        return shapes
+    return [shape for shape in shapes if _in_component(shape.GetPrim())]
+
+
+def _in_component(prim: Any) -> bool:
+    while prim:
+        if prim.GetKind() == Kind.Tokens.component:
+            return True
+        prim = prim.GetParent()
+    return False
 
 
 def attributes_of(stage: Any) -> Iterator[Any]:
@@ -57,3 +88,24 @@ def first_value(attribute: Any) -> NDArray[Any]:
 def is_float(values: NDArray[Any]) -> bool:
     """Whether the values are floating-point numbers."""
     return bool(values.dtype.kind == "f")
+
+
+Opinions = tuple[tuple[str, str, float, float], ...]
+"""Where a value comes from: layer, path in it, offset and scale of its time, from strong to weak."""
+
+
+def opinions_on(*attributes: Any) -> Opinions:
+    """Where the values of attributes come from: what is equal for two variants has equal values."""
+    return tuple(
+        (spec.layer.identifier, str(spec.path), offset.offset, offset.scale)
+        for attribute in attributes
+        for spec, offset in attribute.GetPropertyStackWithLayerOffsets(Usd.TimeCode.Default())
+    )
+
+
+def said_by(error: Any) -> str:
+    """What USD says about an error, on one line; "" for what is no text, as in a damaged file."""
+    try:
+        return " ".join(str(error.args[0].commentary).split())
+    except UnicodeDecodeError:
+        return ""

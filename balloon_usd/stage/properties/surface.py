@@ -9,20 +9,15 @@ from pxr import UsdGeom, Vt
 
 from balloon_usd.stage.pose import extent_of
 from balloon_usd.stage.properties.finding import Finding
-from balloon_usd.stage.properties.reading import (
-    attributes_of,
-    clouds_of,
-    first_value,
-    is_float,
-    meshes_of,
-    samples_of,
-    value_at,
-)
+from balloon_usd.stage.properties.reading import clouds_of, is_float, meshes_of
+from balloon_usd.stage.properties.triangles import coincident, edge_faults
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from numpy.typing import NDArray
+
+    from balloon_usd.stage.properties.shape import Moment, Value
 
 TIGHT = 1e-6
 """An extent fits within this fraction of its size (float32 rounding)."""
@@ -30,89 +25,110 @@ TIGHT = 1e-6
 SMALLEST_AREA = 1e-12
 """Area of a face [m2] that counts as none: a square of a thousandth of a millimetre."""
 
+FACES = UsdGeom.Tokens.faceVertexIndices
 
-def topology_valid(stage: Any) -> Iterator[Finding]:
-    """Property 12: valid topology at every sample, constant count of points and of particles."""
-    yield from _particle_faults(stage)
+
+def points_authored(stage: Any) -> Iterator[Finding]:
+    """Property 12: there are points, faces between those of a mesh, and particles."""
     for mesh in meshes_of(stage):
-        path = str(mesh.GetPath())
-        counts, indices = _topology(mesh)
-        seen: set[int] = set()
-        for time, points in samples_of(mesh.GetPointsAttr()):
-            if len(points) in seen:
-                continue
-            if seen:
-                yield Finding(12, f"{len(points)} points, {min(seen)} before", path, time)
-            seen.add(len(points))
-            valid, why = UsdGeom.Mesh.ValidateTopology(
-                Vt.IntArray.FromNumpy(indices), Vt.IntArray.FromNumpy(counts), len(points)
-            )
-            if not valid or not len(counts):
-                yield Finding(12, " ".join(why.split()) or "no faces", path, time)
-        if not seen:
-            yield Finding(12, "no points", path)
-
-
-def _particle_faults(stage: Any) -> Iterator[Finding]:
+        if not mesh.GetPointsAttr().HasValue():
+            yield Finding(12, "no points", str(mesh.GetPath()))
+        if not (mesh.GetFaceVertexIndicesAttr().HasValue() and mesh.GetFaceVertexCountsAttr().HasValue()):
+            yield Finding(12, "no faces", str(mesh.GetPath()))
     for cloud in clouds_of(stage):
-        path = str(cloud.GetPath())
-        counts = [(time, len(points)) for time, points in samples_of(cloud.GetPointsAttr())]
-        if not counts or not counts[0][1]:
-            yield Finding(12, "no particles", path)
-        for time, count in counts:
-            if count != counts[0][1]:
-                yield Finding(12, f"{count} particles, {counts[0][1]} before", path, time)
+        if not cloud.GetPointsAttr().HasValue():
+            yield Finding(12, "no particles", str(cloud.GetPath()))
 
 
-def all_finite(stage: Any) -> Iterator[Finding]:
+def faces_fit_points(value: Value) -> Iterator[Finding]:
+    """Property 12: valid topology."""
+    shape = value.shape
+    if shape is None or not shape.is_mesh or value.attribute.GetName() != FACES:
+        return
+    indices, counts = (Vt.IntArray.FromNumpy(np.ascontiguousarray(a)) for a in (shape.indices, shape.counts))
+    valid, why = UsdGeom.Mesh.ValidateTopology(indices, counts, shape.point_count)
+    if not valid or not len(counts):
+        yield Finding(12, " ".join(why.split()) or "no faces", shape.path, value.time_code)
+    few = int((shape.counts < 3).sum())
+    if few:
+        yield Finding(12, f"{few} faces with fewer than three corners", shape.path, value.time_code)
+
+
+def count_constant(moment: Moment) -> Iterator[Finding]:
+    """Property 12: a constant count of points and of particles."""
+    shape, count = moment.shape, len(moment.points)
+    what = "points" if shape.is_mesh else "particles"
+    if moment.before is None and not count:
+        yield Finding(12, f"no {what}", shape.path, moment.time_code)
+    if moment.before is not None and count != len(moment.before.points):
+        text = f"{count} {what}, {len(moment.before.points)} before"
+        yield Finding(12, text, shape.path, moment.time_code)
+
+
+def all_finite(value: Value) -> Iterator[Finding]:
     """Property 13: no NaN or infinity anywhere."""
-    for attribute in attributes_of(stage):
-        path = str(attribute.GetPath())
-        times = [*attribute.GetTimeSamples(), None]
-        for time in times:
-            values = value_at(attribute, time)
-            if is_float(values) and not np.isfinite(values).all():
-                yield Finding(13, "NaN or infinity", path, time)
+    if is_float(value.array) and not np.isfinite(value.array).all():
+        yield Finding(13, "NaN or infinity", value.path, value.time_code)
 
 
-def extents_tight(stage: Any) -> Iterator[Finding]:
+def extents_tight(moment: Moment) -> Iterator[Finding]:
     """Property 14: an extent per sample, enclosing and tight; particles count with their widths."""
-    for shape in (*meshes_of(stage), *clouds_of(stage)):
-        for time, points in samples_of(shape.GetPointsAttr()):
-            if not len(points):
-                continue
-            radii = _radii(shape, time, len(points))
-            expected = np.stack([extent_of(points - radii)[0], extent_of(points + radii)[1]])
-            found = value_at(shape.GetExtentAttr(), time)
-            slack = TIGHT * float(np.ptp(expected))
-            if found.shape != (2, 3) or np.abs(found - expected).max() > slack:
-                text = f"extent is {found.tolist()}, expected {expected.tolist()}"
-                yield Finding(14, text, str(shape.GetPath()), time)
+    shape, points = moment.shape, moment.points
+    if not len(points):
+        return
+    found = moment.value(shape.schema.GetExtentAttr())
+    if found.shape != (2, 3):
+        yield Finding(14, "no extent", shape.path, moment.time_code, _EXTENT)
+        return
+    if shape.is_mesh:
+        expected = extent_of(points)
+    else:
+        radii = _radii(moment)
+        expected = np.stack([extent_of(points - radii)[0], extent_of(points + radii)[1]])
+    off = np.abs(found - expected).max()
+    if off > TIGHT * float(np.ptp(expected)):
+        inside = bool((found[0] <= expected[0]).all() and (found[1] >= expected[1]).all())
+        what = "is loose" if inside else "does not hold the points"
+        yield Finding(14, f"extent {what}, by {off:.3g}", shape.path, moment.time_code, _EXTENT)
 
 
-def _radii(shape: Any, time: float | None, count: int) -> NDArray[np.float32]:
-    """Radius of each point (P, 1), or of all (1, 1); 0 for meshes and where widths do not fit."""
-    widths = value_at(shape.GetWidthsAttr(), time) if isinstance(shape, UsdGeom.Points) else np.zeros(1)
-    fits = len(widths) in {1, count}
+_EXTENT = "author extent as the smallest and largest corner of the points of the same time code"
+
+
+def _radii(moment: Moment) -> NDArray[np.float32]:
+    """Radius of each point (P, 1), or of all (1, 1); 0 where widths do not fit."""
+    widths = moment.value(moment.shape.schema.GetWidthsAttr())
+    fits = len(widths) in {1, len(moment.points)}
     return np.asarray(0.5 * widths if fits else [0.0], dtype=np.float32)[:, None]
 
 
-def closed_surface(stage: Any) -> Iterator[Finding]:
-    """Property 15: watertight, wound outwards, no zero-area face, no unused or coincident point."""
-    for mesh in meshes_of(stage):
-        path = str(mesh.GetPath())
-        counts, indices = _topology(mesh)
-        points_count = len(first_value(mesh.GetPointsAttr()))
-        if not len(indices) or indices.max() >= points_count or counts.sum() != len(indices):
-            yield Finding(15, "faces do not fit the points", path)
-            continue
-        for text in _edge_faults(counts, indices, points_count):
-            yield Finding(15, text, path)
-        triangles, faces = _triangles(counts, indices)
-        for time, points in samples_of(mesh.GetPointsAttr()):
-            if len(points) == points_count:
-                for text in _shape_faults(points.astype(np.float64), triangles, faces):
-                    yield Finding(15, text, path, time)
+def edges_closed(value: Value) -> Iterator[Finding]:
+    """Property 15: watertight, consistent winding, no unused point."""
+    shape = value.shape
+    if shape is None or not (shape.is_mesh and shape.sculpted) or value.attribute.GetName() != FACES:
+        return
+    if not shape.faces_fit:
+        yield Finding(15, "faces do not fit the points", shape.path, value.time_code)
+        return
+    for text in edge_faults(shape.counts, shape.indices, shape.point_count):
+        yield Finding(15, text, shape.path, value.time_code)
+
+
+def surface_whole(moment: Moment) -> Iterator[Finding]:
+    """Property 15: wound outwards, no zero-area face, no coincident point."""
+    shape, points = moment.shape, moment.points
+    triangles = shape.triangles if shape.sculpted else None
+    if triangles is None or len(points) != shape.point_count:
+        return
+    areas, volume = triangles.areas_and_volume(points)
+    flat = int((areas < SMALLEST_AREA / shape.metre**2).sum())
+    if flat:
+        yield Finding(15, f"{flat} faces without area", shape.path, moment.time_code)
+    if volume <= 0.0:
+        yield Finding(15, "faces point inwards", shape.path, moment.time_code)
+    same = coincident(points)
+    if same:
+        yield Finding(15, f"{same} coincident points", shape.path, moment.time_code)
 
 
 def subdivision_authored(stage: Any) -> Iterator[Finding]:
@@ -125,61 +141,4 @@ def subdivision_authored(stage: Any) -> Iterator[Finding]:
         normals = UsdGeom.PrimvarsAPI(mesh).GetPrimvar("normals")
         authored = mesh.GetNormalsAttr().HasAuthoredValue() or normals.HasAuthoredValue()
         if authored and scheme.Get() != UsdGeom.Tokens.none:
-            yield Finding(16, "normals on a subdivided mesh", path)
-
-
-def _topology(mesh: Any) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Vertex counts (F,) and vertex numbers (sum of counts,) of the faces."""
-    counts = first_value(mesh.GetFaceVertexCountsAttr())
-    indices = first_value(mesh.GetFaceVertexIndicesAttr())
-    return counts.astype(np.int32), indices.astype(np.int32)
-
-
-def _edge_faults(counts: NDArray[np.int32], indices: NDArray[np.int32], points: int) -> Iterator[str]:
-    """Faults in the edges: a closed, consistently wound surface has each edge once in each direction."""
-    ends = np.cumsum(counts)
-    following = np.arange(len(indices)) + 1
-    following[ends - 1] = ends - counts
-    here, there = indices.astype(np.int64), indices[following].astype(np.int64)
-    edges, uses = np.unique(here * points + there, return_counts=True)
-    back = there * points + here
-    if (uses > 1).any():
-        yield f"{int((uses > 1).sum())} edges are used twice in one direction (winding)"
-    open_edges = int((~np.isin(back, edges)).sum())
-    if open_edges:
-        yield f"{open_edges} open edges"
-    unused = points - len(np.unique(indices))
-    if unused:
-        yield f"{unused} unused points"
-
-
-def _triangles(
-    counts: NDArray[np.int32], indices: NDArray[np.int32]
-) -> tuple[NDArray[np.int32], NDArray[np.intp]]:
-    """Fans of the faces: vertex numbers (T, 3) and the face of each triangle (T,)."""
-    starts = np.cumsum(counts) - counts
-    corners, faces = [], []
-    for step in range(1, int(counts.max()) - 1):
-        large = np.flatnonzero(counts > step + 1)
-        first = starts[large]
-        corners.append(np.stack([indices[first], indices[first + step], indices[first + step + 1]], axis=1))
-        faces.append(large)
-    return np.concatenate(corners), np.concatenate(faces)
-
-
-def _shape_faults(
-    points: NDArray[np.float64], triangles: NDArray[np.int32], faces: NDArray[np.intp]
-) -> Iterator[str]:
-    """Faults of one sample of the points (V, 3)."""
-    a, b, c = (points[triangles[:, corner]] for corner in range(3))
-    normals = np.cross(b - a, c - a)
-    areas = np.bincount(faces, weights=np.linalg.norm(normals, axis=1) / 2.0)
-    flat = int((areas < SMALLEST_AREA).sum())
-    if flat:
-        yield f"{flat} faces without area"
-    # Six times the volume, about the middle of the points to keep the digits.
-    if float(np.sum((a - points.mean(axis=0)) * normals)) <= 0.0:
-        yield "faces point inwards"
-    coincident = len(points) - len(np.unique(points, axis=0))
-    if coincident:
-        yield f"{coincident} coincident points"
+            yield Finding(16, "normals on a subdivided mesh", path, remedy="leave the normals out")

@@ -2,38 +2,72 @@
 
 from __future__ import annotations
 
-from itertools import product
 from typing import TYPE_CHECKING, Any
 
 from pxr import Sdf, Usd
 
-from balloon_usd.stage.looks import LATEX, THESIS, VARIANT_SET
+from balloon_usd.stage.interface import FINISHED, MADE, STATE
+from balloon_usd.stage.interface import VARIANT_SET as DETAIL
+from balloon_usd.stage.looks import ON_EVERY_STAGE, THESIS
+from balloon_usd.stage.looks import VARIANT_SET as LOOK
 from balloon_usd.stage.properties.finding import Finding
 from balloon_usd.stage.properties.reading import clouds_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Iterator
+
+Selection = dict[str, str]
+"""Variant by variant set."""
 
 
-def every_selection(stage: Any, check: Callable[[Any], list[Finding]]) -> Iterator[Finding]:
-    """Property 32: each selection of variants validates; a stage with air has the looks of latex and wire.
+def selections(stage: Any) -> Iterator[tuple[Selection, Any]]:
+    """Every selection of the variants of the default prim, also of nested ones, and the stage so selected.
 
-    Args:
-        stage: is left as it is.
-        check: findings of an open stage.
+    The one of the stage itself comes first, then those that differ from it in the last sets only. The
+    stage is the same every time, with another selection in its session layer; the one given is left as
+    it is.
     """
     session = Sdf.Layer.CreateAnonymous()
     other = Usd.Stage.Open(stage.GetRootLayer(), session)
     other.SetEditTarget(session)
-    if not other.GetDefaultPrim():
+    root = other.GetDefaultPrim()
+    own = _selected(root) if root else {}
+    yield own, other
+    if root:
+        yield from ((chosen, other) for chosen in _deeper(root, {}, own) if chosen != own)
+
+
+def _selected(root: Any) -> Selection:
+    sets = root.GetVariantSets()
+    return {name: sets.GetVariantSelection(name) for name in _names(root)}
+
+
+def _names(root: Any) -> list[str]:
+    """Variant sets of a prim; what is drawn comes last, since it changes least."""
+    return sorted(root.GetVariantSets().GetNames(), key=lambda name: name == LOOK)
+
+
+def _deeper(root: Any, chosen: Selection, own: Selection) -> Iterator[Selection]:
+    """Selections that begin with what is chosen: a variant may bring further sets."""
+    name = next((name for name in _names(root) if name not in chosen), None)
+    if name is None:
+        yield dict(chosen)
         return
-    sets = other.GetDefaultPrim().GetVariantSets()
-    looks = sets.GetVariantSet(VARIANT_SET).GetVariantNames()
-    if clouds_of(other) and not {LATEX, THESIS} <= {*looks}:
-        yield Finding(32, f"there is air, but the looks are {looks}")
-    names = sets.GetNames()
-    for selection in product(*(sets.GetVariantSet(name).GetVariantNames() for name in names)):
-        for name, variant in zip(names, selection, strict=True):
-            sets.GetVariantSet(name).SetVariantSelection(variant)
-        for finding in check(other):
-            yield Finding(32, f"{', '.join(selection)}: {finding}")
+    variants = root.GetVariantSet(name)
+    for variant in sorted(variants.GetVariantNames(), key=lambda variant: variant != own.get(name)):
+        variants.SetVariantSelection(variant)
+        yield from _deeper(root, {**chosen, name: variant}, own)
+    variants.ClearVariantSelection()
+
+
+def missing_variants(stage: Any) -> Iterator[Finding]:
+    """Property 32: a stage in layers, which has details, has both states of each and all looks."""
+    root = stage.GetDefaultPrim()
+    if not root or not root.GetVariantSet(DETAIL).GetVariantNames():
+        return
+    looks = (*ON_EVERY_STAGE, THESIS) if clouds_of(stage) else ON_EVERY_STAGE
+    for name, expected in ((STATE, (MADE, FINISHED)), (LOOK, looks)):
+        found = root.GetVariantSet(name).GetVariantNames()
+        missing = [variant for variant in expected if variant not in found]
+        if missing:
+            yield Finding(32, f"variant set {name} lacks {', '.join(missing)}", str(root.GetPath()))

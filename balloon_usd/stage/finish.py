@@ -1,0 +1,90 @@
+"""What the rubber is made of in each look, as a preview surface and as OpenPBR."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from pxr import Gf, Sdf, UsdShade
+
+from balloon_usd.stage.looks import CHROME, CLAY, CLEAR, RECIPE
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+Color = tuple[float, float, float]
+
+# Looks, not measurements: a blown-up balloon is a smooth, slightly cloudy film.
+REFRACTION = 1.52
+"""Index of refraction of natural rubber [1]."""
+COAT_ROUGHNESS = 0.05
+CLEAR_OPACITY = 0.35
+"""What one wall of clear latex hides of what is behind it [1]."""
+
+
+@dataclass(frozen=True)
+class Finish:
+    """Inputs of both shaders besides the colour."""
+
+    preview: Mapping[str, float]
+    """Inputs of UsdPreviewSurface."""
+    open_pbr: Mapping[str, float]
+    """Inputs of OpenPBR."""
+    flags: Mapping[str, bool] = field(default_factory=dict)
+    """Inputs of OpenPBR that are yes or no."""
+
+
+FINISHES = {
+    RECIPE: Finish(
+        {"ior": REFRACTION, "roughness": 0.18, "clearcoat": 0.5, "clearcoatRoughness": COAT_ROUGHNESS},
+        {
+            "specular_ior": REFRACTION,
+            "specular_roughness": 0.18,
+            "subsurface_weight": 0.35,
+            "coat_weight": 0.5,
+            "coat_roughness": COAT_ROUGHNESS,
+        },
+    ),
+    CLEAR: Finish(
+        {"ior": REFRACTION, "roughness": 0.08, "opacity": CLEAR_OPACITY},
+        {"specular_ior": REFRACTION, "specular_roughness": 0.08, "geometry_opacity": CLEAR_OPACITY},
+        {"geometry_thin_walled": True},
+    ),
+    CHROME: Finish(
+        {"metallic": 1.0, "roughness": 0.08},
+        {"base_metalness": 1.0, "specular_roughness": 0.08},
+    ),
+    CLAY: Finish(
+        {"roughness": 1.0},
+        {"base_diffuse_roughness": 1.0, "specular_weight": 0.0},
+    ),
+}
+
+
+def author_material(stage: Any, path: Any, color: Color, finish: Finish) -> Any:
+    """A preview surface that every reader knows, and OpenPBR beside it for those that know more."""
+    material = UsdShade.Material.Define(stage, path)
+    preview = _shader(stage, path.AppendChild("preview"), "UsdPreviewSurface", "diffuseColor", color)
+    _inputs(preview, finish.preview, Sdf.ValueTypeNames.Float)
+    surface = preview.CreateOutput("surface", Sdf.ValueTypeNames.Token)
+    material.CreateSurfaceOutput().ConnectToSource(surface)
+
+    open_pbr = "ND_open_pbr_surface_surfaceshader"
+    shader = _shader(stage, path.AppendChild("openpbr"), open_pbr, "base_color", color)
+    _inputs(shader, finish.open_pbr, Sdf.ValueTypeNames.Float)
+    _inputs(shader, finish.flags, Sdf.ValueTypeNames.Bool)
+    out = shader.CreateOutput("out", Sdf.ValueTypeNames.Token)
+    material.CreateSurfaceOutput("mtlx").ConnectToSource(out)
+    return material
+
+
+def _shader(stage: Any, path: Any, identifier: str, color_input: str, color: Color) -> Any:
+    shader = UsdShade.Shader.Define(stage, path)
+    shader.CreateIdAttr(identifier)
+    shader.CreateInput(color_input, Sdf.ValueTypeNames.Color3f).Set(Gf.Vec3f(*color))
+    return shader
+
+
+def _inputs(shader: Any, inputs: Mapping[str, float | bool], kind: Any) -> None:
+    for name, value in inputs.items():
+        shader.CreateInput(name, kind).Set(value)
