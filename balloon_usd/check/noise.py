@@ -1,0 +1,19 @@
+"""What validators say that is no fault of a stage."""
+
+from __future__ import annotations
+
+UNKNOWN_NODE = "MaterialX nodes are unknown to usd-core, whose wheel has no MaterialX"
+REPEATED = "primvars that change with every frame are not worth an index"
+
+BROKE_DOWN = "rules of the validator that broke down themselves, as over points of one width for all"
+
+
+def why_not_counted(rule: str, text: str) -> str:
+    """Return why what a validator said does not count, "" if it counts."""
+    if "ShaderSdrCompliance" in rule and "'ND_" in text:
+        return UNKNOWN_NODE
+    if rule == "IndexedPrimvarChecker":
+        return REPEATED
+    if text.startswith("Uncaught error"):
+        return BROKE_DOWN
+    return ""
