@@ -7,23 +7,18 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from balloon_usd import Recipe, plan_recipe, simulate, write_stage
+from balloon_usd import Recipe, plan_recipe
+from balloon_usd.golden import perform
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
 RECIPES = Path(__file__).parent
-GOLDEN = Path(__file__).parents[2] / "stages"
-
-
-def pytest_addoption(parser: pytest.Parser) -> None:
-    parser.addoption("--update-golden", action="store_true", help="write the golden stages in stages/ anew")
 
 
 def simulate_into(folder: Path, name: str) -> Path:
     """Simulate a recipe on the CPU and return the file of its stage."""
-    plan = plan_recipe(Recipe.load(RECIPES / f"{name}.yaml"))
-    return write_stage(plan, simulate(plan, device="cpu"), folder).files[0]
+    return perform(plan_recipe(Recipe.load(RECIPES / f"{name}.yaml")), folder)
 
 
 @pytest.fixture
@@ -40,17 +35,5 @@ def fresh(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
     def find(name: str) -> Path:
         file = folder / name / f"{name}.usda"
         return file if file.exists() else simulate_into(folder, name)
-
-    return find
-
-
-@pytest.fixture(scope="session")
-def golden(request: pytest.FixtureRequest) -> Callable[[str], Path]:
-    """The stage that a recipe is held to; with --update-golden it is written first."""
-
-    def find(name: str) -> Path:
-        if request.config.getoption("--update-golden", default=False):
-            return simulate_into(GOLDEN, name)
-        return GOLDEN / name / f"{name}.usda"
 
     return find

@@ -1,0 +1,187 @@
+"""`balloon-usd golden`: recipes held to the stages that they gave before."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from textwrap import indent
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from balloon_usd.cli.device import compiling, start_device
+from balloon_usd.cli.failure import ExitCode, Failure
+from balloon_usd.cli.output import require_readable_name
+from balloon_usd.cli.sources import plans_of, recipe_files
+from balloon_usd.cli.tolerance import tolerance_options, tolerances_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from balloon_usd.diff import Tolerances
+    from balloon_usd.golden import GoldenEntry
+    from balloon_usd.plan import Plan
+
+DIFFERENT = 1
+EXIT_CODES = """\b
+Exit codes:
+  0    verify: all are the same; update: done
+  1    verify: one differs; update: one could not be written
+  2    bad input: recipe, option, list, or a golden stage is missing or not whole
+  3    a simulation failed
+  130  interrupted
+"""
+
+
+@dataclass(frozen=True)
+class _Held:
+    """A plan and what is held of it."""
+
+    plan: Plan
+    tolerances: Tolerances
+    frames: int | None
+
+
+@click.group(epilog=EXIT_CODES)
+def golden() -> None:
+    """Hold recipes to golden stages: the stages that they gave when somebody last looked.
+
+    The file golden.yaml beside the stages lists recipes, frames and tolerances. Recipes are simulated
+    in draft on the CPU.
+    """
+
+
+def _holding(command: Callable[..., None]) -> Callable[..., None]:
+    """Add what both commands take."""
+    options = (
+        click.argument("recipes", nargs=-1, metavar="[RECIPE]...", type=click.Path(path_type=Path)),
+        click.option(
+            "--stages",
+            type=click.Path(path_type=Path),
+            default=Path("stages"),
+            show_default=True,
+            metavar="DIR",
+            help="Folder of the golden stages and of golden.yaml.",
+        ),
+        click.option(
+            "--frames",
+            type=click.IntRange(min=1),
+            metavar="N",
+            help="Keep the first N frames. Default: what the list says, else all.",
+        ),
+        tolerance_options,
+    )
+    for option in reversed(options):
+        command = option(command)
+    return command
+
+
+@golden.command(epilog=EXIT_CODES)
+@_holding
+def verify(recipes: tuple[Path, ...], stages: Path, **options: Any) -> None:
+    """Simulate recipes, and compare what comes out with their golden stages.
+
+    RECIPE is a recipe file or a folder of them; without any, all that golden.yaml lists are verified.
+    """
+    from balloon_usd import golden as room  # noqa: PLC0415
+    from balloon_usd.diff.report import diff_text  # noqa: PLC0415
+
+    def one(held: _Held) -> bool:
+        found = room.verify(held.plan, stages, held.tolerances, held.frames)
+        click.echo(f"{held.plan.recipe.name}: {'the same' if found.same else 'different'}")
+        if not found.same:
+            click.echo(indent(diff_text(found), "  "))
+        return found.same
+
+    if not all(_each(_held(recipes, stages, options), one)):
+        raise click.exceptions.Exit(DIFFERENT)
+
+
+@golden.command(epilog=EXIT_CODES)
+@_holding
+@click.option(
+    "--all", "always", is_flag=True, help="Replace also those that are the same within the tolerance."
+)
+def update(recipes: tuple[Path, ...], stages: Path, always: bool, **options: Any) -> None:
+    """Replace the golden stages that differ from what comes out now, and say how.
+
+    RECIPE is a recipe file or a folder of them; without any, all that golden.yaml lists are updated.
+    """
+    from balloon_usd import golden as room  # noqa: PLC0415
+    from balloon_usd.diff.report import diff_text  # noqa: PLC0415
+
+    def one(held: _Held) -> bool:
+        done = room.update(held.plan, stages, held.tolerances, held.frames, always=always)
+        click.echo(f"{held.plan.recipe.name}: {'written' if done.written else 'kept, it is the same'}")
+        if done.written and done.comparison is not None:
+            click.echo(indent(diff_text(done.comparison), "  "))
+        return True
+
+    _each(_held(recipes, stages, options), one)
+
+
+def _held(recipes: tuple[Path, ...], stages: Path, options: dict[str, Any]) -> list[_Held]:
+    """Return what is held of the recipes named, else of all in the list.
+
+    Raises:
+        Failure: a recipe or the list is wrong, or there is neither.
+    """
+    from balloon_usd.golden import FILE_NAME, GoldenError, read_list  # noqa: PLC0415
+
+    require_readable_name(stages)
+    try:
+        listed = read_list(stages)
+    except GoldenError as error:
+        raise Failure(str(error), ExitCode.BAD_INPUT) from error
+    if not recipes and not listed:
+        raise Failure(f"{stages / FILE_NAME} lists no stages, name the recipes", ExitCode.BAD_INPUT)
+    plans = plans_of(recipe_files(recipes or [entry.recipe for entry in listed.values()]))
+    names = {plan.recipe.name for plan in plans}
+    for name, entry in listed.items():
+        if not recipes and name not in names:
+            raise Failure(f'{stages / FILE_NAME}: {entry.recipe} is not called "{name}"', ExitCode.BAD_INPUT)
+    frames = options.pop("frames")
+    asked = tolerances_of(**options)
+    return [_with(plan, listed.get(plan.recipe.name), asked, frames) for plan in plans]
+
+
+def _with(plan: Plan, entry: GoldenEntry | None, asked: Tolerances, frames: int | None) -> _Held:
+    """Put what was asked for above what the list says."""
+    from balloon_usd.diff import Allowed, Tolerances  # noqa: PLC0415
+
+    if entry is None:
+        return _Held(plan, asked, frames)
+    kept = entry.tolerances
+    general = asked.general if asked.general != Allowed() else kept.general
+    rms = kept.rms if asked.rms is None else asked.rms
+    merged = Tolerances(general, {**kept.named, **asked.named}, rms)
+    return _Held(plan, merged, frames or entry.frames)
+
+
+def _each(held: list[_Held], one: Callable[[_Held], bool]) -> list[bool]:
+    """Do one after the other, also after one that could not be done.
+
+    Raises:
+        Failure: one or more could not be done; the gravest tells the exit code.
+    """
+    from balloon_usd.diff import DiffError  # noqa: PLC0415
+    from balloon_usd.solver.errors import SimulationFailed  # noqa: PLC0415
+    from balloon_usd.stage import StageError  # noqa: PLC0415
+
+    start_device("cpu")
+    done: list[bool] = []
+    problems: list[tuple[ExitCode, str]] = []
+    for each in held:
+        file = each.plan.recipe.file
+        try:
+            with compiling():
+                done.append(one(each))
+        except SimulationFailed as error:
+            problems.append((ExitCode.SIMULATION_FAILED, f"{file}: simulation failed {error}"))
+        except DiffError as error:
+            problems.append((ExitCode.BAD_INPUT, f"{file}: {error}"))
+        except StageError as error:
+            problems.append((ExitCode.NOT_WRITTEN, f"{file}: {error}"))
+    if problems:
+        raise Failure("\n".join(text for _, text in problems), max(code for code, _ in problems))
+    return done

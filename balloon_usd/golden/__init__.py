@@ -1,0 +1,10 @@
+"""The golden room: recipes held to the stages that they gave when somebody last looked."""
+
+from __future__ import annotations
+
+from balloon_usd.golden.entry import GoldenEntry
+from balloon_usd.golden.error import GoldenError
+from balloon_usd.golden.keeping import Update, perform, update, verify
+from balloon_usd.golden.list_file import FILE_NAME, read_list
+
+__all__ = ["FILE_NAME", "GoldenEntry", "GoldenError", "Update", "perform", "read_list", "update", "verify"]
