@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import math
 import os
 import platform
 from pathlib import Path
 
 import warp as wp
 
+STATUS = Path("/proc/self/status")
+"""Where Linux tells what a process takes; `getrusage` counts what its parent took, too."""
+KIBI = 1024.0
+"""Bytes of the unit that it is told in."""
 PROCESSORS = Path("/proc/cpuinfo")
 """Where Linux tells the name of the processor."""
 
@@ -26,6 +31,15 @@ def machine(device: str) -> str:
     if wp.get_device(device).is_cuda:
         return f"{device} ({wp.get_device(device).name}; {count} {noun} of {_processor()})"
     return f"{device} ({_processor()}, {count} {noun})"
+
+
+def peak_memory() -> float:
+    """Return the most memory that this process has taken so far (B); no number where that is not told."""
+    if STATUS.is_file():
+        for line in STATUS.read_text(encoding="utf-8").splitlines():
+            if line.startswith("VmHWM:"):
+                return KIBI * float(line.split()[1])
+    return math.nan
 
 
 def _processor() -> str:

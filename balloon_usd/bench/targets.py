@@ -53,6 +53,12 @@ COMPILING = Target(15.0, " s", least=False)
 """The same without, on a CPU."""
 MIXED_COST = Target(1.1, " x parts", least=False)
 """Time for different recipes together, in what they take one by one."""
+WRITING = Target(2.0, " x plain", least=False)
+"""Time to write a stage, in that of a plain write of as many bytes."""
+READING = Target(20.0, " s", least=False)
+"""Check of a stage of 40 000 vertices and 1000 frames, and its diff with another."""
+MEMORY = Target(1.1, " x memory", least=False)
+"""Memory for all frames, in that for a tenth of them."""
 PROCESSES_SHARE = 0.9
 """Share of the cores' full throughput that as many processes reach."""
 

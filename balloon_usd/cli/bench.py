@@ -6,7 +6,13 @@ import click
 from click.core import ParameterSource
 
 from balloon_usd.cli.bench_peers import PINCHES, VERTICES, bench_peers, peer_names
-from balloon_usd.cli.bench_rows import bench_first_frame, bench_mixed, bench_processes, bench_table
+from balloon_usd.cli.bench_rows import (
+    bench_first_frame,
+    bench_mixed,
+    bench_processes,
+    bench_stage,
+    bench_table,
+)
 from balloon_usd.cli.device import compiling, device_option, start_device
 from balloon_usd.cli.failure import EXIT_CODES_HELP, ExitCode, Failure
 from balloon_usd.cli.run import DETAILS
@@ -21,6 +27,7 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     "first_frame": ("detail",),
     "processes": ("detail", "frames"),
     "peers": ("vertices", "pinch"),
+    "stage": ("frames",),
 }
 """Options of everything else that is measured."""
 
@@ -46,6 +53,7 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     type=click.IntRange(2, MOST_PROCESSES),
     help="So many processes at once instead, against one.",
 )
+@click.option("--stage", is_flag=True, help="Writing, checking and comparing stages instead.")
 @click.option(
     "--peer",
     "peers",
@@ -77,18 +85,22 @@ def bench(
     mixed: bool,
     first_frame: bool,
     processes: int | None,
+    stage: bool,
     peers: tuple[str, ...] | None,
     vertices: str,
     pinch: str,
     device: str,
 ) -> None:
-    """Measure the solver without writing anything.
+    """Measure the solver, or what becomes of its frames, and leave nothing behind.
 
     Of the latex model the classic dog, of the kosaka model the capsule of the thesis's experiment and longer
     ones, up to a whole 260. Beside what is promised stands whether it was kept here.
     """
     _refuse_what_does_not_apply()
-    used = start_device(device)
+    used = start_device("cpu" if stage else device)
+    if stage:
+        bench_stage(frames)
+        return
     with compiling():
         if peers is not None:
             bench_peers(peers, int(vertices), pinch, used)
@@ -112,7 +124,8 @@ def _refuse_what_does_not_apply() -> None:
     chosen = [name for name in OPTIONS if name in given]
     if len(chosen) > 1:
         raise Failure(
-            "--mixed, --first-frame, --processes and --peer are measured one at a time", ExitCode.BAD_INPUT
+            "--mixed, --first-frame, --processes, --stage and --peer are measured one at a time",
+            ExitCode.BAD_INPUT,
         )
     used = OPTIONS[chosen[0]] if chosen else TABLE
     idle = sorted(flags[name] for name in given - {*chosen, *used, "device"})

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
@@ -12,6 +13,7 @@ from balloon_usd.cli.failure import ExitCode, Failure
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
+    from balloon_usd.bench.stage_files import Chore
     from balloon_usd.bench.timing import Timing
     from balloon_usd.plan import Plan
 
@@ -94,6 +96,41 @@ def bench_processes(count: int, detail: str, device: str, frames: int | None) ->
     target = Target(PROCESSES_SHARE * min(count, cores()), TIMES)
     told = target.beside(many / one) if device == "cpu" else ""
     click.echo(f"{count:>11}{many:>11.1f}{many / one:>11.2f}  {told}".rstrip())
+
+
+def bench_stage(frames: int | None) -> None:
+    """Print how long stages take to be written, checked and compared."""
+    from balloon_usd.bench.stage_files import FRAMES, PART, stage_chores  # noqa: PLC0415
+    from balloon_usd.bench.targets import READING, WRITING  # noqa: PLC0415
+
+    count = frames or FRAMES
+    few, many = stage_chores(max(1, count // PART)), stage_chores(count)
+    _title(f"stages of {many.vertices} vertices and {many.frames} frames", "cpu")
+    click.echo(f"{'':>20}{'seconds':>11}{'MB':>11}{'MB/s':>11}{'memory MB':>11}  promised")
+    ratio = many.write.seconds / many.plain.seconds
+    click.echo(_chore(many.plain))
+    click.echo(
+        _chore(many.write) + f"{ratio:.2f} x plain  {WRITING.beside(ratio)}" + _kept(many.write, few.write)
+    )
+    click.echo(_chore(many.check) + READING.beside(many.check.seconds) + _kept(many.check, few.check))
+    if many.with_nvidia:
+        click.echo(_chore(many.with_nvidia) + READING.beside(many.with_nvidia.seconds))
+    click.echo(_chore(many.diff) + READING.beside(many.diff.seconds) + _kept(many.diff, few.diff))
+
+
+def _chore(chore: Chore) -> str:
+    size = chore.size / 1e6
+    return (
+        f"{chore.name:>20}{chore.seconds:>11.2f}{size:>11.0f}{size / chore.seconds:>11.0f}"
+        f"{chore.memory / 1e6:>11.0f}  "
+    )
+
+
+def _kept(chore: Chore, part: Chore) -> str:
+    """Say whether memory stayed that of a tenth of the frames, where memory is known."""
+    from balloon_usd.bench.targets import MEMORY  # noqa: PLC0415
+
+    return "" if math.isnan(chore.memory) else f", {MEMORY.beside(chore.memory / part.memory)}"
 
 
 @contextmanager

@@ -112,6 +112,19 @@ def test_one_ring_can_be_pinched_instead_and_nothing_is_promised_of_it(cli):
     assert "kept" not in result.stdout
 
 
+def test_stages_are_written_checked_and_compared(cli):
+    result = cli("bench", "--stage", "--frames", 3)
+    assert re.match(r"stages of 39674 vertices and 3 frames on cpu \(", result.stdout)
+    told = rows_of(result)
+    assert ["check", "with", "NVIDIA's"] in [row[:3] for row in told]
+    rows = {row[0]: row for row in told if row[1] != "with"}
+    assert [*rows] == ["plain", "write", "check", "diff"]
+    assert "x plain" in " ".join(rows["write"])
+    assert rows["diff"].count("kept") + rows["diff"].count("kept,") == 2
+    # Two stages are read for one comparison.
+    assert int(rows["diff"][2]) == pytest.approx(2 * int(rows["check"][2]), abs=1)
+
+
 def test_an_unknown_peer_is_bad_input(cli):
     result = cli("bench", "--peer", "houdini")
     assert result.exit_code == 2
