@@ -1,0 +1,91 @@
+"""`balloon-usd export`: a stage's meshes as files of other formats."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, cast
+
+import click
+
+from balloon_usd.cli.failure import EXIT_CODES_HELP, ExitCode, Failure
+from balloon_usd.cli.frame_range import FrameRange, moments
+from balloon_usd.cli.output import require_readable_name, require_writable
+from balloon_usd.cli.sources import is_folder
+
+if TYPE_CHECKING:
+    from balloon_usd.exchange.export import Format
+
+FORMATS = ("obj", "ply", "vtu", "xdmf")
+
+
+@click.command(epilog=EXIT_CODES_HELP)
+@click.argument("stage", metavar="STAGE", type=click.Path())
+@click.option(
+    "--format",
+    "form",
+    type=click.Choice(FORMATS),
+    required=True,
+    help="A file for each frame, but one for all with xdmf. vtu and xdmf are for ParaView.",
+)
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(path_type=Path),
+    default=Path(),
+    metavar="DIR",
+    help="Folder for the files; made if need be. Default: here.",
+)
+@click.option(
+    "--frames", type=moments, metavar="A:B|A,B,C", help="Frames to export. Default: the whole animation."
+)
+def export(stage: str, form: str, output: Path, frames: FrameRange | tuple[int, ...] | None) -> None:
+    """Write the meshes of a USD stage into files of another format, in metres.
+
+    STAGE is a USD file, or a folder NAME as `run` writes it. All its meshes become one, with stretch
+    and pressure as fields of the points, balloon and bubble as fields of the faces.
+    Needs meshio: pip install 'balloon-usd[mesh]'.
+    """
+    from balloon_usd.exchange.error import ExchangeError, NotExportedError  # noqa: PLC0415
+    from balloon_usd.exchange.export import export_stage  # noqa: PLC0415
+
+    file = _stage_file(stage)
+    try:
+        codes = _time_codes(file, frames)
+        require_writable(output)
+        files = export_stage(file, output, cast("Format", form), frames=codes)
+    except NotExportedError as error:
+        raise Failure(str(error), ExitCode.NOT_WRITTEN) from error
+    except ExchangeError as error:
+        raise Failure(str(error), ExitCode.BAD_INPUT) from error
+    others = f" and {len(files) - 1} more" if len(files) > 1 else ""
+    click.echo(f"{form} {files[0]}{others}")
+
+
+def _stage_file(stage: str) -> Path:
+    """Return the file of a stage, given by itself or by its folder.
+
+    Raises:
+        Failure: there is no name to go by.
+    """
+    path = Path(stage)
+    if stage and path.name in {"", ".."}:
+        path = path.resolve()
+    if not stage or not path.name:
+        raise Failure(f'"{stage}" is no stage, expected a USD file or a folder', ExitCode.BAD_INPUT)
+    require_readable_name(path)
+    return path / f"{path.name}.usda" if is_folder(path) else path
+
+
+def _time_codes(file: Path, frames: FrameRange | tuple[int, ...] | None) -> tuple[int, ...] | None:
+    """Return the time codes that were asked for, None for all.
+
+    Raises:
+        ExchangeError: the stage has none of them.
+    """
+    from balloon_usd.exchange.export import stage_range  # noqa: PLC0415
+
+    if not isinstance(frames, FrameRange):
+        return frames
+    start, end = stage_range(file)
+    first, last = max(frames.first or start, start), min(frames.last or end, end)
+    return tuple(range(first, last + 1))
