@@ -23,12 +23,26 @@ class Detail:
     """Substeps per frame at 24 frames per second."""
     capsule_around: int
     """Vertices round a capsule, a multiple of four."""
+    shape_quads: int
+    """Quads up to which the faces of a mesh file are split."""
 
 
 DETAILS: dict[str, Detail] = {
-    "draft": Detail("draft", around=12, axial=0.66, axial_at_joint=0.34, substeps=100, capsule_around=32),
-    "preview": Detail("preview", around=20, axial=0.42, axial_at_joint=0.22, substeps=200, capsule_around=48),
-    "full": Detail("full", around=28, axial=0.27, axial_at_joint=0.15, substeps=300, capsule_around=64),
+    "draft": Detail(
+        "draft", around=12, axial=0.66, axial_at_joint=0.34, substeps=100, capsule_around=32, shape_quads=2500
+    ),
+    "preview": Detail(
+        "preview",
+        around=20,
+        axial=0.42,
+        axial_at_joint=0.22,
+        substeps=200,
+        capsule_around=48,
+        shape_quads=8000,
+    ),
+    "full": Detail(
+        "full", around=28, axial=0.27, axial_at_joint=0.15, substeps=300, capsule_around=64, shape_quads=24000
+    ),
 }
 
 

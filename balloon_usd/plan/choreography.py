@@ -226,6 +226,7 @@ def _inflate(score: _Score, strips: Mapping[str, Strip]) -> None:
     longest = 0.0
     for name, strip in strips.items():
         seconds = max(1.0, (strip.bubbles[-1].end - strip.bubbles[0].start) / INFLATE_SPEED)
+        seconds = seconds if strip.shape is None else strip.shape.seconds
         score.moves.append(Inflate(0.0, seconds, -1, f"inflate: {name}", balloon=name))
         longest = max(longest, seconds)
     score.now = longest

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from balloon_usd.balloon.bubble_shape import tube_diameter
 from balloon_usd.plan import svg
 from balloon_usd.plan.graph_drawing import HEIGHT, graph_shapes, graph_width
@@ -14,7 +16,10 @@ from balloon_usd.plan.open_tube import softened
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from numpy.typing import NDArray
+
     from balloon_usd.plan.model import Plan
+    from balloon_usd.plan.shaped import Shaped
     from balloon_usd.plan.strip import PlannedBubble, Strip
 
 SCALE = 800.0
@@ -23,6 +28,7 @@ MARGIN = 40.0
 _HEAD = 44.0
 _ABOVE_TUBE = 84.0
 _BELOW_TUBE = 96.0
+_ABOVE_MESH = 28.0
 _STYLE = (
     "text{font:11px sans-serif;fill:#333}.name{text-anchor:middle}.head{font-size:16px;font-weight:bold}"
     ".mark{stroke:#333;stroke-width:0.6}.bubble{stroke:#333;stroke-width:0.8;fill-opacity:0.8}"
@@ -36,17 +42,42 @@ def plan_svg(plan: Plan) -> str:
     """Return the plan as an SVG drawing: strips inflated and flat to one scale, then the graph."""
     colors = {name: svg.srgb(plan.recipe.balloons[name].color.rgb) for name in plan.strips}
     body = [svg.text(plan.recipe.title or plan.recipe.name, (MARGIN, 28.0), "head")]
-    top, width = _HEAD, graph_width(plan.graph)
+    top, width = _HEAD, 0.0 if plan.of_meshes else graph_width(plan.graph)
     for name, strip in plan.strips.items():
+        if strip.shape is not None:
+            body += _mesh_shapes(strip, strip.shape, top)
+            top += _ABOVE_MESH + SCALE * float(_printed(strip.shape)[1].max()) + MARGIN
+            width = max(width, SCALE * max(strip.shape.surface.size))
+            continue
         body += _strip_shapes(strip, colors[name], top)
         top += _strip_height(strip)
         before = strip.capsule_length if strip.capsule else strip.size.length
         width = max(width, SCALE * max(strip.bubbles[-1].end, before))
-    body += graph_shapes(plan.graph, colors, (MARGIN, top))
-    width, height = width + 2.0 * MARGIN, top + HEIGHT + MARGIN
+    if not plan.of_meshes:
+        body += graph_shapes(plan.graph, colors, (MARGIN, top))
+        top += HEIGHT
+    width, height = width + 2.0 * MARGIN, top + MARGIN
     size = f'width="{width:.0f}" height="{height:.0f}" viewBox="0 0 {width:.0f} {height:.0f}"'
     head = f'<svg xmlns="http://www.w3.org/2000/svg" {size}><style>{_STYLE}</style>'
     return "\n".join([head, '<rect width="100%" height="100%" fill="#fff"/>', *body, "</svg>"]) + "\n"
+
+
+def _mesh_shapes(strip: Strip, shape: Shaped, top: float) -> Iterator[str]:
+    """A flat balloon from a mesh, seen across its thinnest side."""
+    swell = f"blown up to {1e3 * shape.volume:.2f} L"
+    yield svg.text(
+        f"{strip.balloon}: mesh, {cm(max(shape.surface.size))} flat, {swell}", (MARGIN, top + 12.0)
+    )
+    across, down = _printed(shape)
+    place = np.stack([MARGIN + SCALE * across, top + _ABOVE_MESH + SCALE * down], axis=1)
+    yield svg.polygons([list(map(tuple, face)) for face in place[shape.surface.quads].tolist()], "flat")
+
+
+def _printed(shape: Shaped) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return how far right and down every point lies in the box of a shape (V,) each, m."""
+    points = shape.surface.points
+    right, up = (axis for axis in range(3) if axis != int(np.argmin(shape.surface.size)))
+    return points[:, right] - points[:, right].min(), points[:, up].max() - points[:, up]
 
 
 def _thickness(strip: Strip) -> float:

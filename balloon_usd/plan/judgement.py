@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from itertools import chain
 from typing import TYPE_CHECKING
@@ -26,6 +27,12 @@ UNEQUAL = 0.10
 """Difference of the lengths of a locked pair that shows, as a share of the longer one."""
 
 
+EVEN = 2.4
+"""Growth of volume up to which a long shape stays even: measured on a ring of round cross-section."""
+LONG = (0.1, 0.75)
+"""Volumes of a shape, in that of a ball of its wall, between which it is long: no ball, no flat sheets."""
+
+
 @dataclass(frozen=True)
 class Caution:
     """A warning with its reason."""
@@ -46,6 +53,7 @@ def cautions_of(
         chain.from_iterable(_tail(budget) for budget in budgets.values()),
         _of_latex(recipe, strips, graph, budgets) if recipe.physics.model == "latex" else (),
         _loose_pieces(strips, graph),
+        _bulging(strips),
     )
     return tuple(
         sorted(found, key=lambda caution: len(recipe.steps) if caution.step is None else caution.step)
@@ -171,8 +179,24 @@ def _neighbours(joint: GraphJoint) -> str:
     return " and ".join(dict.fromkeys(end.bubble for end in joint.ends))
 
 
+def _bulging(strips: Mapping[str, Strip]) -> Iterator[Caution]:
+    for name, strip in strips.items():
+        if strip.shape is None:
+            continue
+        own, ball = strip.shape.surface.volume, strip.shape.surface.ball_volume
+        if LONG[0] < own / ball < LONG[1] and strip.shape.volume > EVEN * own:
+            grown = f"{strip.shape.volume / own:.1f}"
+            even = math.floor(100.0 * (EVEN * own / ball) ** (1.0 / 3.0)) / 100.0
+            yield Caution(
+                None,
+                f"{name} may bulge at one place",
+                f"a long shape of rubber gives way somewhere, and {grown} times its volume is too much",
+                f"swell: {even:g}",
+            )
+
+
 def _loose_pieces(strips: Mapping[str, Strip], graph: SculptureGraph) -> Iterator[Caution]:
-    if len(graph.pieces) > 1:
+    if len(graph.pieces) > 1 and all(strip.shape is None for strip in strips.values()):
         names = sorted({edge.balloon for edge in graph.edges}, key=list(strips).index)
         yield Caution(
             None,

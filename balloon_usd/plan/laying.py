@@ -6,12 +6,13 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from balloon_usd.balloon.rubber import rubber_named
-from balloon_usd.balloon.sizes import size_named
 from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.plan.capsule import capsule_bubbles
 from balloon_usd.plan.lengths import at_least, at_most, cm
 from balloon_usd.plan.open_tube import OpenTube, inflated_tube, softened, tail_range
+from balloon_usd.plan.shaped import overlap_problems, shaped_strip
 from balloon_usd.plan.strip import BubbleKind, Made, PlannedBubble, Strip
+from balloon_usd.plan.tube_sizes import tube_sizes
 from balloon_usd.recipe.names import rest_name
 from balloon_usd.recipe.problem import RecipeError, quoted
 
@@ -32,19 +33,19 @@ def lay_strips(recipe: Recipe) -> dict[str, Strip]:
     A balloon without a `rest` step ends in a bubble named after it: `main_rest`.
 
     Raises:
-        RecipeError: a tail, an inflated length or a capsule does not fit a balloon, bubbles do not fit, or
-            the rubber has no bulged phase.
+        RecipeError: a tail, an inflated length or a capsule does not fit a balloon, bubbles do not fit, a
+            mesh makes no balloon, or the rubber has no bulged phase.
     """
     rubber = _rubber(recipe)
     strips: dict[str, Strip] = {}
     problems: list[Problem] = []
     for name, balloon in recipe.balloons.items():
         try:
-            strips[name] = (
-                _tube(recipe, name, rubber) if balloon.capsule is None else _capsule(recipe, name, rubber)
-            )
+            lay = shaped_strip if balloon.mesh else _tube if balloon.capsule is None else _capsule
+            strips[name] = lay(recipe, name, rubber)
         except RecipeError as error:
             problems.extend(error.problems)
+    problems += overlap_problems(recipe, strips)
     if problems:
         raise RecipeError(problems)
     return strips
@@ -60,14 +61,10 @@ def _rubber(recipe: Recipe) -> Rubber:
     return rubber if recipe.physics.softening else rubber.without_softening()
 
 
-def _size(balloon: Balloon) -> BalloonSize:
-    return size_named(balloon.size).with_overrides(balloon.radius, balloon.length, balloon.thickness)
-
-
 def _capsule(recipe: Recipe, name: str, rubber: Rubber) -> Strip:
     balloon = recipe.balloons[name]
     length = balloon.capsule or 0.0
-    strip = Strip(name, _size(balloon), rubber, 0.0, (), capsule=True)
+    strip = Strip(name, tube_sizes(recipe)[name], rubber, 0.0, (), capsule=True)
     path: Path = ("balloons", name, "capsule")
     if length > strip.full_length * (1.0 + FULL_TOLERANCE):
         raise RecipeError([recipe.problem(path, _beyond_full(length, strip.size, strip.full_length))])
@@ -80,7 +77,7 @@ def _capsule(recipe: Recipe, name: str, rubber: Rubber) -> Strip:
 
 
 def _tube(recipe: Recipe, name: str, rubber: Rubber) -> Strip:
-    size = _size(recipe.balloons[name])
+    size = tube_sizes(recipe)[name]
     tail = _tail(recipe, name, size, rubber)
     tube = inflated_tube(size, rubber, tail)
     bubbles: list[PlannedBubble] = []

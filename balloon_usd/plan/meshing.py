@@ -1,10 +1,11 @@
-"""The mesh that a plan asks for: a tube with a ring at every joint, or an even capsule."""
+"""The mesh that a plan asks for: a tube with a ring at every joint, an even capsule, or what a file holds."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from balloon_usd.balloon.capsule_mesh import capsule_mesh
+from balloon_usd.balloon.shape_mesh import shape_mesh
 from balloon_usd.balloon.tube_mesh import BalloonMesh, tube_mesh
 from balloon_usd.plan.rings import guide_places
 
@@ -20,6 +21,8 @@ def joint_places(strip: Strip) -> tuple[float, ...]:
 
 def mesh_of(strip: Strip, detail: Detail) -> BalloonMesh:
     """Return the mesh of one balloon at a level of detail."""
+    if strip.shape is not None:
+        return shape_mesh(strip.shape.surface, detail)
     ends = tuple(bubble.rest_end for bubble in strip.bubbles)
     if strip.capsule:
         return capsule_mesh(ends[-1], strip.inflated_radius, detail.capsule_around, ends)

@@ -27,12 +27,17 @@ class Plan:
     holding: Holding
     """What stays when the hands let go."""
     budgets: dict[str, Budget]
-    """By balloon, in the order of the recipe; a capsule has none."""
+    """By balloon, in the order of the recipe; only tubes have one."""
     cautions: tuple[Caution, ...]
     table: RingTable
     """Rings that hands hold and close."""
     choreography: Choreography
     """What the hands do, in time."""
+
+    @property
+    def of_meshes(self) -> bool:
+        """Whether its balloons come from mesh files, which are not twisted."""
+        return any(strip.shape is not None for strip in self.strips.values())
 
     @property
     def bubbles(self) -> tuple[PlannedBubble, ...]:

@@ -32,7 +32,7 @@ def plan(recipe: Recipe) -> Plan:
     except RecipeError as error:
         raise RecipeError([*problems, *error.problems]) from None
     graph, holding = sculpture_graph(recipe, strips), holding_of(recipe, strips)
-    budgets = {name: budget_of(strip) for name, strip in strips.items() if not strip.capsule}
+    budgets = {name: budget_of(strip) for name, strip in strips.items() if strip.has_tail}
     table = RingTable(strips)
     cautions = cautions_of(recipe, strips, graph, budgets)
     choreography = choreograph(recipe, strips, table)

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from balloon_usd.plan.budget import Budget
     from balloon_usd.plan.judgement import Caution
     from balloon_usd.plan.model import Plan
+    from balloon_usd.plan.shaped import Shaped
     from balloon_usd.plan.strip import Strip
 
 PLAN_FORMAT = 1
@@ -30,11 +31,14 @@ def plan_text(plan: Plan) -> str:
         lines.append(f"after {recipe.source}")
     lines.append(f"model {recipe.physics.model}: {MODELS[recipe.physics.model]}")
     for name, strip in plan.strips.items():
-        if strip.capsule:
+        if strip.shape is not None:
+            lines += ["", *_shape_lines(strip, strip.shape)]
+        elif strip.capsule:
             lines += ["", *_capsule_lines(strip)]
         else:
             lines += ["", *_strip_lines(strip), *_budget_lines(plan, plan.budgets[name])]
-    lines += ["", *_graph_lines(plan), "", *_caution_lines(plan.cautions)]
+    graph = [] if plan.of_meshes else ["", *_graph_lines(plan)]
+    lines += [*graph, "", *_caution_lines(plan.cautions)]
     return "\n".join(lines) + "\n"
 
 
@@ -67,6 +71,17 @@ def _capsule_lines(strip: Strip) -> Iterator[str]:
     if len(strip.bubbles) > 1:
         end = strip.bubbles[-1].end
         yield f"  its necks take {cm(length - end)}: twisted it is {cm(end)} long"
+
+
+def _shape_lines(strip: Strip, shape: Shaped) -> Iterator[str]:
+    x, y, z = (f"{100.0 * side:.1f}" for side in shape.surface.size)
+    ball = cm(2.0 * shape.swell * shape.surface.ball_radius)
+    yield f"balloon {strip.balloon}: mesh of {len(shape.surface.quads)} quads, {x} x {y} x {z} cm flat"
+    yield f"  {1e4 * shape.surface.area:.0f} cm2 of wall, {1e3 * strip.size.thickness:g} mm thick"
+    yield (
+        f"  blow up to {shape.volume * 1e3:.2f} L in {shape.seconds:.1f} s (swell {shape.swell:g}): "
+        f"a ball would be {ball} wide, at {shape.pressure / 1e3:.1f} kPa"
+    )
 
 
 def _budget_lines(plan: Plan, budget: Budget) -> Iterator[str]:
@@ -149,7 +164,7 @@ def plan_json(plan: Plan) -> dict[str, Any]:
 
 
 def _balloon_json(strip: Strip, budget: Budget | None) -> dict[str, Any]:
-    """Data of one balloon; a capsule has no budget."""
+    """Data of one balloon; only tubes have a budget, and only meshes a shape."""
     return {
         "name": strip.balloon,
         "size": asdict(strip.size),
@@ -158,8 +173,21 @@ def _balloon_json(strip: Strip, budget: Budget | None) -> dict[str, Any]:
         "capsule": strip.capsule,
         "tail": strip.tail,
         "inflated_length": strip.capsule_length if budget is None else budget.inflated_length,
+        "shape": None if strip.shape is None else _shape_json(strip.shape),
         "bubbles": [asdict(bubble) for bubble in strip.bubbles],
         "budget": None if budget is None else _budget_json(budget),
+    }
+
+
+def _shape_json(shape: Shaped) -> dict[str, Any]:
+    return {
+        "file_sha256": shape.file_sha256,
+        "quads": len(shape.surface.quads),
+        "size": list(shape.surface.size),
+        "area": shape.surface.area,
+        "swell": shape.swell,
+        "volume": shape.volume,
+        "seconds": shape.seconds,
     }
 
 

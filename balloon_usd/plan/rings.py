@@ -87,6 +87,8 @@ def guide_places(strip: Strip) -> tuple[float, ...]:
 
 def _rings(strip: Strip) -> list[PlannedRing]:
     """Rings of one balloon: its knot, every joint, and guides inside the bubbles."""
+    if strip.shape is not None:
+        return []
     balloon = strip.balloon
     first = strip.bubbles[0]
     rings = [PlannedRing(balloon, 0.0, True, first.name, f"{balloon}.knot")]

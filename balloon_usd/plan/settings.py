@@ -9,9 +9,9 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from balloon_usd.balloon.sizes import size_named
 from balloon_usd.plan.choreography import Inflate
 from balloon_usd.plan.settings_kosaka import kosaka_problems
+from balloon_usd.plan.tube_sizes import tube_sizes
 from balloon_usd.recipe.quantities import duration_entry
 
 if TYPE_CHECKING:
@@ -63,10 +63,9 @@ def pace_problems(recipe: Recipe, choreography: Choreography) -> list[Problem]:
 
 
 def _thick_walls(recipe: Recipe) -> Iterator[Problem]:
-    for name, balloon in recipe.balloons.items():
-        size = size_named(balloon.size).with_overrides(balloon.radius, balloon.length, balloon.thickness)
+    for name, size in tube_sizes(recipe).items():
         if size.thickness > THICKEST * size.radius * (1.0 + 1e-9):
-            key = "radius" if balloon.thickness is None else "thickness"
+            key = "radius" if recipe.balloons[name].thickness is None else "thickness"
             # Rounded to hundredths of a millimetre, so that what is written works.
             least = math.ceil(1e5 * size.thickness / THICKEST - 1e-6) / 100.0
             most = math.floor(1e5 * size.radius * THICKEST + 1e-6) / 100.0
@@ -91,7 +90,7 @@ def _unscaled_masses(recipe: Recipe) -> Iterator[Problem]:
     physics = recipe.physics
     if physics.mass_scaling != "none":
         return
-    radius = min(b.radius or size_named(b.size).radius for b in recipe.balloons.values())
+    radius = min(size.radius for size in tube_sizes(recipe).values())
     needed = 50 * math.ceil(WAVE / radius / recipe.fps / 50.0)
     if (physics.substeps or 0) >= needed or (physics.substeps or math.inf) < SLOWEST / recipe.fps:
         return

@@ -10,9 +10,9 @@ import math
 from typing import TYPE_CHECKING
 
 from balloon_usd.balloon.rubber import rubber_named
-from balloon_usd.balloon.sizes import size_named
 from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.plan.particles import EXPERIMENT_RADIUS, experiment_spacing
+from balloon_usd.plan.tube_sizes import tube_sizes
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -155,7 +155,7 @@ def _radii(recipe: Recipe) -> list[float]:
         wide = maxwell_state(rubber_named(recipe.physics.rubber)).bulged.a
     except ValueError:
         return []
-    return sorted({wide * (b.radius or size_named(b.size).radius) for b in recipe.balloons.values()})
+    return sorted({wide * size.radius for size in tube_sizes(recipe).values()})
 
 
 def _place(key: str) -> Path:

@@ -13,8 +13,9 @@ from balloon_usd.plan.open_tube import softened
 if TYPE_CHECKING:
     from balloon_usd.balloon.rubber import Rubber
     from balloon_usd.balloon.sizes import BalloonSize
+    from balloon_usd.plan.shaped import Shaped
 
-BubbleKind = Literal["bubble", "loop", "fold", "ear", "rest"]
+BubbleKind = Literal["bubble", "loop", "fold", "ear", "rest", "shape"]
 
 
 class Made(NamedTuple):
@@ -73,6 +74,13 @@ class Strip:
     """Whether it is a closed capsule: it has no flat phase, and what is flat of a tube is, of a capsule, its
     wall before it is twisted.
     """
+    shape: Shaped | None = None
+    """What a balloon from a mesh file is; None of others. Its size is that of a ball of the same wall."""
+
+    @property
+    def has_tail(self) -> bool:
+        """Whether it is a tube, of which twists use up a flat tail."""
+        return not self.capsule and self.shape is None
 
     @property
     def inflated_radius(self) -> float:

@@ -27,6 +27,12 @@ def line(start: Point, end: Point) -> str:
     return f'<line class="mark" x1="{start[0]:.1f}" y1="{start[1]:.1f}" x2="{end[0]:.1f}" y2="{end[1]:.1f}"/>'
 
 
+def polygons(corners: list[list[Point]], kind: str) -> str:
+    """Return closed polygons as one shape."""
+    runs = (" ".join(f"{x:.1f},{y:.1f}" for x, y in polygon) for polygon in corners)
+    return f'<path{_class(kind)} d="{"".join(f"M{run}Z" for run in runs)}"/>'
+
+
 def curve(controls: list[Point], color: str) -> str:
     """Return a thick Bézier curve: quadratic through three points, cubic through four."""
     first, *others = (f"{x:.1f},{y:.1f}" for x, y in controls)

@@ -5,7 +5,8 @@ from typing import Annotated, Literal, get_args
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema
 
 from .colors import ColorEntry, color
-from .quantities import FlatTail, Length, LengthWithin
+from .names import Text
+from .quantities import LONGEST, Between, FlatTail, Length, LengthWithin, Units
 
 BalloonSizeName = Literal["160", "260", "321", "350", "360", "646"]
 
@@ -13,9 +14,18 @@ FILLINGS = ("tail", "inflated", "capsule")
 """Keys that say how far a balloon is blown up: exactly one of them."""
 FLAT_ONLY = ("length", "thickness")
 """Keys of a flat tube that a capsule does not have."""
+MESH_ONLY = ("unit", "swell", "at")
+"""Keys of a balloon from a mesh file that tubes do not have."""
+MESH_KEYS = ("mesh", *MESH_ONLY, "color", "thickness")
+"""Keys that a balloon from a mesh file has."""
+USUAL_SWELL = 1.2
+"""Size to which a balloon from a mesh is blown up: taut, and still of its own shape."""
 
 _SIZE_CODES = get_args(BalloonSizeName)
 _SIZE_SCHEMA = {"enum": [*map(int, _SIZE_CODES), *_SIZE_CODES]}
+
+
+Place = Annotated[float, LengthWithin(-LONGEST, LONGEST, low_included=True)]
 
 
 def _size_text(value: object) -> object:
@@ -23,12 +33,28 @@ def _size_text(value: object) -> object:
 
 
 class Balloon(BaseModel):
-    """One balloon of the recipe; `tail`, `inflated` or `capsule` says how far it is blown up."""
+    """One balloon of the recipe: a tube of some size, or any closed shape from a mesh file.
 
-    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
+    Of a tube, `tail`, `inflated` or `capsule` says how far it is blown up.
+    """
 
-    size: Annotated[BalloonSizeName, BeforeValidator(_size_text), WithJsonSchema(_SIZE_SCHEMA)]
+    model_config = ConfigDict(
+        frozen=True,
+        extra="forbid",
+        use_attribute_docstrings=True,
+        json_schema_extra={"oneOf": [{"required": ["size"]}, {"required": ["mesh"]}]},
+    )
+
+    size: Annotated[BalloonSizeName, BeforeValidator(_size_text), WithJsonSchema(_SIZE_SCHEMA)] | None = None
     """Size code of the trade: 260 is 2 inches by 60."""
+    mesh: Annotated[Text, Field(min_length=1)] | None = None
+    """File with the closed surface of the flat balloon, instead of size; found from the recipe's folder."""
+    unit: Units | None = None
+    """Unit of the mesh file, where it is not that of the recipe."""
+    swell: Annotated[float, Between(0.5, 5.0)] | None = None
+    """How far a mesh is blown up: to so many times the size of a ball with as much unstretched wall."""
+    at: tuple[Place, Place, Place] | None = None
+    """Where the origin of the mesh file is; m in Python."""
     color: Annotated[ColorEntry, Field(json_schema_extra={"default": "red"})] = color("red")
     tail: FlatTail | None = None
     """Flat rubber left empty at the end; m in Python."""

@@ -47,7 +47,8 @@ class RecipeBuilder:
         self,
         name: str,
         *,
-        size: str | int,
+        size: str | int | None = None,
+        mesh: str | None = None,
         color: str | Sequence[float] | None = None,
         tail: LengthLike | None = None,
         inflated: LengthLike | None = None,
@@ -55,8 +56,13 @@ class RecipeBuilder:
         radius: LengthLike | None = None,
         length: LengthLike | None = None,
         thickness: LengthLike | None = None,
+        unit: Units | None = None,
+        swell: float | None = None,
+        at: Sequence[LengthLike] | None = None,
     ) -> Self:
-        """Take a balloon; give `tail` (flat), `inflated` or `capsule`, m."""
+        """Take a balloon of a size; give `tail` (flat), `inflated` or `capsule`, m. Or take one of a `mesh`
+        file, in this `unit`, blown up to `swell`, its origin `at` a place (3,), m.
+        """
         lengths = {
             "tail": tail,
             "inflated": inflated,
@@ -65,9 +71,11 @@ class RecipeBuilder:
             "length": length,
             "thickness": thickness,
         }
-        code = int(size) if str(size).isdecimal() else size
+        code = int(size) if isinstance(size, str) and size.isdecimal() else size
         written = {key: self._length(value) for key, value in lengths.items() if value is not None}
-        self._balloons[name] = _given({"size": code, "color": color}) | written
+        place = None if at is None else [self._length(value) for value in at]
+        shape = {"mesh": mesh, "unit": unit, "swell": swell, "at": place}
+        self._balloons[name] = _given({"size": code, **shape, "color": color}) | written
         return self
 
     def bubbles(

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from .balloons import FILLINGS, FLAT_ONLY
 from .choices import one_of, unknown
+from .mesh_words import mesh_complaints, meshes_in
 from .model_words import model_complaints
 from .names import NAME_LIMIT, rest_name
 from .outline import StepOutline, balloons_in, outlines_in
@@ -21,14 +22,15 @@ Vertex = tuple[str, int]
 
 def meaning_complaints(data: object) -> list[Complaint]:
     """List what does not make sense in the plain data of a recipe, of whatever shape it is."""
-    workbench = _Workbench(data)
+    workbench, meshes = _Workbench(data), meshes_in(data)
     for balloon, entry in balloons_in(data).items():
-        workbench.check_filling(balloon, entry)
-    for step in workbench.steps:
+        if balloon not in meshes:
+            workbench.check_filling(balloon, entry)
+    for step in () if meshes else workbench.steps:
         if workbench.full:
             break
         workbench.check(step)
-    return [*workbench.complaints, *model_complaints(data)]
+    return [*workbench.complaints, *mesh_complaints(data), *model_complaints(data)]
 
 
 class _Workbench:
@@ -76,6 +78,8 @@ class _Workbench:
         if not isinstance(entry, dict):
             return
         path: Path = ("balloons", balloon)
+        if "size" not in entry:
+            self._complain((*path, "size"), "is missing, expected the size of the balloon, such as 260")
         given = [key for key in FILLINGS if key in entry]
         if not given:
             self._complain(path, f"does not say how far it is blown up, expected {one_of(FILLINGS)}")

@@ -223,10 +223,10 @@ class LengthWithin:
     def __get_pydantic_json_schema__(
         self, schema: CoreSchema, handler: GetJsonSchemaHandler
     ) -> JsonSchemaValue:
-        least = "minimum" if self.low_included else "exclusiveMinimum"
-        units = "|".join(METRES)
-        text = {"type": "string", "pattern": rf"^\s*\+?[0-9.]+([eE][-+]?[0-9]+)?\s*({units})\s*$"}
-        return {"anyOf": [{"type": "number", least: 0}, text]}
+        least = {"minimum" if self.low_included else "exclusiveMinimum": 0} if self.low >= 0.0 else {}
+        units, sign = "|".join(METRES), "\\+" if self.low >= 0.0 else "[-+]"
+        text = {"type": "string", "pattern": rf"^\s*{sign}?[0-9.]+([eE][-+]?[0-9]+)?\s*({units})\s*$"}
+        return {"anyOf": [{"type": "number", **least}, text]}
 
 
 class AngleWithin:

@@ -120,7 +120,6 @@ def _wanted(path: Path) -> str:
         "name": "a name for the file such as dog",
         "balloons": "balloons such as {main: {size: 260, color: red, tail: 10}}",
         "steps": f"a list of steps, each with {one_of(KINDS)}",
-        "size": "the size of the balloon, such as 260",
         "joints": "a list such as [nose.end, tail.start]",
         "bubble": "the bubble that is pushed",
     }

@@ -54,7 +54,10 @@ def recipe_text(entries: Mapping[str, object]) -> str:
 
 
 def _balloon_entries(balloon: Balloon, units: str | None) -> Entries:
-    entries: Entries = {"size": int(balloon.size)}
+    entries: Entries = {"size": int(balloon.size)} if balloon.size is not None else {}
+    entries |= balloon.model_dump(include={"mesh", "unit", "swell"}, exclude_none=True)
+    if balloon.at is not None:
+        entries["at"] = [length_entry(place, units) for place in balloon.at]
     if "color" in balloon.model_fields_set:
         entries["color"] = balloon.model_dump(include={"color"})["color"]
     for key in (*FILLINGS, "radius", "length", "thickness"):

@@ -31,7 +31,7 @@ class History:
         self._tubes = [
             (index, strip, mesh)
             for index, (strip, mesh) in enumerate(zip(plan.strips.values(), meshes, strict=True))
-            if not strip.capsule
+            if strip.has_tail
         ]
         self._necks = [_necks(plan, balloon) for balloon in plan.strips]
         self._owners = _owners(plan, meshes)
@@ -106,7 +106,7 @@ class History:
 
     @property
     def tail_names(self) -> tuple[str, ...]:
-        """Balloons that have a tail: a capsule has none."""
+        """Balloons that have a tail: only tubes do."""
         return tuple(strip.balloon for _, strip, _ in self._tubes)
 
     @property

@@ -60,6 +60,13 @@ class Body:
     """Rings before those that a plan speaks of."""
     spare_segments: int = 0
     """Segments before the first bubble."""
+    place: NDArray[np.float32] | None = None
+    """Unstressed place of every vertex, (V, 3) float32, m, where it is not told by `along`."""
+
+    @property
+    def along_only(self) -> NDArray[np.float32]:
+        """Places along the balloon, (V, 3) float32, m, as if it had no width."""
+        return np.stack([self.along, 0.0 * self.along, 0.0 * self.along], axis=1)
 
 
 SPREAD = 0.14

@@ -23,15 +23,16 @@ def mesh_arrays(scene: Scene, host: Arrays) -> None:
     v, q, s = scene.vertex_start, scene.quad_start, scene.segment_start
     host["quads"] = np.concatenate([b.quads + v[k] for k, b in enumerate(bodies)]).astype(np.int32)
     tables = [corner_table(b.quads, len(b.points)) for b in bodies]
-    host["corners"] = np.concatenate(
-        [np.where(table >= 0, table + 4 * q[k], -1) for k, table in enumerate(tables)]
-    ).astype(np.int32)
+    host["corners"] = _joined_corners(tables, [len(b.points) for b in bodies], q)
     segments = [np.searchsorted(b.segment_ends, np.arange(len(b.quads)), side="right") for b in bodies]
     host["quad_segment"] = np.concatenate([g + s[k] for k, g in enumerate(segments)]).astype(np.int32)
     host["quad_balloon"] = np.repeat(index, np.diff(q)).astype(np.int32)
     host["vertex_balloon"] = np.repeat(index, np.diff(v)).astype(np.int32)
     host["vertex_along"] = np.concatenate([b.along for b in bodies]).astype(np.float32)
-    host["quad_along"] = np.concatenate([b.along[b.quads].mean(axis=1) for b in bodies]).astype(np.float32)
+    places = [b.along_only if b.place is None else b.place for b in bodies]
+    host["vertex_place"] = np.concatenate(places).astype(np.float32)
+    middles = [place[b.quads].mean(axis=1) for place, b in zip(places, bodies, strict=True)]
+    host["quad_place"] = np.concatenate(middles).astype(np.float32)
     host["balloon_world"] = np.asarray(scene.worlds, dtype=np.int32)
     host["quad_world"] = host["balloon_world"][host["quad_balloon"]]
     host["balloon_radius"] = np.array([b.radius for b in bodies], dtype=np.float32)
@@ -41,6 +42,21 @@ def mesh_arrays(scene: Scene, host: Arrays) -> None:
         ("friction", scene.settings.friction),
     ):
         host[name] = np.full(len(bodies), value, dtype=np.float32)
+
+
+def _joined_corners(
+    tables: list[NDArray[np.int32]], counts: list[int], first_quad: NDArray[np.int64]
+) -> NDArray[np.int32]:
+    """Join the corners of bodies: rows of all `counts` vertices first, then those to which they go on."""
+    vertices = sum(counts)
+    further = np.cumsum([0, *(len(table) - count for table, count in zip(tables, counts, strict=True))])
+    joined = []
+    for k, (table, count) in enumerate(zip(tables, counts, strict=True)):
+        on = table - (vertices + further[k] - count)
+        joined.append(np.where(table >= 0, table + 4 * first_quad[k], np.where(table == -1, -1, on)))
+    own = [table[:count] for table, count in zip(joined, counts, strict=True)]
+    more = [table[count:] for table, count in zip(joined, counts, strict=True)]
+    return np.concatenate([*own, *more]).astype(np.int32)
 
 
 def ring_arrays(scene: Scene, host: Arrays) -> None:

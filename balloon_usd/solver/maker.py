@@ -125,7 +125,7 @@ class Maker(ABC):
         elif isinstance(move, Weld) and fresh:
             self.hands.weld(tuple(self._ring[r] for r in move.rings))
         elif isinstance(move, LetGo) and fresh:
-            self.hands.let_go(np.array(self._ring))
+            self.hands.let_go(np.array(self._ring, dtype=np.int64))
 
     def _steady(self, ring: int, middle: Floats) -> None:
         """Keep what is already made from swinging round a joint, free to move along the balloon as the

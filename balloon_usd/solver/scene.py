@@ -166,6 +166,8 @@ _VECTORS = {
     "corner": wp.vec2,
     "joint_beside": wp.vec2i,
     "air": wp.vec3,
+    "vertex_place": wp.vec3,
+    "quad_place": wp.vec3,
     "spring_ends": wp.vec4i,
     "natural": wp.vec4,
 }

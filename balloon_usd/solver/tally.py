@@ -53,13 +53,14 @@ class Tally:
 
     @property
     def tails_left(self) -> dict[str, float]:
-        """Flat rubber left at the tip of every balloon in the last frame, m."""
+        """Flat rubber left at the tip of every tube in the last frame, m."""
         if self._last is None:
             return {}
         pairs = zip(self._plan.strips.items(), self._meshes, self._last.points, strict=True)
         return {
             name: flat_tail(mesh, points, strip.bubbles[-1].rest_start, strip.size.radius)
             for (name, strip), mesh, points in pairs
+            if strip.shape is None
         }
 
 

@@ -43,6 +43,7 @@ def accepts(schema: Mapping[str, Any], value: Any) -> bool:
         "enum": lambda rule: value in rule,
         "const": lambda rule: value == rule and type(value) is type(rule),
         "pattern": lambda rule: not isinstance(value, str) or re.search(rule, value) is not None,
+        "minLength": lambda rule: not isinstance(value, str) or len(value) >= rule,
         "maxLength": lambda rule: not isinstance(value, str) or len(value) <= rule,
         "minimum": lambda rule: not isinstance(value, (int, float)) or value >= rule,
         "maximum": lambda rule: not isinstance(value, (int, float)) or value <= rule,
@@ -51,6 +52,10 @@ def accepts(schema: Mapping[str, Any], value: Any) -> bool:
         "minItems": lambda rule: not isinstance(value, list) or len(value) >= rule,
         "maxItems": lambda rule: not isinstance(value, list) or len(value) <= rule,
         "items": lambda rule: not isinstance(value, list) or all(accepts(rule, item) for item in value),
+        "prefixItems": lambda rule: (
+            not isinstance(value, list)
+            or all(accepts(part, item) for part, item in zip(rule, value, strict=False))
+        ),
         "minProperties": lambda rule: not isinstance(value, dict) or len(value) >= rule,
         "required": lambda rule: not isinstance(value, dict) or set(rule) <= set(value),
         "propertyNames": lambda rule: not isinstance(value, dict) or all(accepts(rule, key) for key in value),
@@ -121,7 +126,13 @@ AIR = (
 )
 
 
-@pytest.mark.parametrize("text", [EVERYTHING, AIR], ids=["latex", "kosaka"])
+SHAPES = (
+    "format: 1\nname: shapes\nunits: cm\nsteps: [wait: 1]\nballoons:\n"
+    "  heart: {mesh: heart.obj, unit: mm, swell: 1.5, at: [0, -30, 1 ft], color: red, thickness: 0.2 mm}\n"
+)
+
+
+@pytest.mark.parametrize("text", [EVERYTHING, AIR, SHAPES], ids=["latex", "kosaka", "meshes"])
 def test_the_schema_and_the_reader_accept_a_recipe_with_every_key(text: str) -> None:
     assert Recipe.parse(text).steps[-1].kind == "wait"
     assert accepts(SCHEMA, plain(text))
@@ -143,6 +154,11 @@ WRONG = [
     "format: 1\nname: d\nballoons: {m: {size: 260, tail: 1 cm, colour: red}}\nsteps: [wait: 1]\n",
     "format: 1\nname: d\nballoons: {m: {size: 260, tail: 1 cm, color: [1, 2, 3]}}\nsteps: [wait: 1]\n",
     "format: 1\nname: d\nballoons: {m: {size: 260, tail: 1 cm, color: rde}}\nsteps: [wait: 1]\n",
+    "format: 1\nname: d\nballoons: {m: {size: 260, mesh: a.obj}}\nsteps: [wait: 1]\n",
+    "format: 1\nname: d\nballoons: {m: {mesh: ''}}\nsteps: [wait: 1]\n",
+    "format: 1\nname: d\nballoons: {m: {mesh: a.obj, swell: 6}}\nsteps: [wait: 1]\n",
+    "format: 1\nname: d\nballoons: {m: {mesh: a.obj, unit: yd}}\nsteps: [wait: 1]\n",
+    "format: 1\nname: d\nballoons: {m: {mesh: a.obj, at: [0 m, 1 m]}}\nsteps: [wait: 1]\n",
     HEAD + "  - {}\n",
     HEAD + "  - bubbles: {}\n",
     HEAD + "  - bubbles: {a: 0}\n",
@@ -199,7 +215,7 @@ def test_the_schema_describes_every_key_and_forbids_others(found: dict[str, Any]
 
 def test_the_schema_requires_what_the_reader_requires() -> None:
     assert SCHEMA["required"] == ["format", "name", "balloons", "steps"]
-    assert SCHEMA["$defs"]["Balloon"]["required"] == ["size"]
+    assert SCHEMA["$defs"]["Balloon"]["oneOf"] == [{"required": ["size"]}, {"required": ["mesh"]}]
     assert "required" not in SCHEMA["$defs"]["Physics"]
     assert SCHEMA["$defs"]["Step"]["oneOf"] == [{"required": [kind]} for kind in KINDS]
 

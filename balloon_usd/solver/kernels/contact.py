@@ -50,7 +50,7 @@ class Touch:
     margin: float
     """Further distance within which walls are watched between two searches, m."""
     apart: float
-    """Unstressed distance along one bubble, in R0, within which its wall never meets itself."""
+    """Unstressed distance within one bubble, in R0, within which its wall never meets itself."""
 
 
 @wp.kernel
@@ -102,6 +102,15 @@ def vertex_surface(
             a = quad_area[slots[k] // 4]
             total += a
             size += 0.25 * wp.length(a)
+    more = -2 - slots[3]
+    while more >= 0:
+        slots = corners[more]
+        for k in range(4):
+            if slots[k] >= 0:
+                a = quad_area[slots[k] // 4]
+                total += a
+                size += 0.25 * wp.length(a)
+        more = -2 - slots[3]
     normal[i] = wp.normalize(total)
     area[i] = size
 
@@ -189,7 +198,7 @@ def distance_of_wall(
     d: wp.vec3,
     mine: int,
     home: int,
-    along: float,
+    place: wp.vec3,
     apart: float,
     depth: float,
     n: wp.vec3,
@@ -198,7 +207,7 @@ def distance_of_wall(
     quads: wp.array[wp.vec4i],
     quad_segment: wp.array[int],
     quad_ring: wp.array[int],
-    quad_along: wp.array[float],
+    quad_place: wp.array[wp.vec3],
     quad_balloon: wp.array[int],
     x: wp.array[wp.vec3],
     quad_area: wp.array[wp.vec3],
@@ -206,10 +215,10 @@ def distance_of_wall(
 ):
     """Return the distance (m) of a vertex from a quad that faces it, or FAR where the two never meet.
 
-    `d`: from the quad's middle to the vertex, m; `mine`, `home`, `along`: its balloon, bubble and place.
+    `d`: from the quad's middle to the vertex, m; `mine`, `home`, `place`: its balloon, bubble and place.
     """
     distance = float(FAR)
-    elsewhere = quad_balloon[q] != mine or wp.abs(quad_along[q] - along) > apart
+    elsewhere = quad_balloon[q] != mine or wp.max(wp.abs(quad_place[q] - place)) > apart
     if elsewhere or (home >= 0 and quad_segment[q] != home):
         a = quad_area[q]
         size = wp.length(a)
@@ -228,10 +237,10 @@ def find_walls(
     quads: wp.array[wp.vec4i],
     quad_segment: wp.array[int],
     quad_ring: wp.array[int],
-    quad_along: wp.array[float],
+    quad_place: wp.array[wp.vec3],
     quad_balloon: wp.array[int],
     vertex_ring: wp.array[int],
-    vertex_along: wp.array[float],
+    vertex_place: wp.array[wp.vec3],
     vertex_balloon: wp.array[int],
     vertex_segment: wp.array[int],
     balloon_world: wp.array[int],
@@ -263,7 +272,7 @@ def find_walls(
     mine = vertex_balloon[i]
     # The bubble of a vertex; a ring between two bubbles belongs to neither.
     home = vertex_segment[i]
-    along = vertex_along[i]
+    place = vertex_place[i]
     apart = touch.apart * balloon_radius[mine]
     depth = DEPTH_LIMIT * ring_radius[vertex_ring[i]]
     reach = REACH * wp.sqrt(area[i]) + touch.offset + touch.margin
@@ -296,7 +305,7 @@ def find_walls(
                         d,
                         mine,
                         home,
-                        along,
+                        place,
                         apart,
                         depth,
                         n,
@@ -305,7 +314,7 @@ def find_walls(
                         quads,
                         quad_segment,
                         quad_ring,
-                        quad_along,
+                        quad_place,
                         quad_balloon,
                         x,
                         quad_area,
@@ -346,9 +355,9 @@ def find_walls(
                 kept = slip1
             c = quads[found[k]]
             contact_place[i, k] = nearest_on_patch(x[c[0]], x[c[1]], x[c[2]], x[c[3]], p)
-            place = wp.atomic_add(hit_count, found[k], 1)
-            if place < MOST_HITS:
-                hits[found[k], place] = 2 * i + k
+            slot = wp.atomic_add(hit_count, found[k], 1)
+            if slot < MOST_HITS:
+                hits[found[k], slot] = 2 * i + k
         else:
             contact_force[i, k] = wp.vec3(0.0)
         target[i, k] = found[k]

@@ -138,6 +138,22 @@ def lift_of_corner(q: int, corner: int, lift: wp.array2d[wp.vec3]):
     return lift[q, 0] + hoop * lift[q, 1] + axial * lift[q, 2]
 
 
+@wp.func
+def stretch_of_quad(q: int, quads: wp.array[wp.vec4i], to_rest: wp.array[wp.mat22], x: wp.array[wp.vec3]):
+    """Return the largest principal stretch of a quad's mean deformation."""
+    c = quads[q]
+    b = to_rest[q]
+    hoop = 0.5 * (x[c[1]] - x[c[0]] + x[c[2]] - x[c[3]])
+    axial = 0.5 * (x[c[3]] - x[c[0]] + x[c[2]] - x[c[1]])
+    f1 = hoop * b[0, 0] + axial * b[1, 0]
+    f2 = hoop * b[0, 1] + axial * b[1, 1]
+    c11 = wp.dot(f1, f1)
+    c22 = wp.dot(f2, f2)
+    c12 = wp.dot(f1, f2)
+    radius = wp.sqrt(wp.max(0.25 * (c11 - c22) * (c11 - c22) + c12 * c12, 0.0))
+    return wp.sqrt(0.5 * (c11 + c22) + radius)
+
+
 @wp.kernel
 def vertex_stretch(
     corners: wp.array[wp.vec4i],
@@ -154,17 +170,14 @@ def vertex_stretch(
     for k in range(4):
         slot = slots[k]
         if slot >= 0:
-            q = slot // 4
-            c = quads[q]
-            b = to_rest[q]
-            hoop = 0.5 * (x[c[1]] - x[c[0]] + x[c[2]] - x[c[3]])
-            axial = 0.5 * (x[c[3]] - x[c[0]] + x[c[2]] - x[c[1]])
-            f1 = hoop * b[0, 0] + axial * b[1, 0]
-            f2 = hoop * b[0, 1] + axial * b[1, 1]
-            c11 = wp.dot(f1, f1)
-            c22 = wp.dot(f2, f2)
-            c12 = wp.dot(f1, f2)
-            radius = wp.sqrt(wp.max(0.25 * (c11 - c22) * (c11 - c22) + c12 * c12, 0.0))
-            total += wp.sqrt(0.5 * (c11 + c22) + radius)
+            total += stretch_of_quad(slot // 4, quads, to_rest, x)
             count += 1.0
+    more = -2 - slots[3]
+    while more >= 0:
+        slots = corners[more]
+        for k in range(4):
+            if slots[k] >= 0:
+                total += stretch_of_quad(slots[k] // 4, quads, to_rest, x)
+                count += 1.0
+        more = -2 - slots[3]
     stretch[i] = total / wp.max(count, 1.0)

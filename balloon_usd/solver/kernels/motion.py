@@ -30,6 +30,32 @@ class Spin:
 
 
 @wp.func
+def force_of_further_quads(
+    row: int,
+    side: int,
+    inside: float,
+    beyond: float,
+    corners: wp.array[wp.vec4i],
+    quad_segment: wp.array[int],
+    corner_force: wp.array2d[wp.vec3],
+    lift: wp.array2d[wp.vec3],
+):
+    """Return the force (N) of the quads at a vertex from a row of `corners` on."""
+    f = wp.vec3(0.0)
+    more = int(row)
+    while more >= 0:
+        slots = corners[more]
+        for k in range(4):
+            if slots[k] >= 0:
+                q = slots[k] >> 2
+                corner = slots[k] & 3
+                p = wp.where(quad_segment[q] == side, inside, beyond)
+                f += corner_force[q, corner] + p * lift_of_corner(q, corner, lift)
+        more = -2 - slots[3]
+    return f
+
+
+@wp.func
 def force_on_vertex(
     i: int,
     side: int,
@@ -44,6 +70,7 @@ def force_on_vertex(
     """Return the force (N) of wall, gas and other walls on a vertex.
 
     `inside`, `beyond`: gauge pressures (Pa) in the segment `side` and in the other that it may border on.
+    Where more than four quads meet, the fourth slot says where `corners` goes on: in row -2 - slot.
     """
     slots = corners[i]
     f = contact_force[i, 0] + contact_force[i, 1]
@@ -55,6 +82,10 @@ def force_on_vertex(
         p = wp.where(quad_segment[q] == side, inside, beyond)
         g = corner_force[q, corner] + p * lift_of_corner(q, corner, lift)
         f += wp.where(slots[k] >= 0, g, wp.vec3(0.0))
+    if slots[3] < -1:
+        f += force_of_further_quads(
+            -2 - slots[3], side, inside, beyond, corners, quad_segment, corner_force, lift
+        )
     return f
 
 

@@ -29,6 +29,13 @@ def load_of_vertex(
     for k in range(4):
         if slots[k] >= 0:
             beside += 1.0
+    more = -2 - slots[3]
+    while more >= 0:
+        slots = corners[more]
+        for k in range(4):
+            if slots[k] >= 0:
+                beside += 1.0
+        more = -2 - slots[3]
     return load / wp.max(beside, 1.0)
 
 

@@ -39,6 +39,8 @@ class LatexBody(Body):
     """Chambers open to the air: they keep their gauge pressure."""
     inlet: int
     """Chamber that the pump blows into."""
+    gap: float = math.inf
+    """Distance of walls that lie close to each other at the start, m: little gas between them is stiff."""
 
 
 LIP_THICKNESS = 5.0

@@ -19,6 +19,7 @@ from balloon_usd.solver.maker import ALONG, Maker
 
 if TYPE_CHECKING:
     from balloon_usd.plan import Plan
+    from balloon_usd.plan.shaped import Shaped
     from balloon_usd.solver.latex.hands import LatexHands
     from balloon_usd.solver.latex.scene import LatexScene
     from balloon_usd.solver.latex.struts import Struts
@@ -95,7 +96,10 @@ class LatexMaker(Maker):
                 self.struts.hold(friction_pairs(self.plan, self.hands, self._ring))
 
     def _inflate(self, move: Inflate, share: float, fresh: bool, middle: Floats) -> None:
-        b = self.body[move.balloon]
+        b, shape = self.body[move.balloon], self.plan.strips[move.balloon].shape
+        if shape is not None:
+            self._fill(b, shape, move, share, fresh=fresh)
+            return
         if fresh:
             strip, budget = self.plan.strips[move.balloon], self.plan.budgets[move.balloon]
             scale = strip.size.thickness / strip.size.radius
@@ -107,14 +111,32 @@ class LatexMaker(Maker):
             self.hands.set_drag(b, 0.0)
             # What the mesh's artificial inertia adds to the stretch behind the front must not soften it.
             self.hands.set_softening(b, 0.0)
-        # The pump starts and stops gently: the balloon is pushed along by its own front.
-        gentle = min(1.0, share / PUMP_RAMP, (1.0 - share) / PUMP_RAMP)
-        flow = self.hands.pump_goal[b] / (PUMP_TIME * (1.0 - PUMP_RAMP) * move.seconds)
-        self.hands.pump_flow[b] = flow * max(gentle, 0.0)
+        self._pump(b, move, share)
         self._lead_tail(move.balloon, float(self.hands.pump_flow[b]), fresh, middle)
         if share >= 1.0:
             self.hands.set_drag(b, self.scene.settings.drag)
             self.hands.set_softening(b, self.scene.settings.dt / SOFTENING_SECONDS)
+            self.inflated = self._frame
+
+    def _pump(self, body: int, move: Inflate, share: float) -> None:
+        """Set the pump's flow: it starts and stops gently, as a balloon is pushed along by its own front."""
+        gentle = min(1.0, share / PUMP_RAMP, (1.0 - share) / PUMP_RAMP)
+        flow = self.hands.pump_goal[body] / (PUMP_TIME * (1.0 - PUMP_RAMP) * move.seconds)
+        self.hands.pump_flow[body] = flow * max(gentle, 0.0)
+
+    def _fill(self, body: int, shape: Shaped, move: Inflate, share: float, *, fresh: bool) -> None:
+        """Blow up a balloon of any shape, which nobody holds."""
+        atmosphere = self.scene.settings.atmosphere
+        if fresh:
+            energy = float(self.scene.air.molar_energy)
+            self.hands.pump_goal[body] = (atmosphere + shape.pressure) * shape.volume / energy
+            # No wall is so stiff: the pump gives its air in time whatever the shape is.
+            self.hands.pump_limit[body] = atmosphere
+            self.hands.set_softening(body, 0.0)
+            self.hands.touch([body])
+        self._pump(body, move, share)
+        if share >= 1.0:
+            self.hands.set_softening(body, self.scene.settings.dt / SOFTENING_SECONDS)
             self.inflated = self._frame
 
     def _lead_tail(self, balloon: str, flow: float, fresh: bool, middle: Floats) -> None:

@@ -71,7 +71,8 @@ def membrane_data(body: LatexBody, dt: float, atmosphere: float, *, scale_mass: 
     if scale_mass:
         tangent = STIFFENING * stiffness * body.thickness
         wall = dt**2 * tangent * (1 / width**2 + 1 / height**2)
-        gas = dt**2 / 4 * 2 * atmosphere / body.radius * GAS_AREA_GAIN / math.sqrt(GAS_AREA_GAIN)
+        radius = min(body.radius, math.sqrt(GAS_AREA_GAIN) * body.gap)
+        gas = dt**2 / 4 * 2 * atmosphere / radius * GAS_AREA_GAIN / math.sqrt(GAS_AREA_GAIN)
         inertia = np.maximum(density, MASS_SAFETY * (wall + gas))
     else:
         inertia = density

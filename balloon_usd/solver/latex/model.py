@@ -15,6 +15,7 @@ from balloon_usd.solver.latex.hands import LatexHands
 from balloon_usd.solver.latex.leak import Leak
 from balloon_usd.solver.latex.maker import LatexMaker
 from balloon_usd.solver.latex.scene import build_scene
+from balloon_usd.solver.latex.shape_body import shape_body
 from balloon_usd.solver.latex.stepper import Stepper
 from balloon_usd.solver.latex.struts import StrutLaw, Struts
 from balloon_usd.solver.layout import Layout
@@ -176,12 +177,16 @@ class LatexModel:
 def _bodies(plan: Plan, meshes: Sequence[BalloonMesh]) -> list[LatexBody]:
     """Return the balloons of a plan, side by side."""
     bodies = [_body(plan, strip, mesh) for strip, mesh in zip(plan.strips.values(), meshes, strict=True)]
-    for body, place in zip(bodies, places_beside(len(bodies)), strict=True):
+    # A mesh lies where its file and the recipe say.
+    beside = [body for body in bodies if body.rings]
+    for body, place in zip(beside, places_beside(len(beside)), strict=True):
         body.points[:, 1] += place
     return bodies
 
 
 def _body(plan: Plan, strip: Strip, mesh: BalloonMesh) -> LatexBody:
+    if strip.shape is not None:
+        return shape_body(mesh, strip.rubber, strip.size.thickness)
     pressure = SEALED_KNOT * maxwell_state(strip.rubber).p_star * strip.size.thickness / strip.size.radius
     guides = tuple(r.along for r in plan.table.rings if r.balloon == strip.balloon and not r.joint)
     return tube_body(
