@@ -13,6 +13,10 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from balloon_usd.check import Report, check_file
+    from balloon_usd.diff import Comparison, DiffError, compare_files
+    from balloon_usd.exchange.error import ExchangeError
+    from balloon_usd.exchange.export import export_stage
     from balloon_usd.plan import Plan, plan_json, plan_svg, plan_text
     from balloon_usd.plan import plan as plan_recipe
     from balloon_usd.preview import PreviewError, draw_contact_sheet
@@ -27,7 +31,10 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 __all__ = [
+    "Comparison",
     "DeviceUnavailable",
+    "DiffError",
+    "ExchangeError",
     "Frame",
     "Performance",
     "Plan",
@@ -35,13 +42,17 @@ __all__ = [
     "Recipe",
     "RecipeBuilder",
     "RecipeError",
+    "Report",
     "Simulation",
     "SimulationFailed",
     "StageError",
     "WrittenStage",
     "__version__",
+    "check_file",
+    "compare_files",
     "describe_stage",
     "draw_contact_sheet",
+    "export_stage",
     "plan_json",
     "plan_recipe",
     "plan_svg",
@@ -53,6 +64,10 @@ __all__ = [
 ]
 
 _ROOMS = {
+    "balloon_usd.check": ("Report", "check_file"),
+    "balloon_usd.diff": ("Comparison", "DiffError", "compare_files"),
+    "balloon_usd.exchange.error": ("ExchangeError",),
+    "balloon_usd.exchange.export": ("export_stage",),
     "balloon_usd.plan": ("Plan", "plan_json", "plan_svg", "plan_text"),
     "balloon_usd.preview": ("PreviewError", "draw_contact_sheet"),
     "balloon_usd.recipe": ("Recipe", "RecipeBuilder", "RecipeError", "recipe_schema"),

@@ -1,4 +1,4 @@
-"""The command line: `balloon-usd run`, `plan`, `schema`, `preview`, `bench`.
+"""The command line, `balloon-usd`: a module a command, and what they share.
 
 Commands import what they need when they run, so that `--help` answers at once.
 """

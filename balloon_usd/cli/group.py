@@ -8,7 +8,12 @@ import click
 
 from balloon_usd import __version__
 from balloon_usd.cli.bench import bench
+from balloon_usd.cli.blender_extension import blender_extension
+from balloon_usd.cli.check import check
+from balloon_usd.cli.diff import diff
+from balloon_usd.cli.export import export
 from balloon_usd.cli.failure import EXIT_CODES_HELP, ExitCode, Failure
+from balloon_usd.cli.golden import golden
 from balloon_usd.cli.plan import plan
 from balloon_usd.cli.preview import preview
 from balloon_usd.cli.run import run
@@ -32,5 +37,5 @@ def main() -> None:
     """Physics-true balloon twisting: a YAML recipe becomes an animated USD stage."""
 
 
-for command in (run, plan, schema, preview, bench):
+for command in (run, plan, schema, preview, check, diff, golden, export, blender_extension, bench):
     main.add_command(command)
