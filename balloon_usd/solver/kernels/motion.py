@@ -82,10 +82,6 @@ def force_on_vertex(
         p = wp.where(quad_segment[q] == side, inside, beyond)
         g = corner_force[q, corner] + p * lift_of_corner(q, corner, lift)
         f += wp.where(slots[k] >= 0, g, wp.vec3(0.0))
-    if slots[3] < -1:
-        f += force_of_further_quads(
-            -2 - slots[3], side, inside, beyond, corners, quad_segment, corner_force, lift
-        )
     return f
 
 
@@ -153,6 +149,11 @@ def move_vertex(
     home = vertex_segment[i]
     inside = pressure[home]
     f = force_on_vertex(i, home, inside, inside, corners, quad_segment, contact_force, corner_force, lift)
+    last = corners[i][3]
+    if last < -1:
+        f += force_of_further_quads(
+            -2 - last, home, inside, inside, corners, quad_segment, corner_force, lift
+        )
     p, speed = step_of_vertex(i, f, vertex_balloon, vertex_along, mass, weight, gravity, drag, dt, spin, x, v)
     x[i] = p
     v[i] = speed
