@@ -31,26 +31,25 @@ class Spin:
 
 @wp.func
 def force_of_further_quads(
-    row: int,
-    side: int,
+    last: int,
     inside: float,
-    beyond: float,
     corners: wp.array[wp.vec4i],
-    quad_segment: wp.array[int],
     corner_force: wp.array2d[wp.vec3],
     lift: wp.array2d[wp.vec3],
 ):
-    """Return the force (N) of the quads at a vertex from a row of `corners` on."""
+    """Return the force (N) of the quads beyond the fourth at a vertex, with the gauge pressure (Pa) behind it.
+
+    `last`: fourth slot of the vertex, which says where `corners` goes on: in row -2 - slot.
+    """
     f = wp.vec3(0.0)
-    more = int(row)
+    more = -2 - last
     while more >= 0:
         slots = corners[more]
         for k in range(4):
             if slots[k] >= 0:
                 q = slots[k] >> 2
                 corner = slots[k] & 3
-                p = wp.where(quad_segment[q] == side, inside, beyond)
-                f += corner_force[q, corner] + p * lift_of_corner(q, corner, lift)
+                f += corner_force[q, corner] + inside * lift_of_corner(q, corner, lift)
         more = -2 - slots[3]
     return f
 
@@ -70,7 +69,6 @@ def force_on_vertex(
     """Return the force (N) of wall, gas and other walls on a vertex.
 
     `inside`, `beyond`: gauge pressures (Pa) in the segment `side` and in the other that it may border on.
-    Where more than four quads meet, the fourth slot says where `corners` goes on: in row -2 - slot.
     """
     slots = corners[i]
     f = contact_force[i, 0] + contact_force[i, 1]
@@ -151,9 +149,7 @@ def move_vertex(
     f = force_on_vertex(i, home, inside, inside, corners, quad_segment, contact_force, corner_force, lift)
     last = corners[i][3]
     if last < -1:
-        f += force_of_further_quads(
-            -2 - last, home, inside, inside, corners, quad_segment, corner_force, lift
-        )
+        f += force_of_further_quads(last, inside, corners, corner_force, lift)
     p, speed = step_of_vertex(i, f, vertex_balloon, vertex_along, mass, weight, gravity, drag, dt, spin, x, v)
     x[i] = p
     v[i] = speed
