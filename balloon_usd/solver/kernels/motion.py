@@ -37,7 +37,7 @@ def force_of_further_quads(
     corner_force: wp.array2d[wp.vec3],
     lift: wp.array2d[wp.vec3],
 ):
-    """Return the force (N) of the quads beyond the fourth at a vertex, with the gauge pressure (Pa) behind it.
+    """Return the force (N) of the further quads at a vertex, with the gauge pressure (Pa) behind them.
 
     `last`: fourth slot of the vertex, which says where `corners` goes on: in row -2 - slot.
     """
