@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from balloon_usd.check import Report, check_file
     from balloon_usd.diff import Comparison, DiffError, compare_files
-    from balloon_usd.exchange.error import ExchangeError
     from balloon_usd.exchange.export import export_stage
+    from balloon_usd.mesh_file.error import MeshFileError
     from balloon_usd.plan import Plan, plan_json, plan_svg, plan_text
     from balloon_usd.plan import plan as plan_recipe
     from balloon_usd.preview import PreviewError, draw_contact_sheet
@@ -34,8 +34,8 @@ __all__ = [
     "Comparison",
     "DeviceUnavailable",
     "DiffError",
-    "ExchangeError",
     "Frame",
+    "MeshFileError",
     "Performance",
     "Plan",
     "PreviewError",
@@ -66,8 +66,8 @@ __all__ = [
 _ROOMS = {
     "balloon_usd.check": ("Report", "check_file"),
     "balloon_usd.diff": ("Comparison", "DiffError", "compare_files"),
-    "balloon_usd.exchange.error": ("ExchangeError",),
     "balloon_usd.exchange.export": ("export_stage",),
+    "balloon_usd.mesh_file.error": ("MeshFileError",),
     "balloon_usd.plan": ("Plan", "plan_json", "plan_svg", "plan_text"),
     "balloon_usd.preview": ("PreviewError", "draw_contact_sheet"),
     "balloon_usd.recipe": ("Recipe", "RecipeBuilder", "RecipeError", "recipe_schema"),

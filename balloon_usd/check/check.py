@@ -13,13 +13,13 @@ from balloon_usd.check.frozen import frames_to_freeze, frozen
 from balloon_usd.check.leftovers import nothing_left_over
 from balloon_usd.check.noise import why_not_counted
 from balloon_usd.check.nvidia import Asked, ask_nvidia, nvidia_installed, nvidia_name
-from balloon_usd.check.opening import UnreadableError, open_whole, quiet
+from balloon_usd.check.opening import UnreadableError, open_whole
 from balloon_usd.check.place import stage_file
 from balloon_usd.check.report import Report
 from balloon_usd.check.usd_core import NAME, ask_usd_core
-from balloon_usd.stage.looks import VARIANT_SET as LOOK
+from balloon_usd.stage.opening import said_by, streaming
 from balloon_usd.stage.properties import PROPERTIES, check_selections, kind_of
-from balloon_usd.stage.properties.reading import said_by
+from balloon_usd.stage.variant_sets import LOOK
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -29,14 +29,18 @@ if TYPE_CHECKING:
     from balloon_usd.stage.properties import Selection
 
 
+MOST = 100
+"""Selections of variants that are looked at: sets of variants multiply without end."""
+
+
 def check_file(name: str, *, nvidia: bool = True) -> Report:
     """Look for everything that is wrong with a stage: a USD file, or a folder NAME as `run` writes it.
 
     Nothing is written. Memory does not grow with the number of frames, but with NVIDIA's validator, which
     holds all samples of a layer. `nvidia`: ask that where it is installed.
     """
-    report = Report(name, asks_nvidia=nvidia and nvidia_installed())
-    with quiet():
+    report = Report(name, asks_nvidia=nvidia)
+    with streaming():
         try:
             file = stage_file(name)
             _check(file, open_whole(file), report)
@@ -51,12 +55,16 @@ def check_file(name: str, *, nvidia: bool = True) -> Report:
 
 def _check(file: Path, stage: Any, report: Report) -> None:
     report.kind = kind_of(stage)
-    report.validators = [NAME, *([nvidia_name()] if report.asks_nvidia else [])]
+    asked = report.asks_nvidia and nvidia_installed()
+    report.validators = [NAME, *([nvidia_name()] if asked else [])]
     for finding in nothing_left_over(file):
         report.add(fault_of(finding), "")
     own: Selection | None = None
     known: set[str] = set()
     for selection, selected, findings in check_selections(stage):
+        if len(report.selections) == MOST:
+            report.left_out = True
+            break
         own = selection if own is None else own
         report.selections.append(_words(selection))
         variants = _words({key: value for key, value in selection.items() if own.get(key) != value})
@@ -91,7 +99,7 @@ def _flatten(stage: Any, report: Report, variants: str) -> None:
 
 def _ask(stage: Any, report: Report, variants: str, asked: Asked, time_code: float | None = None) -> None:
     """Ask the validators, and keep apart what does not count."""
-    for fault in _said(stage, asked, nvidia=report.asks_nvidia):
+    for fault in _said(stage, asked, nvidia=report.asks_nvidia and nvidia_installed()):
         why = why_not_counted(fault.rule, fault.text)
         if why:
             report.not_counted[why] += 1

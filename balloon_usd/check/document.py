@@ -38,6 +38,7 @@ def _stage(report: Report) -> dict[str, Any]:
         "unreadable": report.unreadable,
         "kind": report.kind.value,
         "variants": report.selections,
+        "variants_left_out": report.left_out,
         "frozen": report.frames,
         "validators": report.validators,
         "not_counted": dict(report.not_counted),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 UNKNOWN_NODE = "MaterialX nodes are unknown to usd-core, whose wheel has no MaterialX"
 REPEATED = "primvars that change with every frame are not worth an index"
-
+SPECULATIVE = "overs are found by property 7, except below classes, where they are meant"
 BROKE_DOWN = "rules of the validator that broke down themselves, as over points of one width for all"
 
 
@@ -14,6 +14,8 @@ def why_not_counted(rule: str, text: str) -> str:
         return UNKNOWN_NODE
     if rule == "IndexedPrimvarChecker":
         return REPEATED
+    if rule == "DanglingOverPrimChecker":
+        return SPECULATIVE
     if text.startswith("Uncaught error"):
         return BROKE_DOWN
     return ""

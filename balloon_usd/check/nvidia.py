@@ -7,6 +7,8 @@ from importlib import import_module
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from balloon_usd.check.fault import NVIDIA, Fault
 
 if TYPE_CHECKING:
@@ -48,7 +50,10 @@ def ask_nvidia(stage: Any, asked: Asked = Asked.ALL) -> Iterator[Fault]:
     engine = package.ValidationEngine(init_rules=False, variants=False)
     for rule in _rules(package.CategoryRuleRegistry(), asked):
         engine.enable_rule(rule)
-    for issue in engine.validate(stage).issues():
+    # What is not finite is told as a fault, not as a warning of the arithmetic.
+    with np.errstate(all="ignore"):
+        issues = engine.validate(stage).issues()
+    for issue in issues:
         named = issue.rule.__name__ if issue.rule else "ValidationEngine"
         text = " ".join(str(issue.message).split())
         remedy = str(issue.suggestion.message) if issue.suggestion else REMEDY

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import re
-from contextlib import contextmanager
 from math import isfinite
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from pxr import Ar, Sdf, Tf, Usd, UsdGeom, UsdUtils
+from pxr import Ar, Sdf, Tf, Usd, UsdGeom
 
-from balloon_usd.stage.properties.reading import said_by
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
+from balloon_usd.stage.on_disk import is_cut_package, special_files
+from balloon_usd.stage.opening import said_by
 
 WRONG_TEXT = re.compile(r":(\d+):(\d+): ")
 """Line and column in what USD says about a text layer."""
@@ -25,17 +22,6 @@ class UnreadableError(Exception):
     """A stage cannot be read; the message is one line that says why."""
 
 
-@contextmanager
-def quiet() -> Iterator[None]:
-    """Keep USD's own warnings from the error stream: what they are about is found out otherwise."""
-    delegate = UsdUtils.CoalescingDiagnosticDelegate()
-    try:
-        yield
-    finally:
-        delegate.TakeUncoalescedDiagnostics()
-        del delegate
-
-
 def open_whole(file: Path) -> Any:
     """Open a stage that shows something and has frames.
 
@@ -43,9 +29,13 @@ def open_whole(file: Path) -> Any:
         UnreadableError: the file, or one that it needs in some variant, is missing or no USD; nothing is
             shown; the range of time codes is empty.
     """
-    _require_layers(_layer(str(file), f"{file}:"), str(file))
+    layer = _layer(str(file), f"{file}:")
+    for asset, by in special_files(layer):
+        raise UnreadableError(f"{file}: {asset}, which {by} needs: is a pipe or a device, expected a file")
+    _require_layers(layer, str(file))
     stage = Usd.Stage.Open(str(file))
-    if not any(prim.IsA(UsdGeom.Gprim) for prim in stage.Traverse()):
+    shown = Usd.PrimRange.Stage(stage, Usd.TraverseInstanceProxies())
+    if not any(prim.IsA(UsdGeom.Gprim) for prim in shown):
         raise UnreadableError(f"{file}: shows no mesh")
     root, start, end = stage.GetRootLayer(), stage.GetStartTimeCode(), stage.GetEndTimeCode()
     authored = root.HasStartTimeCode() and root.HasEndTimeCode() and isfinite(start) and isfinite(end)
@@ -60,12 +50,15 @@ def _layer(path: str, what: str) -> Any:
     Raises:
         UnreadableError: with `what` before the reason.
     """
+    # A layer may be named with arguments for its format, or lie in a package.
+    whole = Path(Ar.SplitPackageRelativePathOuter(Sdf.Layer.SplitIdentifier(path)[0])[0])
     try:
-        if not Ar.IsPackageRelativePath(path):
-            with Path(path).open("rb") as file:
-                if not file.read(1):
-                    raise UnreadableError(f"{what} the file is empty")
+        with whole.open("rb") as file:
+            if not file.read(1):
+                raise UnreadableError(f"{what} the file is empty")
         layer = Sdf.Layer.FindOrOpen(path)
+        if layer and is_cut_package(whole):
+            raise UnreadableError(f"{what} no USD file, or a truncated one")
     except FileNotFoundError as error:
         raise UnreadableError(f"{what} the file is missing") from error
     except OSError as error:

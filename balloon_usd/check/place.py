@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from balloon_usd.check.opening import UnreadableError
+from balloon_usd.stage.on_disk import file_of, why_not_named
 
 
 def stage_file(name: str) -> Path:
@@ -15,18 +16,13 @@ def stage_file(name: str) -> Path:
     """
     path = Path(name)
     try:
-        name.encode("utf-8")
-        if name and path.is_file():
-            return path
-        folder = path.resolve() if path.name in {"", ".."} else path
+        if why := why_not_named(path):
+            raise UnreadableError(why)
+        file = file_of(path)
+        if name and file.is_file():
+            return file
         if name and path.is_dir():
-            file = folder / f"{folder.name}.usda"
-            if file.is_file():
-                return file
             raise UnreadableError(f"{name}: no stage in this folder, expected {file.name} in it")
-    except UnicodeEncodeError as error:
-        shown = name.encode("utf-8", "backslashreplace").decode()
-        raise UnreadableError(f"{shown}: the path is not UTF-8, which USD needs") from error
     except (OSError, ValueError) as error:
         raise UnreadableError(f"{name}: {getattr(error, 'strerror', None) or error}") from error
     raise UnreadableError(f'"{name}": no such file or folder')

@@ -19,7 +19,7 @@ class Report:
     stage: str
     """The stage as it was named."""
     asks_nvidia: bool = True
-    """Whether NVIDIA's validator is asked."""
+    """Whether NVIDIA's validator is asked where it is installed."""
     kind: StageKind = StageKind.ASSET
     unreadable: str = ""
     """Why it cannot be read, in one line; empty if it can."""
@@ -27,6 +27,8 @@ class Report:
     """Each fault once, by what it is apart from the variants, in the order in which they were found."""
     selections: list[str] = field(default_factory=list)
     """Selections of variants that were looked at."""
+    left_out: bool = False
+    """Whether there are more selections, which were not looked at."""
     frames: list[float] = field(default_factory=list)
     """Time codes that were frozen for the validators, of the stage's own selection."""
     validators: list[str] = field(default_factory=list)

@@ -34,6 +34,8 @@ def _head(report: Report) -> Iterator[str]:
 
 def _looked_at(report: Report) -> str:
     variants = len(report.selections)
+    if report.left_out:
+        return f"the first {variants} selections of variants, others were not looked at"
     return "1 selection of variants" if variants == 1 else f"{variants} selections of variants"
 
 
@@ -62,5 +64,5 @@ def _line(fault: Fault) -> str:
 def _foot(report: Report) -> Iterator[str]:
     for why, count in report.not_counted.items():
         yield f"  not counted: {count} x {why}"
-    if not nvidia_installed():
+    if report.asks_nvidia and not nvidia_installed():
         yield f"  NVIDIA's validator is not installed and was not asked: {INSTALL}"

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 from enum import IntEnum
 
 import click
@@ -40,8 +39,6 @@ def check(stages: tuple[str, ...], as_json: bool, no_nvidia: bool) -> None:
     properties of a stage, by the validators of usd-core, and by NVIDIA's where `pip install
     'balloon-usd[check]'` has brought it. Nothing is written.
     """
-    # USD maps files into memory otherwise, and all pages of a long animation count as this process's.
-    os.environ.setdefault("USDC_USE_PREAD", "1")
     from balloon_usd.check import check_file, document_of, text_of  # noqa: PLC0415
 
     reports = []

@@ -9,8 +9,8 @@ import click
 
 from balloon_usd.cli.failure import EXIT_CODES_HELP, ExitCode, Failure
 from balloon_usd.cli.frame_range import FrameRange, moments
-from balloon_usd.cli.output import require_readable_name, require_writable
-from balloon_usd.cli.sources import is_folder
+from balloon_usd.cli.output import require_writable
+from balloon_usd.cli.stage_path import stage_file, stage_path
 
 if TYPE_CHECKING:
     from balloon_usd.exchange.export import Format
@@ -45,42 +45,28 @@ def export(stage: str, form: str, output: Path, frames: FrameRange | tuple[int, 
     and pressure as fields of the points, balloon and bubble as fields of the faces.
     Needs meshio: pip install 'balloon-usd[mesh]'.
     """
-    from balloon_usd.exchange.error import ExchangeError, NotExportedError  # noqa: PLC0415
+    from balloon_usd.exchange.error import NotExportedError  # noqa: PLC0415
     from balloon_usd.exchange.export import export_stage  # noqa: PLC0415
+    from balloon_usd.mesh_file.error import MeshFileError  # noqa: PLC0415
 
-    file = _stage_file(stage)
+    file = stage_file(stage_path(stage))
     try:
         codes = _time_codes(file, frames)
         require_writable(output)
         files = export_stage(file, output, cast("Format", form), frames=codes)
     except NotExportedError as error:
         raise Failure(str(error), ExitCode.NOT_WRITTEN) from error
-    except ExchangeError as error:
+    except MeshFileError as error:
         raise Failure(str(error), ExitCode.BAD_INPUT) from error
     others = f" and {len(files) - 1} more" if len(files) > 1 else ""
     click.echo(f"{form} {files[0]}{others}")
-
-
-def _stage_file(stage: str) -> Path:
-    """Return the file of a stage, given by itself or by its folder.
-
-    Raises:
-        Failure: there is no name to go by.
-    """
-    path = Path(stage)
-    if stage and path.name in {"", ".."}:
-        path = path.resolve()
-    if not stage or not path.name:
-        raise Failure(f'"{stage}" is no stage, expected a USD file or a folder', ExitCode.BAD_INPUT)
-    require_readable_name(path)
-    return path / f"{path.name}.usda" if is_folder(path) else path
 
 
 def _time_codes(file: Path, frames: FrameRange | tuple[int, ...] | None) -> tuple[int, ...] | None:
     """Return the time codes that were asked for, None for all.
 
     Raises:
-        ExchangeError: the stage has none of them.
+        MeshFileError: the stage has none of them.
     """
     from balloon_usd.exchange.export import stage_range  # noqa: PLC0415
 

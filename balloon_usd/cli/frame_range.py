@@ -7,6 +7,9 @@ from dataclasses import dataclass
 
 import click
 
+MOST_FRAMES = 999_999_999
+"""Frames that can be asked for."""
+
 
 @dataclass(frozen=True)
 class FrameRange:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 from textwrap import indent
 from typing import TYPE_CHECKING, Any
@@ -11,16 +10,14 @@ import click
 
 from balloon_usd.cli.device import compiling, start_device
 from balloon_usd.cli.failure import ExitCode, Failure
-from balloon_usd.cli.output import require_readable_name
-from balloon_usd.cli.sources import plans_of, recipe_files
-from balloon_usd.cli.tolerance import tolerance_options, tolerances_of
+from balloon_usd.cli.frame_range import MOST_FRAMES
+from balloon_usd.cli.golden_recipes import golden_recipes
+from balloon_usd.cli.tolerance import tolerance_options
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from balloon_usd.diff import Tolerances
-    from balloon_usd.golden import GoldenEntry
-    from balloon_usd.plan import Plan
+    from balloon_usd.cli.golden_recipes import GoldenRecipe
 
 DIFFERENT = 1
 EXIT_CODES = """\b
@@ -31,15 +28,6 @@ Exit codes:
   3    a simulation failed
   130  interrupted
 """
-
-
-@dataclass(frozen=True)
-class _Held:
-    """A plan and what is held of it."""
-
-    plan: Plan
-    tolerances: Tolerances
-    frames: int | None
 
 
 @click.group(epilog=EXIT_CODES)
@@ -65,7 +53,7 @@ def _holding(command: Callable[..., None]) -> Callable[..., None]:
         ),
         click.option(
             "--frames",
-            type=click.IntRange(min=1),
+            type=click.IntRange(1, MOST_FRAMES),
             metavar="N",
             help="Keep the first N frames. Default: what the list says, else all.",
         ),
@@ -86,14 +74,14 @@ def verify(recipes: tuple[Path, ...], stages: Path, **options: Any) -> None:
     from balloon_usd import golden as room  # noqa: PLC0415
     from balloon_usd.diff.report import diff_text  # noqa: PLC0415
 
-    def one(held: _Held) -> bool:
+    def one(held: GoldenRecipe) -> bool:
         found = room.verify(held.plan, stages, held.tolerances, held.frames)
         click.echo(f"{held.plan.recipe.name}: {'the same' if found.same else 'different'}")
         if not found.same:
             click.echo(indent(diff_text(found), "  "))
         return found.same
 
-    if not all(_each(_held(recipes, stages, options), one)):
+    if not all(_each(golden_recipes(recipes, stages, **options), one)):
         raise click.exceptions.Exit(DIFFERENT)
 
 
@@ -105,80 +93,47 @@ def verify(recipes: tuple[Path, ...], stages: Path, **options: Any) -> None:
 def update(recipes: tuple[Path, ...], stages: Path, always: bool, **options: Any) -> None:
     """Replace the golden stages that differ from what comes out now, and say how.
 
-    RECIPE is a recipe file or a folder of them; without any, all that golden.yaml lists are updated.
+    RECIPE is a recipe file or a folder of them; without any, all that golden.yaml lists are updated. Recipes
+    that it does not list are entered.
     """
     from balloon_usd import golden as room  # noqa: PLC0415
     from balloon_usd.diff.report import diff_text  # noqa: PLC0415
 
-    def one(held: _Held) -> bool:
+    def one(held: GoldenRecipe) -> bool:
         done = room.update(held.plan, stages, held.tolerances, held.frames, always=always)
         click.echo(f"{held.plan.recipe.name}: {'written' if done.written else 'kept, it is the same'}")
         if done.written and done.comparison is not None:
             click.echo(indent(diff_text(done.comparison), "  "))
+        recipe = held.plan.recipe
+        if not room.enter(stages, recipe.name, Path(recipe.file), held.frames):
+            click.echo(f"{stages / room.FILE_NAME}: enter {recipe.name} by hand, below the others", err=True)
         return True
 
-    _each(_held(recipes, stages, options), one)
+    _each(golden_recipes(recipes, stages, **options), one)
 
 
-def _held(recipes: tuple[Path, ...], stages: Path, options: dict[str, Any]) -> list[_Held]:
-    """Return what is held of the recipes named, else of all in the list.
-
-    Raises:
-        Failure: a recipe or the list is wrong, or there is neither.
-    """
-    from balloon_usd.golden import FILE_NAME, GoldenError, read_list  # noqa: PLC0415
-
-    require_readable_name(stages)
-    try:
-        listed = read_list(stages)
-    except GoldenError as error:
-        raise Failure(str(error), ExitCode.BAD_INPUT) from error
-    if not recipes and not listed:
-        raise Failure(f"{stages / FILE_NAME} lists no stages, name the recipes", ExitCode.BAD_INPUT)
-    plans = plans_of(recipe_files(recipes or [entry.recipe for entry in listed.values()]))
-    names = {plan.recipe.name for plan in plans}
-    for name, entry in listed.items():
-        if not recipes and name not in names:
-            raise Failure(f'{stages / FILE_NAME}: {entry.recipe} is not called "{name}"', ExitCode.BAD_INPUT)
-    frames = options.pop("frames")
-    asked = tolerances_of(**options)
-    return [_with(plan, listed.get(plan.recipe.name), asked, frames) for plan in plans]
-
-
-def _with(plan: Plan, entry: GoldenEntry | None, asked: Tolerances, frames: int | None) -> _Held:
-    """Put what was asked for above what the list says."""
-    from balloon_usd.diff import Allowed, Tolerances  # noqa: PLC0415
-
-    if entry is None:
-        return _Held(plan, asked, frames)
-    kept = entry.tolerances
-    general = asked.general if asked.general != Allowed() else kept.general
-    rms = kept.rms if asked.rms is None else asked.rms
-    merged = Tolerances(general, {**kept.named, **asked.named}, rms)
-    return _Held(plan, merged, frames or entry.frames)
-
-
-def _each(held: list[_Held], one: Callable[[_Held], bool]) -> list[bool]:
+def _each(recipes: list[GoldenRecipe], one: Callable[[GoldenRecipe], bool]) -> list[bool]:
     """Do one after the other, also after one that could not be done.
 
     Raises:
         Failure: one or more could not be done; the gravest tells the exit code.
     """
     from balloon_usd.diff import DiffError  # noqa: PLC0415
+    from balloon_usd.golden import DEVICE, GoldenError  # noqa: PLC0415
     from balloon_usd.solver.errors import SimulationFailed  # noqa: PLC0415
     from balloon_usd.stage import StageError  # noqa: PLC0415
 
-    start_device("cpu")
+    start_device(DEVICE)
     done: list[bool] = []
     problems: list[tuple[ExitCode, str]] = []
-    for each in held:
+    for each in recipes:
         file = each.plan.recipe.file
         try:
             with compiling():
                 done.append(one(each))
         except SimulationFailed as error:
             problems.append((ExitCode.SIMULATION_FAILED, f"{file}: simulation failed {error}"))
-        except DiffError as error:
+        except (DiffError, GoldenError) as error:
             problems.append((ExitCode.BAD_INPUT, f"{file}: {error}"))
         except StageError as error:
             problems.append((ExitCode.NOT_WRITTEN, f"{file}: {error}"))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 from typing import Any
 
 import click
@@ -21,7 +22,7 @@ from balloon_usd.cli.schema import schema
 
 
 class Commands(click.Group):
-    """A group whose commands can be interrupted without a traceback."""
+    """A group whose commands end without a traceback when interrupted, or when nobody hears them."""
 
     def invoke(self, ctx: click.Context) -> Any:
         """Run the command; Ctrl-C ends it with its own exit code."""
@@ -29,6 +30,11 @@ class Commands(click.Group):
             return super().invoke(ctx)
         except KeyboardInterrupt as error:
             raise Failure("interrupted, nothing half-written is left", ExitCode.INTERRUPTED) from error
+        except OSError as error:
+            # What is said goes to a stream without a name; a closed pipe is no mistake, and click knows it.
+            if error.errno != errno.ENOSPC or error.filename is not None:
+                raise
+            raise Failure(f"nothing more can be said: {error.strerror}", ExitCode.BAD_INPUT) from error
 
 
 @click.group(cls=Commands, epilog=EXIT_CODES_HELP, context_settings={"help_option_names": ["-h", "--help"]})

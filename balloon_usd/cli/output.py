@@ -32,16 +32,15 @@ def require_writable(folder: Path) -> None:
 
 
 def require_readable_name(path: Path) -> None:
-    """Refuse a path that is no text, as USD opens files by text in UTF-8.
+    """Refuse a path by which USD can open no file.
 
     Raises:
-        Failure: bytes of the path are not UTF-8.
+        Failure: bytes of the path are not UTF-8, or control characters.
     """
-    try:
-        str(path.absolute()).encode("utf-8")
-    except UnicodeEncodeError as error:
-        shown = str(path).encode("utf-8", "backslashreplace").decode()
-        raise Failure(f"{shown}: the path is not UTF-8, which USD needs", ExitCode.BAD_INPUT) from error
+    from balloon_usd.stage.on_disk import why_not_named  # noqa: PLC0415
+
+    if why := why_not_named(path):
+        raise Failure(why, ExitCode.BAD_INPUT)
 
 
 def sheet_path(folder: Path, name: str) -> Path:

@@ -10,8 +10,7 @@ import click
 from balloon_usd.cli.device import device_option, start_device
 from balloon_usd.cli.failure import EXIT_CODES_HELP, ExitCode, Failure
 from balloon_usd.cli.frame_range import FrameRange, moments
-from balloon_usd.cli.output import require_readable_name
-from balloon_usd.cli.sources import is_folder
+from balloon_usd.cli.stage_path import stage_file, stage_path
 
 if TYPE_CHECKING:
     from balloon_usd.preview import View
@@ -68,7 +67,8 @@ def preview(
 
     STAGE is a USD file, or a folder NAME as `run` writes it.
     """
-    file, picture = _stage_and_picture(stage)
+    path = stage_path(stage)
+    file = stage_file(path)
     used = start_device(device)
     from balloon_usd.preview import (  # noqa: PLC0415
         PictureNotWrittenError,
@@ -79,7 +79,7 @@ def preview(
     try:
         sheet = draw_contact_sheet(
             file,
-            output or picture,
+            output or path.with_suffix(".png"),
             frames=_moments(file, frames),
             columns=columns,
             size=size,
@@ -92,22 +92,6 @@ def preview(
     except PreviewError as error:
         raise Failure(str(error), ExitCode.BAD_INPUT) from error
     click.echo(f"contact sheet {sheet}")
-
-
-def _stage_and_picture(stage: str) -> tuple[Path, Path]:
-    """Return the file of a stage, given by itself or by its folder, and where its picture goes by default.
-
-    Raises:
-        Failure: there is no name to go by.
-    """
-    path = Path(stage)
-    if stage and path.name in {"", ".."}:
-        path = path.resolve()
-    if not stage or not path.name:
-        raise Failure(f'"{stage}" is no stage, expected a USD file or a folder', ExitCode.BAD_INPUT)
-    require_readable_name(path)
-    file = path / f"{path.name}.usda" if is_folder(path) else path
-    return file, path.with_suffix(".png")
 
 
 def _moments(file: Path, frames: FrameRange | tuple[int, ...] | None) -> tuple[float, ...] | None:

@@ -154,10 +154,11 @@ def _report(outcomes: Sequence[Outcome], output: Path, detail: str) -> None:
             continue
         origin = provenance_of(outcome.plan.recipe)
         try:
-            numbers, _ = write_report(outcome.history, output, detail=detail, provenance=origin)
+            files = write_report(outcome.history, output, detail=detail, provenance=origin)
         except ReportError as error:
             raise Failure(str(error), ExitCode.NOT_WRITTEN) from error
-        click.echo(f"report {numbers}")
+        for file in files:
+            click.echo(f"report {file}")
 
 
 def _draw(outcomes: Sequence[Outcome], output: Path, device: str, form: Form) -> None:

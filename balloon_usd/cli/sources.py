@@ -52,8 +52,8 @@ def _place(file: Path) -> Path:
     """Return where a file is, by which two names of it are known as one."""
     try:
         return file.resolve()
-    except (OSError, RuntimeError):
-        # Links that lead in a circle: reading it will tell.
+    except (OSError, RuntimeError, ValueError):
+        # Links that lead in a circle, no name of a file: reading it will tell.
         return file.absolute()
 
 

@@ -43,6 +43,7 @@ def print_summary(outcomes: Sequence[Outcome], seconds: float, detail: str, devi
         stretch = f"{outcome.tally.highest_stretch:.1f} of {BURST_STRETCH:.1f}"
         table.add_row(recipe.name, str(count), length, tails, stretch, f"{size:.1f} MB")
         files.append(f"stage {outcome.written.files[0]}")
+        files += [f"shot {file}" for file in outcome.written.files if file.stem == f"{recipe.name}_shot"]
         frames += count
     console = Console(soft_wrap=True, highlight=False)
     console.print(table, no_wrap=True, crop=False)

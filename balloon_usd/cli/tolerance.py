@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -20,7 +21,8 @@ def amount(text: str) -> float:
         click.BadParameter: it is none, or negative.
     """
     try:
-        value = float(text)
+        # Python would take 1_0, and digits of other scripts.
+        value = float(text) if re.fullmatch(r"[-+.\w]+", text, re.ASCII) and "_" not in text else math.nan
     except ValueError:
         value = math.nan
     if not 0.0 <= value < math.inf:

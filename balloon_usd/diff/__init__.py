@@ -5,7 +5,6 @@ from __future__ import annotations
 from balloon_usd.diff.comparison import differences
 from balloon_usd.diff.difference import Difference, Spread
 from balloon_usd.diff.error import DiffError, DiffNotWrittenError
-from balloon_usd.diff.flat import flat_equals_composed
 from balloon_usd.diff.movement import Moment, Movement
 from balloon_usd.diff.tolerance import EXACT, Allowed, Tolerances
 from balloon_usd.diff.two_files import Comparison, compare_files
@@ -23,5 +22,4 @@ __all__ = [
     "Tolerances",
     "compare_files",
     "differences",
-    "flat_equals_composed",
 ]

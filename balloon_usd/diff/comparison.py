@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 from pxr import UsdGeom
 
 from balloon_usd.diff.difference import ONLY, Difference
+from balloon_usd.diff.measuring import measure_surfaces
 from balloon_usd.diff.metadata import metadata_differences, prim_metadata, stage_metadata, variant_metadata
-from balloon_usd.diff.movement import measure_surfaces
 from balloon_usd.diff.movement_text import told_mean, told_movements
 from balloon_usd.diff.pairs import PrimPairs
 from balloon_usd.diff.properties import property_differences

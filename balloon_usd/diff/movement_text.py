@@ -10,7 +10,8 @@ from balloon_usd.diff.movement import STILL
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from balloon_usd.diff.movement import Measured, Moment, Movement
+    from balloon_usd.diff.measuring import Measured
+    from balloon_usd.diff.movement import Moment, Movement
 
 SAME_VOLUME = 1e-4
 """Relative change of volume below which it is not told."""

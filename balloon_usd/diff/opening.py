@@ -2,42 +2,32 @@
 
 from __future__ import annotations
 
-import os
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-from pxr import Tf, Usd, UsdGeom, UsdUtils
+from pxr import Sdf, Tf, Usd, UsdGeom
 
 from balloon_usd.diff.error import DiffError
+from balloon_usd.stage.on_disk import file_of, is_cut_package, special_files, why_not_named
+from balloon_usd.stage.opening import said_by, streaming
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
-READ_IN_PARTS = "USDC_USE_PREAD"
-"""Setting of OpenUSD: binary files are read part by part instead of mapped into memory as a whole."""
-
 
 @contextmanager
-def streaming() -> Iterator[None]:
-    """Open and read stages inside the block without their files growing into memory, and without chatter.
+def reading() -> Iterator[None]:
+    """Open and read stages inside the block quietly, and without their files growing into memory.
 
     Raises:
         DiffError: a part of a file turns out to be damaged when it is read.
     """
-    before = os.environ.get(READ_IN_PARTS)
-    os.environ[READ_IN_PARTS] = "1"
-    held = UsdUtils.CoalescingDiagnosticDelegate()
     try:
-        yield
+        with streaming():
+            yield
     except Tf.ErrorException as error:
-        raise DiffError(f"a stage is damaged: {_reason(error)}") from error
-    finally:
-        held.TakeUncoalescedDiagnostics()
-        if before is None:
-            del os.environ[READ_IN_PARTS]
-        else:
-            os.environ[READ_IN_PARTS] = before
+        raise DiffError(f"a stage is damaged: {said_by(error)}".removesuffix(": ")) from error
 
 
 def stage_file(path: Path) -> Path:
@@ -46,10 +36,10 @@ def stage_file(path: Path) -> Path:
     Raises:
         DiffError: there is no such file.
     """
+    if why := why_not_named(path):
+        raise DiffError(why)
     try:
-        # The folder one stands in has a name only when it is resolved.
-        folder = path if path.name not in {"", ".."} else path.resolve()
-        file = folder / f"{folder.name}.usda" if path.is_dir() else path
+        file = file_of(path)
         if not file.is_file():
             raise DiffError(f"{file} is not a file")
     except (OSError, ValueError) as error:
@@ -57,21 +47,26 @@ def stage_file(path: Path) -> Path:
     return file
 
 
-def open_stage(path: Path) -> Any:
-    """Open a stage with all that it is composed of; call it inside `streaming`.
+def open_stage(file: Path) -> Any:
+    """Open a stage with all that it is composed of; call it inside `reading`.
 
     Raises:
-        DiffError: it is missing, unreadable, no USD file, not whole, or has nothing to compare.
+        DiffError: it is unreadable, no USD file, not whole, or has nothing to compare.
     """
-    file = stage_file(path)
     try:
         with file.open("rb"):
             pass
-        stage = Usd.Stage.Open(str(file))
+        layer = Sdf.Layer.FindOrOpen(str(file))
+        if is_cut_package(file):
+            raise DiffError(f"{file} is not a whole package: its end is missing")
+        for asset, by in special_files(layer):
+            raise DiffError(f"{file} is not whole: {asset}, which {by} needs, is a pipe or a device")
+        stage = Usd.Stage.Open(layer)
     except OSError as error:
         raise DiffError(f"{file} cannot be read: {error.strerror or error}") from error
     except Tf.ErrorException as error:
-        raise DiffError(f"{file} is not a USD file, or not a whole one: {_reason(error)}") from error
+        text = f"{file} is not a USD file, or not a whole one: {said_by(error)}"
+        raise DiffError(text.removesuffix(": ")) from error
     require_whole(stage, file)
     return stage
 
@@ -83,7 +78,7 @@ def require_whole(stage: Any, file: Path) -> None:
         DiffError: with the first thing that it lacks.
     """
     for error in stage.GetCompositionErrors():
-        raise DiffError(f"{file} is not whole: {_one_line(str(error))}")
+        raise DiffError(f"{file} is not whole: {' '.join(str(error).split())}")
     if not stage.GetPseudoRoot().GetAllChildren():
         raise DiffError(f"{file} has no prims")
     start, end = stage.GetStartTimeCode(), stage.GetEndTimeCode()
@@ -93,12 +88,3 @@ def require_whole(stage: Any, file: Path) -> None:
         points = UsdGeom.PointBased(prim).GetPointsAttr() if prim.IsA(UsdGeom.PointBased) else None
         if points and points.IsAuthored() and not points.HasAuthoredValue():
             raise DiffError(f"{file} has no frames: {prim.GetPath()} has points without any sample")
-
-
-def _reason(error: Any) -> str:
-    """First cause that USD gives, on one line."""
-    return _one_line(str(error.args[0].commentary))
-
-
-def _one_line(text: str) -> str:
-    return " ".join(text.split())

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from pxr import Usd
+from pxr import Sdf, Usd
 
 from balloon_usd.diff.difference import ONLY, Difference, Spread
 from balloon_usd.diff.metadata import both, metadata_differences
@@ -55,6 +55,9 @@ def property_differences(
 
 def _attribute_differences(one: Any, other: Any, allowed: Allowed, touched: set[str]) -> Iterator[Difference]:
     path, name = str(one.GetPrim().GetPath()), str(one.GetName())
+    types = [_authored_type(attribute) for attribute in (one, other)]
+    if types[0] != types[1]:
+        yield Difference(path, f"of type {types[0]} and {types[1]}", name)
     if one.GetConnections() != other.GetConnections():
         found = both(*([str(source) for source in a.GetConnections()] for a in (one, other)))
         yield Difference(path, f"connections differ: {found}", name)
@@ -124,6 +127,12 @@ class Tally:
     @property
     def _by(self) -> float | None:
         return self._worst.by if self._worst and math.isfinite(self._worst.by) else None
+
+
+def _authored_type(attribute: Any) -> str:
+    """Return the type that a layer gives an attribute, which may be another one than its schema's."""
+    specs = (spec for spec in attribute.GetPropertyStack() if isinstance(spec, Sdf.AttributeSpec))
+    return next((str(spec.typeName) for spec in specs), "")
 
 
 def _read(query: Any, time: float | None) -> Any:

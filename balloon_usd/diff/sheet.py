@@ -29,6 +29,7 @@ LONGEST_NAME = 56
 """Characters of a file's path that fit above a picture."""
 
 
+@np.errstate(invalid="ignore", over="ignore")
 def draw_sheet(comparison: Comparison, *, device: str = "auto") -> Image.Image:
     """Draw the first, the worst and the last time code that differ.
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from balloon_usd.diff.error import DiffError
 from balloon_usd.diff.nearest import surface_distances
-from balloon_usd.diff.opening import streaming
+from balloon_usd.diff.opening import reading
 from balloon_usd.diff.ramp import linear, ramp
 from balloon_usd.preview import PreviewError, Raycaster, read_stage
 from balloon_usd.preview.camera import Axes, frame_points
@@ -60,7 +60,7 @@ class SideBySide:
             DiffError: one of them shows no mesh.
         """
         try:
-            with streaming():
+            with reading():
                 self._scenes = tuple(read_stage(file) for file in files)
         except PreviewError as error:
             raise DiffError(f"{error}: there is nothing to draw") from error

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from pxr import UsdGeom
 
+from balloon_usd.stage.geometry import FAMILY
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Numbers = NDArray[np.int64]
     Points = NDArray[np.float64]
 
-BUBBLES = "bubbles"
-"""Family of the face subsets that are bubbles; a mesh without it is divided by all of its subsets."""
 FLAT = 1e-6
 """Share of the cube of its length below which a volume counts as none."""
 
@@ -61,19 +61,33 @@ class Surface:
             volume = abs(inside + sum(_fan(columns[:, loop]) for loop in part.loops)) / 6.0
             mine = columns[:, part.vertices]
             longest = max(float(column.max() - column.min()) for column in mine)
-            if volume > FLAT * longest**3:
+            # A power beyond all numbers would be an error, a product is infinite.
+            if volume > FLAT * longest * longest * longest:
                 found[part.name] = volume
         return found
+
+
+def points_in(value: Any) -> NDArray[np.float32]:
+    """Return a value as points (V, 3); none if it is of another kind, as a stage may claim."""
+    found = np.asarray([] if value is None else value)
+    fits = found.dtype.kind == "f" and found.ndim == 2 and found.shape[1] == 3
+    return found.astype(np.float32, copy=False) if fits else np.empty((0, 3), dtype=np.float32)
+
+
+def _numbers_in(value: Any) -> Numbers:
+    found = np.asarray([] if value is None else value)
+    fits = found.dtype.kind in "iu" and found.ndim == 1
+    return found.astype(np.int64) if fits else np.empty(0, dtype=np.int64)
 
 
 def surface_of(prim: Any, time: float) -> Surface | None:
     """Return the surface of a mesh as it is at a time code; None if its faces are not right."""
     mesh = UsdGeom.Mesh(prim)
     counts, corners = (
-        np.asarray(attribute.Get(time) or [], dtype=np.int64)
+        _numbers_in(attribute.Get(time))
         for attribute in (mesh.GetFaceVertexCountsAttr(), mesh.GetFaceVertexIndicesAttr())
     )
-    points = len(mesh.GetPointsAttr().Get(time) or [])
+    points = len(points_in(mesh.GetPointsAttr().Get(time)))
     wrong = not len(counts) or counts.min() < 1 or counts.sum() != len(corners)
     if wrong or corners.min() < 0 or corners.max() >= points:
         return None
@@ -113,9 +127,9 @@ class _Cut:
 def _subsets(mesh: Any, time: float) -> list[tuple[str, Numbers]]:
     """Return names and faces of the bubbles, else of all subsets of faces."""
     subsets = [s for s in UsdGeom.Subset.GetAllGeomSubsets(mesh) if s.GetElementTypeAttr().Get() == "face"]
-    bubbles = [subset for subset in subsets if subset.GetFamilyNameAttr().Get() == BUBBLES]
+    bubbles = [subset for subset in subsets if subset.GetFamilyNameAttr().Get() == FAMILY]
     return [
-        (str(subset.GetPrim().GetName()), np.asarray(subset.GetIndicesAttr().Get(time) or [], dtype=np.int64))
+        (str(subset.GetPrim().GetName()), _numbers_in(subset.GetIndicesAttr().Get(time)))
         for subset in bubbles or subsets
     ]
 

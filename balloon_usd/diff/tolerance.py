@@ -39,10 +39,6 @@ class Allowed:
             raise ValueError(f'"{text}" is too large for a tolerance')
         return cls(absolute, percent / 100.0)
 
-    def scaled(self, share: float) -> Allowed:
-        """Return a share of it."""
-        return Allowed(share * self.absolute, share * self.relative)
-
 
 @dataclass(frozen=True)
 class Tolerances:
@@ -58,11 +54,6 @@ class Tolerances:
     def of(self, name: str) -> Allowed:
         """Return what is allowed of an attribute."""
         return self.named.get(name) or self.named.get(base_name(name)) or self.general
-
-    def scaled(self, share: float) -> Tolerances:
-        """Return a share of all of them."""
-        named = {name: allowed.scaled(share) for name, allowed in self.named.items()}
-        return Tolerances(self.general.scaled(share), named, None if self.rms is None else share * self.rms)
 
     def unknown_names(self, attributes: Collection[str]) -> Iterable[str]:
         """Say of each name that no attribute has what was probably meant."""

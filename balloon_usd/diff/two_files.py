@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from balloon_usd.diff.comparison import Comparing
+from balloon_usd.diff.difference import Difference
 from balloon_usd.diff.error import DiffError
-from balloon_usd.diff.opening import open_stage, require_whole, stage_file, streaming
+from balloon_usd.diff.opening import open_stage, reading, require_whole, stage_file
 from balloon_usd.diff.tolerance import EXACT, Tolerances
 from balloon_usd.diff.variants import selections
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
-    from pathlib import Path
 
-    from balloon_usd.diff.difference import Difference
+MOST = 1000
+"""Selections of variants that are compared: sets of variants multiply without end."""
 
 
 @dataclass(frozen=True)
@@ -34,7 +36,7 @@ class Comparison:
 
 
 def compare_files(
-    first: Path, second: Path, *, tolerances: Tolerances = EXACT, variants: bool = False
+    first: str | Path, second: str | Path, *, tolerances: Tolerances = EXACT, variants: bool = False
 ) -> Comparison:
     """Compare two stages, each a USD file of any maker or a folder NAME that holds NAME.usda.
 
@@ -47,10 +49,11 @@ def compare_files(
         variants: compare what is in every selection of variants, too.
 
     Raises:
-        DiffError: a stage cannot be read, or no attribute has a name that a tolerance is given for.
+        DiffError: a stage cannot be read, no attribute has a name that a tolerance is given for, or there are
+            too many selections of variants to say that all are the same.
     """
-    files = stage_file(first), stage_file(second)
-    with streaming():
+    files = stage_file(Path(first)), stage_file(Path(second))
+    with reading():
         one, other = (open_stage(file) for file in files)
         _require_names(tolerances, one, other)
         found = [*Comparing(tolerances).differences(one, other)]
@@ -63,7 +66,13 @@ def _in_variants(
     files: tuple[Path, Path], one: Any, other: Any, tolerances: Tolerances, known: set[str]
 ) -> Iterator[Difference]:
     """What differs in other selections of variants and was not told of the stages as they are."""
-    for named, *stages in selections(one, other):
+    for number, (named, *stages) in enumerate(selections(one, other)):
+        if number == MOST:
+            others = f"the first {MOST} selections of variants, the others were not compared"
+            if not known:
+                raise DiffError(f"no difference in {others}")
+            yield Difference("", f"these are of {others}")
+            return
         for stage, file in zip(stages, files, strict=True):
             require_whole(stage, file)
         for difference in Comparing(tolerances, composed_only=True).differences(*stages):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from pxr import Sdf, Usd
+from balloon_usd.stage.opening import in_own_session
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -16,7 +16,7 @@ def selections(one: Any, other: Any) -> Iterator[tuple[str, Any, Any]]:
     A selection is named as in "detail=full, look=clay". Sets inside variants are gone through with these.
     The stages are the same two each time.
     """
-    copies = [_copy(stage) for stage in (one, other)]
+    copies = [in_own_session(stage) for stage in (one, other)]
     paths = [str(prim.GetPath()) for prim in one.TraverseAll() if prim.HasVariantSets()]
     for path in paths:
         prims = [stage.GetPrimAtPath(path) for stage in copies]
@@ -42,11 +42,3 @@ def _chosen(prims: list[Any], above: dict[str, str]) -> Iterator[dict[str, str]]
             for one in both:
                 one.SetVariantSelection(variant)
             yield from _chosen(prims, {**above, names[0]: variant})
-
-
-def _copy(stage: Any) -> Any:
-    """Open a stage once more with a session of its own, so that selections are nobody else's."""
-    session = Sdf.Layer.CreateAnonymous()
-    copy = Usd.Stage.Open(stage.GetRootLayer(), session)
-    copy.SetEditTarget(session)
-    return copy

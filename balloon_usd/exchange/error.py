@@ -1,11 +1,9 @@
-"""What can go wrong while meshes come in from other formats or leave for them."""
+"""What can go wrong while meshes leave for other formats."""
 
 from __future__ import annotations
 
-
-class ExchangeError(Exception):
-    """A mesh cannot be read or passed on as asked; the message is one line that says why."""
+from balloon_usd.mesh_file.error import MeshFileError
 
 
-class NotExportedError(ExchangeError):
+class NotExportedError(MeshFileError):
     """A file was made, but could not be put where it belongs."""

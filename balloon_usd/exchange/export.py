@@ -10,14 +10,16 @@ from xml.etree import ElementTree as ET
 import numpy as np
 from pxr import Tf
 
-from balloon_usd.exchange.error import ExchangeError, NotExportedError
-from balloon_usd.exchange.libraries import library
+from balloon_usd.exchange.error import NotExportedError
 from balloon_usd.exchange.merged_mesh import merged_mesh
 from balloon_usd.exchange.still_formats import write_still
 from balloon_usd.exchange.xdmf_series import require_triangles_and_quads, write_series
+from balloon_usd.mesh_file.error import MeshFileError
+from balloon_usd.mesh_file.libraries import library
 from balloon_usd.preview.error import PreviewError
 from balloon_usd.preview.read_stage import read_stage
 from balloon_usd.stage.error import StageError
+from balloon_usd.stage.on_disk import file_of
 from balloon_usd.stage.workspace import Workspace
 
 if TYPE_CHECKING:
@@ -33,18 +35,20 @@ def export_stage(
 ) -> tuple[Path, ...]:
     """Write the meshes of a USD stage, joined, into files of another format and return those files.
 
-    `frames`: whole time codes; None for all of them, or for the only moment of a stage without animation.
+    `stage`: a file, or a folder NAME as `run` writes it. `frames`: whole time codes; None for all of them, or
+    for the only moment of a stage without animation.
     OBJ, PLY and VTU get a file for each moment, VTU an index `NAME.pvd` besides; XDMF gets one for all.
     Memory does not grow with the number of frames. Lengths are in metres, z points up.
 
     Raises:
-        ExchangeError: the stage cannot be read or has no such frame, or the format cannot hold it.
+        MeshFileError: the stage cannot be read or has no such frame, or the format cannot hold it.
         NotExportedError: the disk is full, or a folder is in the way.
     """
     for name in ("meshio", "h5py") if form == "xdmf" else ("meshio",):
         library(name)
+    stage = file_of(Path(stage))
     merged = _read(stage)
-    name, home = Path(stage).stem, Path(folder)
+    name, home = stage.stem, Path(folder)
     codes = _time_codes(merged, str(stage), frames)
     if form == "xdmf":
         require_triangles_and_quads(merged)
@@ -59,14 +63,14 @@ def export_stage(
         with np.errstate(invalid="ignore"):
             return _publish(merged, codes, files, index)
     except Tf.ErrorException as error:
-        raise ExchangeError(f"{stage} is damaged and cannot be read") from error
+        raise MeshFileError(f"{stage} is damaged and cannot be read") from error
 
 
 def stage_range(stage: str | Path) -> tuple[int, int]:
     """Return the first and last whole time code of a stage.
 
     Raises:
-        ExchangeError: the stage cannot be read.
+        MeshFileError: the stage cannot be read.
     """
     scene = _read(stage).scene
     return ceil(scene.start), floor(scene.end)
@@ -76,9 +80,9 @@ def _read(stage: str | Path) -> MergedMesh:
     try:
         return merged_mesh(read_stage(stage))
     except PreviewError as error:
-        raise ExchangeError(str(error)) from error
+        raise MeshFileError(str(error)) from error
     except Tf.ErrorException as error:
-        raise ExchangeError(f"{stage} is damaged and cannot be read") from error
+        raise MeshFileError(f"{stage} is damaged and cannot be read") from error
 
 
 def _publish(
@@ -98,7 +102,7 @@ def _publish(
     except StageError as error:
         raise NotExportedError(str(error)) from error
     except PreviewError as error:
-        raise ExchangeError(str(error)) from error
+        raise MeshFileError(str(error)) from error
     except OSError as error:
         raise NotExportedError(f"{targets[0]} could not be written: {error.strerror or error}") from error
     return targets
@@ -132,5 +136,5 @@ def _time_codes(merged: MergedMesh, stage: str, frames: Sequence[int] | None) ->
     if frames is None:
         return tuple(range(ceil(scene.start), floor(scene.end) + 1)) if _moves(merged) else (scene.start,)
     if not frames or min(frames) < scene.start or max(frames) > scene.end:
-        raise ExchangeError(f"{stage} has frames {scene.start:g} to {scene.end:g} only")
+        raise MeshFileError(f"{stage} has frames {scene.start:g} to {scene.end:g} only")
     return tuple(sorted(set(frames)))

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from pxr import Sdf, UsdGeom
 
-from balloon_usd.exchange.error import ExchangeError
+from balloon_usd.mesh_file.error import MeshFileError
+from balloon_usd.stage.animated import BUBBLES
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -60,12 +61,12 @@ class MergedMesh:
         """Return the points (V, 3) of all meshes at a time code (m, z up).
 
         Raises:
-            ExchangeError: a mesh has another number of points than in the first frame.
+            MeshFileError: a mesh has another number of points than in the first frame.
         """
         parts = self.scene.points(time_code)
         for mesh, part, count in zip(self.scene.meshes, parts, self.counts, strict=True):
             if len(part) != count:
-                raise ExchangeError(
+                raise MeshFileError(
                     f"{mesh.path} has {len(part)} points at time code {time_code:g}, not {count}"
                 )
         return np.concatenate(parts)
@@ -96,14 +97,14 @@ def merged_mesh(scene: StageScene) -> MergedMesh:
     """Join the meshes of a stage.
 
     Raises:
-        ExchangeError: faces change in time, or points are missing.
+        MeshFileError: faces change in time, or points are missing.
     """
     for mesh in scene.meshes:
         _require_still_faces(mesh)
     counts = tuple(len(points) for points in scene.points(scene.start))
     sizes = np.unique(np.concatenate([mesh.face_counts for mesh in scene.meshes]))
     root = scene.stage.GetDefaultPrim()
-    names = root.GetAttribute("balloon_usd:bubbles").Get() if root else None
+    names = root.GetAttribute(BUBBLES).Get() if root else None
     cells = tuple(_cells_of(scene.meshes, counts, size) for size in sizes)
     balloons = _different([Sdf.Path(mesh.path).name for mesh in scene.meshes])
     return MergedMesh(scene, balloons, tuple(map(str, names or ())), cells, counts)
@@ -126,7 +127,7 @@ def _require_still_faces(mesh: StageMesh) -> None:
     schema = UsdGeom.Mesh(mesh.prim)
     for attribute in (schema.GetFaceVertexCountsAttr(), schema.GetFaceVertexIndicesAttr()):
         if attribute.ValueMightBeTimeVarying():
-            raise ExchangeError(f"{mesh.path} changes its faces in time, which is not exported")
+            raise MeshFileError(f"{mesh.path} changes its faces in time, which is not exported")
 
 
 def _face_integers(mesh: StageMesh, name: str) -> NDArray[np.int32]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from balloon_usd.exchange.libraries import library
+from balloon_usd.mesh_file.libraries import library
 
 if TYPE_CHECKING:
     from pathlib import Path

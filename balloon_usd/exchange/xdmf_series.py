@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 from xml.etree import ElementTree as ET
 
-from balloon_usd.exchange.error import ExchangeError
-from balloon_usd.exchange.libraries import library
 from balloon_usd.exchange.patient_file import PatientFile
 from balloon_usd.exchange.still_formats import cell_fields
+from balloon_usd.mesh_file.error import MeshFileError
+from balloon_usd.mesh_file.libraries import library
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -21,12 +21,12 @@ def require_triangles_and_quads(merged: MergedMesh) -> None:
     """Refuse faces that meshio cannot write as XDMF.
 
     Raises:
-        ExchangeError: a face has more than four corners.
+        MeshFileError: a face has more than four corners.
     """
     for cells in merged.cells:
         if cells.kind == "polygon":
             corners, name = cells.corners.shape[1], merged.balloons[cells.balloon[0]]
-            raise ExchangeError(
+            raise MeshFileError(
                 f"{name} has faces with {corners} corners, XDMF takes 3 or 4: use --format vtu, ply or obj"
             )
 

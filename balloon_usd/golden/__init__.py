@@ -4,7 +4,19 @@ from __future__ import annotations
 
 from balloon_usd.golden.entry import GoldenEntry
 from balloon_usd.golden.error import GoldenError
-from balloon_usd.golden.keeping import Update, perform, update, verify
+from balloon_usd.golden.keeping import DEVICE, Update, perform, update, verify
 from balloon_usd.golden.list_file import FILE_NAME, read_list
+from balloon_usd.golden.new_entry import enter
 
-__all__ = ["FILE_NAME", "GoldenEntry", "GoldenError", "Update", "perform", "read_list", "update", "verify"]
+__all__ = [
+    "DEVICE",
+    "FILE_NAME",
+    "GoldenEntry",
+    "GoldenError",
+    "Update",
+    "enter",
+    "perform",
+    "read_list",
+    "update",
+    "verify",
+]

@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 
 FILE_NAME = "golden.yaml"
 FORMAT = 1
+MOST_FRAMES = 10**9
+"""Frames that can be asked for; the longest animation has far fewer."""
 HEAD = ("format", "stages")
 KEYS = ("recipe", "frames", "abs", "rel", "rms", "tolerances")
 
@@ -42,6 +44,8 @@ def read_list(folder: File) -> dict[str, GoldenEntry]:
     """
     file = folder / FILE_NAME
     try:
+        if file.exists() and not (file.is_file() or file.is_dir()):
+            raise GoldenError(f"{file}: cannot be read (it is a pipe or a device)")
         text = file.read_text(encoding="utf-8")
     except FileNotFoundError:
         return {}
@@ -70,7 +74,7 @@ class _Reading:
 
     def stages(self, data: object) -> dict[str, GoldenEntry]:
         head = self._mapping((), data, HEAD)
-        if head.get("format") != FORMAT:
+        if type(head.get("format")) is not int or head["format"] != FORMAT:
             self._complain(("format",), f"expected format: {FORMAT}")
         stages = self._mapping(("stages",), head.get("stages"), None)
         found = {name: self._entry(("stages", name), given) for name, given in stages.items()}
@@ -79,10 +83,10 @@ class _Reading:
     def _entry(self, path: Path, data: object) -> GoldenEntry | None:
         given = self._mapping(path, data, KEYS)
         recipe, frames = given.get("recipe"), given.get("frames")
-        if not isinstance(recipe, str):
+        if not (isinstance(recipe, str) and recipe.isprintable() and recipe):
             self._complain((*path, "recipe"), "expected the path of a recipe")
             return None
-        if "frames" in given and not (type(frames) is int and frames > 0):
+        if "frames" in given and not (type(frames) is int and 0 < frames <= MOST_FRAMES):
             self._complain((*path, "frames"), f"{quoted(frames)} is no number of frames, expected 1 or more")
             return None
         named = self._mapping((*path, "tolerances"), given.get("tolerances", {}), None)

@@ -29,7 +29,7 @@ UNEQUAL = 0.10
 
 EVEN = 2.4
 """Growth of volume up to which a long shape stays even: measured on a ring of round cross-section."""
-LONG = (0.1, 0.75)
+LONG = (0.1, 0.68)
 """Volumes of a shape, in that of a ball of its wall, between which it is long: no ball, no flat sheets."""
 
 

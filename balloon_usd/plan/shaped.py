@@ -120,8 +120,8 @@ def overlap_problems(recipe: Recipe, strips: Mapping[str, Strip]) -> Iterator[Pr
 def _surface(recipe: Recipe, name: str) -> tuple[ClosedShape, str]:
     """Read the shape of a balloon, and the hash of its file."""
     # Recipes of tubes need no library for meshes.
-    from balloon_usd.exchange.error import ExchangeError  # noqa: PLC0415
-    from balloon_usd.exchange.read_shape import read_shape  # noqa: PLC0415
+    from balloon_usd.mesh_file.error import MeshFileError  # noqa: PLC0415
+    from balloon_usd.mesh_file.read_shape import read_shape  # noqa: PLC0415
 
     balloon, path = recipe.balloons[name], ("balloons", name, "mesh")
     unit = balloon.unit or recipe.units
@@ -132,7 +132,7 @@ def _surface(recipe: Recipe, name: str) -> tuple[ClosedShape, str]:
     try:
         shape = read_shape(file, float(METRES[unit]))
         content = file.read_bytes()
-    except (ExchangeError, OSError) as error:
+    except (MeshFileError, OSError) as error:
         raise RecipeError([recipe.problem(path, f"{file}: {error}")]) from error
     longest = max(shape.size)
     if not SMALLEST <= longest <= LARGEST:

@@ -3,31 +3,40 @@
 from __future__ import annotations
 
 import secrets
+from contextlib import suppress
 from io import BytesIO
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from balloon_usd.preview.error import PictureNotWrittenError, PreviewError
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from PIL import Image
+
+
+DEVICES = Path("/dev")
+"""Where nothing is a file, even if it leads to one, as `/dev/stdout` may."""
 
 
 def require_place(path: Path) -> None:
     """Look before anything is drawn whether a file may stand at a path.
 
     Raises:
-        PreviewError: a folder is in the way, there is no folder to put it in, or its name is too long.
+        PreviewError: a folder, device or pipe is in the way, there is no folder to put it in, or its name is
+            too long.
     """
     try:
         in_the_way, has_home = path.is_dir(), path.parent.is_dir()
+        special = path.exists() and not (in_the_way or path.is_file())
     except OSError as error:
         raise PreviewError(f"{path} cannot be written: {error.strerror or error}") from error
     if in_the_way:
         raise PreviewError(f"{path} cannot be written: a folder is in the way")
     if not has_home:
         raise PreviewError(f"{path} cannot be written: {path.parent} is not a folder")
+    # What takes the place of a file would take that of a device, too.
+    if special or path.parent.resolve() == DEVICES:
+        raise PreviewError(f"{path} cannot be written: it is a device or a pipe")
 
 
 def write_png(image: Image.Image, path: Path) -> Path:
@@ -54,6 +63,9 @@ def write_whole(data: bytes, path: Path) -> Path:
             file.write(data)
         partial.replace(path)
     except OSError as error:
-        partial.unlink(missing_ok=True)
         raise PictureNotWrittenError(f"{path} cannot be written: {error.strerror or error}") from error
+    finally:
+        # Also when the user interrupts it.
+        with suppress(OSError):
+            partial.unlink(missing_ok=True)
     return path

@@ -7,7 +7,7 @@ from math import inf, isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pxr import Kind, Pcp, Tf, Usd, UsdGeom, UsdUtils
+from pxr import Pcp, Sdf, Tf, Usd, UsdGeom
 
 from balloon_usd.preview.error import PreviewError
 from balloon_usd.preview.particles import Particles
@@ -16,6 +16,9 @@ from balloon_usd.preview.stage_look import select_look
 from balloon_usd.preview.stage_mesh import read_mesh
 from balloon_usd.preview.stage_place import World
 from balloon_usd.stage.animated import STEP
+from balloon_usd.stage.component import in_component
+from balloon_usd.stage.on_disk import special_files
+from balloon_usd.stage.opening import quiet
 
 if TYPE_CHECKING:
     from balloon_usd.preview.stage_mesh import StageMesh
@@ -82,7 +85,7 @@ def read_stage(path: str | Path, look: str | None = None) -> StageScene:
     """
     stage, selected = _opened(path, look)
     drawn = [prim for prim in stage.Traverse(Usd.TraverseInstanceProxies()) if _is_drawn(prim)]
-    drawn = [prim for prim in drawn if _is_of_component(prim)] or drawn
+    drawn = [prim for prim in drawn if in_component(prim)] or drawn
     meshes = [read_mesh(prim) for prim in drawn if prim.IsA(UsdGeom.Mesh)]
     clouds = [StageCloud(str(prim.GetPath()), prim) for prim in drawn if prim.IsA(UsdGeom.Points)]
     meshes = [mesh for mesh in meshes if len(mesh.corners)]
@@ -96,16 +99,17 @@ def _opened(path: str | Path, look: str | None) -> tuple[Any, str]:
     """Open a stage in a look, and return that too, without what USD prints of layers that are missing."""
     if not _is_file(Path(path)):
         raise PreviewError(f"{path} is not a file")
-    said = UsdUtils.CoalescingDiagnosticDelegate()
     try:
-        stage = Usd.Stage.Open(str(path))
-        _require_whole(stage, path)
-        selected = select_look(stage, look, path)
-        _require_whole(stage, path)
+        with quiet():
+            layer = Sdf.Layer.FindOrOpen(str(path))
+            for asset, by in special_files(layer):
+                raise PreviewError(f"{path} is not whole: {asset}, which {by} needs, is a pipe or a device")
+            stage = Usd.Stage.Open(layer)
+            _require_whole(stage, path)
+            selected = select_look(stage, look, path)
+            _require_whole(stage, path)
     except Tf.ErrorException as error:
         raise PreviewError(f"{path} is not a USD file") from error
-    finally:
-        said.TakeUncoalescedDiagnostics()
     return stage, selected
 
 
@@ -131,15 +135,6 @@ def _title(stage: Any, path: Path) -> str:
     documented = stage.GetRootLayer().documentation.partition("\n")[0]
     root = stage.GetDefaultPrim()
     return str(documented or (root.GetName() if root else path.stem))
-
-
-def _is_of_component(prim: Any) -> bool:
-    """Tell whether a prim belongs to a component model."""
-    while prim:
-        if Kind.Registry.IsA(Usd.ModelAPI(prim).GetKind(), Kind.Tokens.component):
-            return True
-        prim = prim.GetParent()
-    return False
 
 
 def _is_drawn(prim: Any) -> bool:

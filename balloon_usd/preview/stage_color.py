@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pxr import UsdGeom, UsdShade
+from pxr import UsdGeom
 
 from balloon_usd.preview.error import PreviewError
+from balloon_usd.preview.stage_material import bound_subsets, bound_surface, subset_faces
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -26,11 +27,10 @@ def face_colors(mesh: Any, face_counts: npt.NDArray[np.int64], corners: npt.NDAr
     Raises:
         PreviewError: there are colours for another number of faces, or a subset of faces that are not there.
     """
-    binding = UsdShade.MaterialBindingAPI(mesh.GetPrim())
-    color = _material_color(binding)
+    color = _material_color(mesh)
     colors = _display_colors(mesh, face_counts, corners) if color is None else _all(color, len(face_counts))
-    for subset in binding.GetMaterialBindSubsets():
-        color = _material_color(UsdShade.MaterialBindingAPI(subset.GetPrim()))
+    for subset in bound_subsets(mesh):
+        color = _material_color(subset)
         if color is not None:
             colors[subset_faces(subset, len(face_counts))] = color
     return colors
@@ -42,38 +42,18 @@ def vertex_colors(mesh: Any, time_code: float) -> Colors | None:
     They do where displayColor has a value for each vertex, and no material has a colour of its own.
     """
     primvar = mesh.GetDisplayColorPrimvar()
-    binding = UsdShade.MaterialBindingAPI(mesh.GetPrim())
-    painted = [binding, *(UsdShade.MaterialBindingAPI(s.GetPrim()) for s in binding.GetMaterialBindSubsets())]
     by_vertex = primvar.GetInterpolation() in {UsdGeom.Tokens.vertex, UsdGeom.Tokens.varying}
-    if not by_vertex or any(_material_color(bound) is not None for bound in painted):
+    if not by_vertex or any(_material_color(bound) is not None for bound in (mesh, *bound_subsets(mesh))):
         return None
     values = np.asarray(primvar.ComputeFlattened(time_code) or [], dtype=np.float32).reshape(-1, 3)
     points = mesh.GetPointsAttr().Get(time_code)
     return values if len(values) == len(points or []) else None
 
 
-def subset_faces(subset: Any, count: int) -> npt.NDArray[np.int64]:
-    """Return the faces of a subset.
-
-    Raises:
-        PreviewError: they are not among the `count` faces of the mesh.
-    """
-    faces = np.asarray(subset.GetIndicesAttr().Get() or [], dtype=np.int64)
-    if len(faces) and (faces.min() < 0 or faces.max() >= count):
-        raise PreviewError(f"{subset.GetPath()} names faces that its mesh has not")
-    return faces
-
-
-def _material_color(binding: Any) -> tuple[float, float, float] | None:
-    """Return the constant diffuse colour of the preview surface that is bound, if there is one."""
-    material, _ = binding.ComputeBoundMaterial()
-    shader = material.ComputeSurfaceSource()[0] if material else None
-    if not shader or shader.GetIdAttr().Get() != "UsdPreviewSurface":
-        return None
-    color = shader.GetInput("diffuseColor")
-    if not color or color.HasConnectedSource():
-        return None
-    value = color.Get()
+def _material_color(bound: Any) -> tuple[float, float, float] | None:
+    """Return the constant diffuse colour of the preview surface of a mesh or subset, if there is one."""
+    surface = bound_surface(bound.GetPrim())
+    value = surface.constant("diffuseColor") if surface else None
     return None if value is None else (value[0], value[1], value[2])
 
 

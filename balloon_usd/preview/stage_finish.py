@@ -2,38 +2,25 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pxr import UsdGeom, UsdShade
+from pxr import UsdGeom
 
-from balloon_usd.preview.stage_color import subset_faces
+from balloon_usd.preview.stage_material import bound_subsets, bound_surface, subset_faces
 from balloon_usd.stage.looks import WITHIN_QUAD
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
+    from balloon_usd.preview.stage_material import PreviewSurface
+
     Finishes = npt.NDArray[np.float32]
 
-PREVIEW_SURFACE = "UsdPreviewSurface"
 MIRROR, MATT = 0.3, 0.9
 """Roughness up to which a surface reflects as polished latex does, and from which on it does not at all."""
 LATEX = (0.0, 1.0, 1.0)
 """Metallic, opacity and shine (0..1) of what has no material."""
-
-
-@dataclass(frozen=True)
-class _Inputs:
-    """Constant inputs of a preview surface, and their fallbacks."""
-
-    shader: Any
-
-    def value(self, name: str, fallback: float) -> float:
-        """Return a constant input; one that is connected counts as not authored."""
-        found = self.shader.GetInput(name)
-        value = found.Get() if found and not found.HasConnectedSource() else None
-        return fallback if value is None else float(value)
 
 
 def face_finishes(mesh: Any, faces: int) -> Finishes:
@@ -44,10 +31,9 @@ def face_finishes(mesh: Any, faces: int) -> Finishes:
     Raises:
         PreviewError: a subset has faces that are not there.
     """
-    binding = UsdShade.MaterialBindingAPI(mesh.GetPrim())
-    finishes = np.tile(np.asarray(_finish(binding) or LATEX, dtype=np.float32), (faces, 1))
-    for subset in binding.GetMaterialBindSubsets():
-        own = _finish(UsdShade.MaterialBindingAPI(subset.GetPrim()))
+    finishes = np.tile(np.asarray(_finish(mesh) or LATEX, dtype=np.float32), (faces, 1))
+    for subset in bound_subsets(mesh):
+        own = _finish(subset)
         if own is not None:
             finishes[subset_faces(subset, faces)] = own
     return finishes
@@ -55,27 +41,22 @@ def face_finishes(mesh: Any, faces: int) -> Finishes:
 
 def is_wire(mesh: Any) -> bool:
     """Tell whether a texture cuts away all of a mesh but the edges of its quads."""
-    shader = _preview_surface(UsdShade.MaterialBindingAPI(mesh.GetPrim()))
-    if shader is None or not UsdGeom.PrimvarsAPI(mesh).HasPrimvar(WITHIN_QUAD):
+    surface = bound_surface(mesh.GetPrim())
+    if surface is None or not UsdGeom.PrimvarsAPI(mesh).HasPrimvar(WITHIN_QUAD):
         return False
-    opacity = shader.GetInput("opacity")
-    cut = _Inputs(shader).value("opacityThreshold", 0.0) > 0.0
-    return cut and bool(opacity and opacity.HasConnectedSource())
+    return _number(surface, "opacityThreshold", 0.0) > 0.0 and surface.is_connected("opacity")
 
 
-def _preview_surface(binding: Any) -> Any | None:
-    material, _ = binding.ComputeBoundMaterial()
-    shader = material.ComputeSurfaceSource()[0] if material else None
-    return shader if shader and shader.GetIdAttr().Get() == PREVIEW_SURFACE else None
-
-
-def _finish(binding: Any) -> tuple[float, float, float] | None:
-    """Return metallic, opacity and shine of what is bound, if it is a preview surface."""
-    shader = _preview_surface(binding)
-    if shader is None:
+def _finish(bound: Any) -> tuple[float, float, float] | None:
+    """Return metallic, opacity and shine of the preview surface of a mesh or subset, if there is one."""
+    surface = bound_surface(bound.GetPrim())
+    if surface is None:
         return None
-    inputs = _Inputs(shader)
-    rough = inputs.value("roughness", 0.5)
-    shine = (MATT - rough) / (MATT - MIRROR)
-    found = (inputs.value("metallic", 0.0), inputs.value("opacity", 1.0), shine)
+    shine = (MATT - _number(surface, "roughness", 0.5)) / (MATT - MIRROR)
+    found = (_number(surface, "metallic", 0.0), _number(surface, "opacity", 1.0), shine)
     return tuple(min(max(value, 0.0), 1.0) for value in found)  # type: ignore[return-value]
+
+
+def _number(surface: PreviewSurface, name: str, fallback: float) -> float:
+    value = surface.constant(name)
+    return fallback if value is None else float(value)

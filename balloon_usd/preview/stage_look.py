@@ -6,7 +6,7 @@ from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any
 
 from balloon_usd.preview.error import PreviewError
-from balloon_usd.stage.looks import VARIANT_SET
+from balloon_usd.stage.variant_sets import LOOK
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -20,7 +20,7 @@ def select_look(stage: Any, look: str | None, path: str | Path) -> str:
         PreviewError: the stage, which the message calls `path`, has no such look.
     """
     root = stage.GetDefaultPrim() or stage.GetPseudoRoot()
-    variants = root.GetVariantSet(VARIANT_SET)
+    variants = root.GetVariantSet(LOOK)
     names = variants.GetVariantNames()
     if look is not None:
         if look not in names:

@@ -42,10 +42,10 @@ class StageMesh:
         Raises:
             PreviewError: the faces name points that are not there.
         """
-        points = np.asarray(UsdGeom.Mesh(self.prim).GetPointsAttr().Get(time_code), dtype=np.float64)
-        if points.ndim != 2 or len(points) <= self.corners.max():
+        points = np.asarray(UsdGeom.Mesh(self.prim).GetPointsAttr().Get(time_code))
+        if points.dtype.kind != "f" or points.ndim != 2 or len(points) <= self.corners.max():
             raise PreviewError(f"{self.path} has too few points at time code {time_code:g}")
-        return world.place(self.prim, points)
+        return world.place(self.prim, points.astype(np.float64))
 
     def vertex_colors_at(self, time_code: float) -> npt.NDArray[np.float32] | None:
         """Return the linear rgb of every vertex (V, 3) at a time code; None where `colors` say it all."""

@@ -21,7 +21,8 @@ if TYPE_CHECKING:
 
 STEP = f"{KEY}:step"
 """String on the root prim: what the hands do, sampled where a step of the recipe begins."""
-
+BUBBLES = f"{KEY}:bubbles"
+"""Tokens on the root prim: names of the bubbles, which all numbers of bubbles count in."""
 
 P = TypeVar("P")
 
@@ -89,12 +90,12 @@ ON_ROOT: tuple[Animated[Pose], ...] = (
         f"{KEY}:pressure",
         Sdf.ValueTypeNames.FloatArray,
         lambda pose: _floats(pose.pressure),
-        f"Gauge pressure of each bubble, Pa, in the order of {KEY}:bubbles.",
+        f"Gauge pressure of each bubble, Pa, in the order of {BUBBLES}.",
     ),
     Animated(
         f"{KEY}:volume",
         Sdf.ValueTypeNames.FloatArray,
         lambda pose: _floats(pose.volume),
-        f"Gas volume of each bubble, m3, in the order of {KEY}:bubbles.",
+        f"Gas volume of each bubble, m3, in the order of {BUBBLES}.",
     ),
 )

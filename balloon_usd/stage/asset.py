@@ -8,37 +8,20 @@ from typing import TYPE_CHECKING, Any
 from pxr import Sdf, Usd
 
 from balloon_usd.stage.built import Built
-from balloon_usd.stage.earlier import (
-    MATERIALS,
-    PAYLOAD,
-    TEXTURE,
-    Earlier,
-    carry_over,
-    detail_files,
-    find_earlier,
-    orphaned_texture,
-)
+from balloon_usd.stage.detail_files import MATERIALS, PAYLOAD, TEXTURE, detail_files
+from balloon_usd.stage.earlier import Earlier, carry_over, find_earlier, orphaned_texture
 from balloon_usd.stage.error import writing
 from balloon_usd.stage.geometry import author_geometry
-from balloon_usd.stage.interface import (
-    MADE,
-    STATE,
-    Extents,
-    add_detail,
-    author_root,
-    finished_layer,
-    payload_layer,
-    set_asset_info,
-)
-from balloon_usd.stage.interface import VARIANT_SET as DETAIL
+from balloon_usd.stage.interface import Extents, add_detail, author_root, set_asset_info
 from balloon_usd.stage.layer_metadata import set_provenance, set_time_range, set_units
-from balloon_usd.stage.looks import VARIANT_SET as LOOK
 from balloon_usd.stage.looks import looks_of
 from balloon_usd.stage.materials import author_materials
+from balloon_usd.stage.payload import finished_layer, payload_layer
 from balloon_usd.stage.prim_paths import root_path
 from balloon_usd.stage.provenance import provenance_of
 from balloon_usd.stage.samples import Layers
 from balloon_usd.stage.stretch_color import ramp_legend
+from balloon_usd.stage.variant_sets import DETAIL, LOOK, MADE, STATE
 from balloon_usd.stage.wire_texture import wire_png
 
 if TYPE_CHECKING:

@@ -7,23 +7,20 @@ import os
 import shutil
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from pxr import Sdf, Tf
 
-from balloon_usd.stage.interface import FINISHED, VARIANT_SET, read_extents
-from balloon_usd.stage.looks import STRESS
+from balloon_usd.stage.detail_files import MATERIALS, TEXTURE, detail_files
+from balloon_usd.stage.interface import read_extents
 from balloon_usd.stage.provenance import KEY
-from balloon_usd.stage.wire_texture import FILE_NAME, wire_png
+from balloon_usd.stage.variant_sets import DETAIL
+from balloon_usd.stage.wire_texture import wire_png
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from balloon_usd.stage.interface import Extents
-
-PAYLOAD = Path("payload")
-MATERIALS = PAYLOAD / "materials.usda"
-TEXTURE = PAYLOAD / FILE_NAME
 
 
 @dataclass(frozen=True)
@@ -36,27 +33,11 @@ class Earlier:
     """Details of another recipe text, colour or length: they would show another sculpture."""
 
 
-class DetailFiles(NamedTuple):
-    """Files of one detail, relative to the asset."""
-
-    payload: Path
-    samples: Path
-    geometry: Path
-    finished: Path
-    stress: Path
-
-
-def detail_files(detail: str) -> DetailFiles:
-    """Files of one detail, relative to the asset."""
-    endings = (".usda", "_sim.usdc", "_geo.usdc", f"_{FINISHED}.usda", f"_{STRESS}.usdc")
-    return DetailFiles(*(PAYLOAD / f"{detail}{ending}" for ending in endings))
-
-
 def find_earlier(asset: Path, built: Path, name: str, written: str) -> Earlier:
     """Look through the asset folder for details other than the one that was just built."""
     try:
         interface = Sdf.Layer.OpenAsAnonymous(str(asset / f"{name}.usda"))
-        details = list(interface.GetPrimAtPath(f"/{name}").variantSets[VARIANT_SET].variants.keys())
+        details = list(interface.GetPrimAtPath(f"/{name}").variantSets[DETAIL].variants.keys())
     except (Tf.ErrorException, AttributeError, KeyError):
         return Earlier()
     materials = asset / MATERIALS

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from pxr import Gf, Sdf, UsdShade
 
 from balloon_usd.stage.looks import CHROME, CLAY, CLEAR, RECIPE
+from balloon_usd.stage.shaders import preview_surface
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -63,26 +64,18 @@ FINISHES = {
 
 def author_material(stage: Any, path: Any, color: Color, finish: Finish) -> Any:
     """A preview surface that every reader knows, and OpenPBR beside it for those that know more."""
-    material = UsdShade.Material.Define(stage, path)
-    preview = _shader(stage, path.AppendChild("preview"), "UsdPreviewSurface", "diffuseColor", color)
+    material, preview = preview_surface(stage, path)
+    preview.CreateInput("diffuseColor", Sdf.ValueTypeNames.Color3f).Set(Gf.Vec3f(*color))
     _inputs(preview, finish.preview, Sdf.ValueTypeNames.Float)
-    surface = preview.CreateOutput("surface", Sdf.ValueTypeNames.Token)
-    material.CreateSurfaceOutput().ConnectToSource(surface)
 
-    open_pbr = "ND_open_pbr_surface_surfaceshader"
-    shader = _shader(stage, path.AppendChild("openpbr"), open_pbr, "base_color", color)
-    _inputs(shader, finish.open_pbr, Sdf.ValueTypeNames.Float)
-    _inputs(shader, finish.flags, Sdf.ValueTypeNames.Bool)
-    out = shader.CreateOutput("out", Sdf.ValueTypeNames.Token)
+    open_pbr = UsdShade.Shader.Define(stage, path.AppendChild("openpbr"))
+    open_pbr.CreateIdAttr("ND_open_pbr_surface_surfaceshader")
+    open_pbr.CreateInput("base_color", Sdf.ValueTypeNames.Color3f).Set(Gf.Vec3f(*color))
+    _inputs(open_pbr, finish.open_pbr, Sdf.ValueTypeNames.Float)
+    _inputs(open_pbr, finish.flags, Sdf.ValueTypeNames.Bool)
+    out = open_pbr.CreateOutput("out", Sdf.ValueTypeNames.Token)
     material.CreateSurfaceOutput("mtlx").ConnectToSource(out)
     return material
-
-
-def _shader(stage: Any, path: Any, identifier: str, color_input: str, color: Color) -> Any:
-    shader = UsdShade.Shader.Define(stage, path)
-    shader.CreateIdAttr(identifier)
-    shader.CreateInput(color_input, Sdf.ValueTypeNames.Color3f).Set(Gf.Vec3f(*color))
-    return shader
 
 
 def _inputs(shader: Any, inputs: Mapping[str, float | bool], kind: Any) -> None:

@@ -8,10 +8,9 @@ import numpy as np
 from pxr import Sdf, UsdGeom, Vt
 
 from balloon_usd.stage.air import author_air
-from balloon_usd.stage.animated import ON_MESH, ON_ROOT
+from balloon_usd.stage.animated import BUBBLES, ON_MESH, ON_ROOT
 from balloon_usd.stage.looks import author_within_quad
 from balloon_usd.stage.prim_paths import part_path, parts_path, root_path
-from balloon_usd.stage.provenance import KEY
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -39,7 +38,7 @@ def author_geometry(stage: Any, description: StageDescription, final: Pose) -> N
             author_within_quad(usd_mesh.GetPrim(), len(mesh.quads))
     for air, air_pose in zip(description.airs, final.airs, strict=True):
         author_air(stage, part_path(description.name, air.name), air, air_pose)
-    names = root.CreateAttribute(f"{KEY}:bubbles", Sdf.ValueTypeNames.TokenArray, custom=True)
+    names = root.CreateAttribute(BUBBLES, Sdf.ValueTypeNames.TokenArray, custom=True)
     names.Set(Vt.TokenArray(description.bubble_names))
     for moving in ON_ROOT:
         attribute = root.CreateAttribute(moving.name, moving.type_name, custom=True)

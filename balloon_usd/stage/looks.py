@@ -15,14 +15,13 @@ from pxr import Gf, Sdf, UsdGeom, UsdShade, Vt
 
 from balloon_usd.stage.error import StageError
 from balloon_usd.stage.prim_paths import part_path, root_path
+from balloon_usd.stage.variant_sets import LOOK
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from balloon_usd.stage.description import MeshDescription, StageDescription
 
-VARIANT_SET = "look"
-"""Variant set of the root prim: what the rubber is drawn as."""
 RECIPE = "recipe"
 """Shiny latex in the colours of the recipe."""
 CLEAR = "clear"
@@ -82,7 +81,7 @@ def author_looks(
 
     `materials`: material of each mesh by its name, by look.
     """
-    looks = stage.GetPrimAtPath(root_path(description.name)).GetVariantSets().AddVariantSet(VARIANT_SET)
+    looks = stage.GetPrimAtPath(root_path(description.name)).GetVariantSets().AddVariantSet(LOOK)
     for look in looks_of(description):
         looks.AddVariant(look)
         looks.SetVariantSelection(look)

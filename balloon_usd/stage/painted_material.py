@@ -1,10 +1,12 @@
-"""Preview surfaces that read a primvar of the prim they are bound to, such as its displayColor."""
+"""Preview surfaces in the displayColor of the prim they are bound to."""
 
 from __future__ import annotations
 
 from typing import Any
 
-from pxr import Sdf, UsdGeom, UsdShade
+from pxr import Sdf, UsdGeom
+
+from balloon_usd.stage.shaders import preview_surface, primvar_reader
 
 AIR_ROUGHNESS = 0.4
 STRESS_ROUGHNESS = 0.6
@@ -19,21 +21,3 @@ def author_painted_material(stage: Any, path: Any, roughness: float) -> Any:
     surface.CreateInput("diffuseColor", Sdf.ValueTypeNames.Color3f).ConnectToSource(color)
     surface.CreateInput("roughness", Sdf.ValueTypeNames.Float).Set(roughness)
     return material
-
-
-def preview_surface(stage: Any, path: Any) -> tuple[Any, Any]:
-    """A material at a path and its surface shader, without inputs."""
-    material = UsdShade.Material.Define(stage, path)
-    surface = UsdShade.Shader.Define(stage, path.AppendChild("preview"))
-    surface.CreateIdAttr("UsdPreviewSurface")
-    out = surface.CreateOutput("surface", Sdf.ValueTypeNames.Token)
-    material.CreateSurfaceOutput().ConnectToSource(out)
-    return material, surface
-
-
-def primvar_reader(stage: Any, path: Any, kind: str, name: str, type_name: Any) -> Any:
-    """A shader that reads a primvar; returns its output."""
-    reader = UsdShade.Shader.Define(stage, path)
-    reader.CreateIdAttr(f"UsdPrimvarReader_{kind}")
-    reader.CreateInput("varname", Sdf.ValueTypeNames.String).Set(name)
-    return reader.CreateOutput("result", type_name)

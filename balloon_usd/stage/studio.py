@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from pxr import Gf, Sdf, UsdGeom, UsdLux, UsdShade, Vt
 
+from balloon_usd.stage.shaders import preview_surface
 from balloon_usd.stage.shot_camera import ASPECT, FOCAL_LENGTH, SENSOR_WIDTH
 
 if TYPE_CHECKING:
@@ -140,12 +141,9 @@ def _swept(
 
 def _paper(stage: Any, path: Any, color: Any) -> Any:
     """A matt material."""
-    material = UsdShade.Material.Define(stage, path)
-    surface = UsdShade.Shader.Define(stage, path.AppendChild("preview"))
-    surface.CreateIdAttr("UsdPreviewSurface")
+    material, surface = preview_surface(stage, path)
     surface.CreateInput("diffuseColor", Sdf.ValueTypeNames.Color3f).Set(color)
     surface.CreateInput("roughness", Sdf.ValueTypeNames.Float).Set(GROUND_ROUGHNESS)
-    material.CreateSurfaceOutput().ConnectToSource(surface.CreateOutput("surface", Sdf.ValueTypeNames.Token))
     return material
 
 

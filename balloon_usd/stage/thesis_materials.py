@@ -7,7 +7,7 @@ from typing import Any
 from pxr import Gf, Sdf, UsdShade
 
 from balloon_usd.stage.looks import WITHIN_QUAD
-from balloon_usd.stage.painted_material import preview_surface, primvar_reader
+from balloon_usd.stage.shaders import preview_surface, primvar_reader
 from balloon_usd.stage.wire_texture import CUT, FILE_NAME
 
 WIRE_COLOR = (0.871, 0.216, 0.005)

@@ -11,15 +11,15 @@ from pxr import Sdf, Usd
 
 from balloon_usd.stage.asset import begin_asset, complete_asset
 from balloon_usd.stage.description import require_identifier
-from balloon_usd.stage.earlier import MATERIALS
+from balloon_usd.stage.detail_files import MATERIALS
 from balloon_usd.stage.error import StageError, writing
 from balloon_usd.stage.flat import begin_flat, complete_flat, files_beside
-from balloon_usd.stage.interface import FINISHED
 from balloon_usd.stage.looks import default_look, require_look
 from balloon_usd.stage.properties import one_sample_per_time_code, opens_whole
 from balloon_usd.stage.samples import SampleStream
 from balloon_usd.stage.shot import shot_name, write_shot
 from balloon_usd.stage.usdz import begin_usdz, complete_usdz
+from balloon_usd.stage.variant_sets import FINISHED
 from balloon_usd.stage.wanted import Wanted
 from balloon_usd.stage.workspace import Workspace
 

@@ -25,6 +25,15 @@ def named(damages: list[tuple[int, str, Callable]]) -> list[str]:
     return [f"{number}-{what}" for number, what, _ in damages]
 
 
+def rules_after(damage: Callable[[Usd.Stage], object], file: Path) -> set[str]:
+    """Rules that a stage breaks once it is damaged."""
+    stage = Usd.Stage.Open(str(file))
+    damage(stage)
+    stage.GetRootLayer().Save()
+    del stage
+    return rules(file)
+
+
 def rules(path: Path) -> set[str]:
     """Rules that a stage breaks."""
     report = check_file(str(path))
@@ -55,12 +64,8 @@ def test_a_stage_as_it_is_written_has_no_fault(name: str, stages: Path) -> None:
 def test_a_damage_of_a_flat_stage_is_found(
     number: int, what: str, damage: Callable[[Usd.Stage], object], stages: Path, tmp_path: Path
 ) -> None:
-    file = tmp_path / "dog.usdc"
-    stage = Usd.Stage.Open(str(shutil.copy(stages / "dog.usdc", file)))
-    damage(stage)
-    stage.GetRootLayer().Save()
-    del stage
-    assert str(number) in rules(file)
+    file = shutil.copy(stages / "dog.usdc", tmp_path)
+    assert str(number) in rules_after(damage, file)
 
 
 @pytest.mark.parametrize(("number", "what", "damage"), AIR_DAMAGES, ids=named(AIR_DAMAGES))
@@ -68,12 +73,8 @@ def test_a_damage_of_the_air_is_found(
     number: int, what: str, damage: Callable[[Usd.Stage], object], stages: Path, tmp_path: Path
 ) -> None:
     shutil.copy(stages / "wire.png", tmp_path)
-    file = tmp_path / "capsule.usdc"
-    stage = Usd.Stage.Open(str(shutil.copy(stages / "capsule.usdc", file)))
-    damage(stage)
-    stage.GetRootLayer().Save()
-    del stage
-    assert str(number) in rules(file)
+    file = shutil.copy(stages / "capsule.usdc", tmp_path)
+    assert str(number) in rules_after(damage, file)
 
 
 @pytest.mark.parametrize(("number", "what", "damage"), LAYERED_DAMAGES, ids=named(LAYERED_DAMAGES))

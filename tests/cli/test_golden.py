@@ -179,7 +179,7 @@ def test_a_full_disk_leaves_the_earlier_stage(cli, kept, solver, tmp_path, monke
         ("format: 1\nstages: [", "golden.yaml:3:1: not valid YAML"),
         ("format: 1\nstages: {a: {recipe: none.yaml}}\n", "none.yaml:1:1: cannot be read"),
         ("format: 1\nstages: {a: {recipe: ../snake.yaml}}\n", 'snake.yaml is not called "a"'),
-        ("format: 1\nstages: {}\n", "golden.yaml lists no stages, name the recipes"),
+        ("format: 1\nstages: {}\n", "golden.yaml lists no stages: name the recipes"),
     ],
 )
 def test_a_wrong_list_is_refused_with_its_place(cli, solver, write_recipe, tmp_path, text, said):
@@ -193,13 +193,36 @@ def test_a_wrong_list_is_refused_with_its_place(cli, solver, write_recipe, tmp_p
     assert solver.calls == []
 
 
-def test_without_a_list_recipes_must_be_named(cli, solver):
-    result = cli("golden", "verify")
-    assert result.exit_code == 2
-    assert result.stderr == "stages/golden.yaml lists no stages, name the recipes\n"
-
-
 def test_a_tolerance_for_nothing_is_refused(cli, kept):
     result = cli("golden", "verify", "--tol", "pionts=1")
     assert result.exit_code == 2
     assert 'unknown attribute "pionts", did you mean "points"?' in result.stderr
+
+
+def test_a_stage_that_is_new_is_entered_into_the_list(cli, solver, write_recipe, tmp_path):
+    recipe, entries = write_recipe(), tmp_path / "stages" / "golden.yaml"
+    assert cli("golden", "update", recipe, "--frames", 3).exit_code == 0
+    assert entries.read_text() == "format: 1\nstages:\n  snake:\n    recipe: ../snake.yaml\n    frames: 3\n"
+    assert cli("golden", "verify").stdout == "snake: the same\n"
+    entries.write_text(f"# Mine.\n{entries.read_text()}".replace("snake", "other"))
+    (tmp_path / "other.yaml").write_text("")
+    assert cli("golden", "update", recipe).stderr == ""
+    assert entries.read_text().startswith("# Mine.\nformat: 1\nstages:\n  other:\n")
+    assert entries.read_text().endswith("  snake:\n    recipe: ../snake.yaml\n")
+
+
+def test_a_list_of_another_form_is_left_alone_and_that_is_said(cli, solver, write_recipe, tmp_path):
+    recipe, entries = write_recipe(), tmp_path / "stages" / "golden.yaml"
+    entries.parent.mkdir()
+    entries.write_text(text := "{format: 1, stages: {other: {recipe: ../other.yaml}}}\n")
+    result = cli("golden", "update", recipe)
+    assert (result.exit_code, result.stderr) == (
+        0,
+        "stages/golden.yaml: enter snake by hand, below the others\n",
+    )
+    assert entries.read_text() == text
+
+
+def test_without_a_list_recipes_are_to_be_named(cli, tmp_path):
+    result = cli("golden", "verify")
+    assert (result.exit_code, result.stderr) == (2, "stages/golden.yaml is not there: name the recipes\n")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tests.exchange.shapes import cube, write_obj
+from tests.mesh_file.shapes import cube, write_obj
 
 RECIPE = (
     "format: 1\nname: box\nunits: cm\nballoons:\n  box: {mesh: box.obj, swell: 1.3}\nsteps:\n  - wait: 0.2\n"

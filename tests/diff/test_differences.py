@@ -22,6 +22,11 @@ def other(written: Path) -> Usd.Stage:
     return Usd.Stage.Open(str(written / "dog.usdc"))
 
 
+def copy_of(stage: Usd.Stage, folder: Path) -> Usd.Stage:
+    stage.GetRootLayer().Export(str(folder / "copy.usdc"))
+    return Usd.Stage.Open(str(folder / "copy.usdc"))
+
+
 def nudge(stage: Usd.Stage, by: float) -> None:
     points = UsdGeom.Mesh.Get(stage, MAIN).GetPointsAttr()
     moved = np.array(points.Get(3)) + np.float32(by)
@@ -34,8 +39,7 @@ def nudge(stage: Usd.Stage, by: float) -> None:
 def test_points_are_compared_within_the_tolerance(
     by: float, tolerance: float, same: bool, other: Usd.Stage, tmp_path: Path
 ) -> None:
-    other.GetRootLayer().Export(str(tmp_path / "copy.usdc"))
-    copy = Usd.Stage.Open(str(tmp_path / "copy.usdc"))
+    copy = copy_of(other, tmp_path)
     nudge(copy, by)
     assert (list(differences(copy, other, tolerance=tolerance)) == []) is same
 
@@ -79,8 +83,7 @@ def test_points_are_compared_within_the_tolerance(
 def test_a_difference_is_told_with_its_place(
     change: Callable[[Usd.Stage], object], told: str, other: Usd.Stage, tmp_path: Path
 ) -> None:
-    other.GetRootLayer().Export(str(tmp_path / "copy.usdc"))
-    copy = Usd.Stage.Open(str(tmp_path / "copy.usdc"))
+    copy = copy_of(other, tmp_path)
     assert list(differences(copy, other)) == []
     change(copy)
     assert told in "\n".join(differences(copy, other, tolerance=1e-6))
@@ -127,8 +130,7 @@ def changed_particle(stage: Usd.Stage, name: str, time: float, value: object) ->
 def test_particles_are_compared_too(
     change: Callable[[Usd.Stage], object], told: str, springs: Usd.Stage, tmp_path: Path
 ) -> None:
-    springs.GetRootLayer().Export(str(tmp_path / "copy.usdc"))
-    copy = Usd.Stage.Open(str(tmp_path / "copy.usdc"))
+    copy = copy_of(springs, tmp_path)
     # The copy lies in another folder: the texture's name counts, not its place.
     assert list(differences(copy, springs)) == []
     change(copy)

@@ -53,9 +53,3 @@ def test_a_name_that_no_attribute_has_is_told_with_the_nearest() -> None:
     )
     known = {"points", "extent", "primvars:stretch", "primvars:st"}
     assert [*tolerances.unknown_names(known)] == ['unknown attribute "pionts", did you mean "points"?']
-
-
-def test_a_share_of_the_tolerances_is_a_share_of_each() -> None:
-    half = Tolerances(Allowed(2.0, 0.2), {"points": Allowed(4.0, 0.4)}, rms=6.0).scaled(0.5)
-    assert half == Tolerances(Allowed(1.0, 0.1), {"points": Allowed(2.0, 0.2)}, rms=3.0)
-    assert Tolerances().scaled(0.5).rms is None

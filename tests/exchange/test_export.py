@@ -12,8 +12,9 @@ import numpy as np
 import pytest
 from pxr import Usd, UsdGeom, Vt
 
-from balloon_usd.exchange.error import ExchangeError, NotExportedError
+from balloon_usd.exchange.error import NotExportedError
 from balloon_usd.exchange.export import export_stage, stage_range
+from balloon_usd.mesh_file.error import MeshFileError
 from balloon_usd.stage import write_stage
 from tests.stage.tubes import frames, sculpture
 
@@ -160,7 +161,7 @@ def test_faces_with_more_corners_pass_as_polygons(form: str, tmp_path: Path) -> 
     stage = one_mesh(tmp_path / "five.usda", [5], [0, 1, 2, 3, 4], points)
     (block,) = meshio.read(export_stage(stage, tmp_path, form)[0]).cells
     assert block.data.tolist() == [[0, 1, 2, 3, 4]]
-    with pytest.raises(ExchangeError, match="thing has faces with 5 corners, XDMF takes 3 or 4"):
+    with pytest.raises(MeshFileError, match="thing has faces with 5 corners, XDMF takes 3 or 4"):
         export_stage(stage, tmp_path, "xdmf")
 
 
@@ -171,13 +172,13 @@ def test_faces_that_change_in_time_are_refused(tmp_path: Path) -> None:
     counts.Set([4, 3, 3, 3, 3], 1)
     counts.Set([4, 3, 3, 3, 3], 2)
     stage.Save()
-    with pytest.raises(ExchangeError, match="/thing changes its faces in time"):
+    with pytest.raises(MeshFileError, match="/thing changes its faces in time"):
         export_stage(file, tmp_path, "obj")
 
 
 def test_frames_that_are_not_there_are_refused(dog: Path, tmp_path: Path) -> None:
     assert stage_range(dog) == (1, 5)
-    with pytest.raises(ExchangeError, match=r"dog.usda has frames 1 to 5 only"):
+    with pytest.raises(MeshFileError, match=r"dog.usda has frames 1 to 5 only"):
         export_stage(dog, tmp_path, "obj", frames=[4, 6])
 
 
@@ -224,6 +225,6 @@ def test_a_stage_that_is_damaged_between_its_frames_is_refused_and_leaves_nothin
     third = len(data) // 3
     data[third : third + 400] = b"\xff" * 400
     samples.write_bytes(data)
-    with pytest.raises(ExchangeError, match=r"dog.usda (is damaged and cannot be read|is not whole)"):
+    with pytest.raises(MeshFileError, match=r"dog.usda (is damaged and cannot be read|is not whole)"):
         export_stage(tmp_path / "dog" / "dog.usda", tmp_path / "out", "ply")
     assert list((tmp_path / "out").glob("*")) == []

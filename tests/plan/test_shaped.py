@@ -14,7 +14,7 @@ from balloon_usd.plan.choreography import Inflate, LetGo
 from balloon_usd.plan.meshing import mesh_of
 from balloon_usd.recipe import Recipe, RecipeError
 from balloon_usd.staging import describe_stage
-from tests.exchange.shapes import ball, cube, ring, write_obj
+from tests.mesh_file.shapes import ball, cube, ring, write_obj
 from tests.plan.test_drawing import shapes
 
 HEART = Path(__file__).parents[2] / "recipes" / "meshes" / "heart.yaml"
@@ -167,3 +167,9 @@ def test_a_ring_that_is_blown_up_so_far_that_it_bulges_is_cautioned_with_what_do
 
     assert cautions(1.2) == ("it may bulge at one place: swell: 1.02",)
     assert cautions(1.02) == ()
+
+
+def test_a_cube_bulges_nowhere_however_far_it_is_blown_up(tmp_path):
+    write_obj(tmp_path / "cube.obj", *cube())
+    text = "format: 1\nname: cube\nunits: cm\nballoons: {it: {mesh: cube.obj, unit: m, swell: 1.5}}\nsteps: [wait: 1]\n"
+    assert plan(Recipe.parse(text, file=str(tmp_path / "cube.yaml"))).cautions == ()

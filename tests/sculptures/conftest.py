@@ -14,6 +14,8 @@ from balloon_usd.recipe import Recipe
 from balloon_usd.solver.frame import Frame
 from balloon_usd.solver.simulation import Simulation, simulate_many
 from balloon_usd.solver.tally import Tally
+from balloon_usd.stage import StageWriter
+from balloon_usd.staging import describe_stage
 
 RECIPES = sorted((Path(__file__).parents[2] / "recipes").glob("*.yaml"))
 
@@ -28,6 +30,8 @@ class Made:
     """Middles of all planned rings in every frame after the hands let go, (frames, rings, 3), m."""
     last: Frame
     tally: Tally
+    stage: Path
+    """Its stage with all looks, and a shot beside it."""
 
 
 def middles(simulation: Simulation, frame: Frame) -> np.ndarray:
@@ -44,28 +48,36 @@ def middles(simulation: Simulation, frame: Frame) -> np.ndarray:
 
 
 @cache
-def make(path: Path) -> Made:
-    """Make a recipe and keep what its tests look at."""
+def make(path: Path, folder: Path) -> Made:
+    """Make a recipe, keep what its tests look at, and write its stage into a folder."""
     planned = plan(Recipe.load(path))
     simulation = simulate_many([planned], detail="draft", device="cpu")
     let_go = round(planned.choreography.moves[-1].start * simulation.fps)
     tally, joints = Tally(planned, simulation.meshes[0]), []
     frame = None
-    for frames in simulation.frames():
-        frame = frames[0]
-        assert isinstance(frame, Frame), f"{path.name}: {frame}"
-        tally.add(frame)
-        if frame.time_code > let_go:
-            joints.append(middles(simulation, frame))
+    with StageWriter(describe_stage(planned, simulation.meshes[0]), folder, shot=True) as writer:
+        for frames in simulation.frames():
+            frame = frames[0]
+            assert isinstance(frame, Frame), f"{path.name}: {frame}"
+            tally.add(frame)
+            writer.write(frame)
+            if frame.time_code > let_go:
+                joints.append(middles(simulation, frame))
+        written = writer.finish()
     assert frame is not None
-    return Made(planned, simulation, np.array(joints), frame, tally)
+    return Made(planned, simulation, np.array(joints), frame, tally, written.files[0])
+
+
+@pytest.fixture(scope="session")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("sculptures")
 
 
 @pytest.fixture(params=RECIPES, ids=lambda path: path.stem, scope="module")
-def made(request: pytest.FixtureRequest) -> Made:
-    return make(request.param)
+def made(request: pytest.FixtureRequest, folder: Path) -> Made:
+    return make(request.param, folder)
 
 
 @pytest.fixture(scope="module")
-def dog() -> Made:
-    return make(next(path for path in RECIPES if path.stem == "dog"))
+def dog(folder: Path) -> Made:
+    return make(next(path for path in RECIPES if path.stem == "dog"), folder)

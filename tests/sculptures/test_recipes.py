@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import re
+from pathlib import Path
+
 import numpy as np
 
 from balloon_usd.balloon.rubber import BURST_STRETCH
+from balloon_usd.check import check_file, text_of
 from balloon_usd.plan.choreography import Weld
 from balloon_usd.solver.crossing import deepest_crossing
 
+README = Path(__file__).parents[2] / "README.md"
 DEEPEST = 1.0e-3
 """Deepest that a wall may lie inside another in the final frame, m."""
 POSE_KEPT = 0.05
@@ -73,3 +78,26 @@ def test_the_dog_stands_on_its_legs_with_ears_above_and_nose_before(dog):
     assert place["left_hindleg.end"][2] < hips[2] - 0.08
     assert place["main.knot"][0] < neck[0] - 0.08
     assert abs(place["left_foreleg.end"][2] - place["left_hindleg.end"][2]) < 0.05
+
+
+def test_nothing_is_wrong_with_the_layers_that_the_readme_puts_over_the_dog(dog):
+    section = README.read_text(encoding="utf-8").partition("\n## For studios\n")[2].partition("\n## ")[0]
+    layers = re.findall(r"```usda\n(.*?# (\w+\.usda)\n.*?)```", section, re.DOTALL)
+    files = [dog.stage.parents[1] / name for _, name in layers]
+    assert len(files) == 4
+    # One refers to another.
+    for file, (text, _) in zip(files, layers, strict=True):
+        file.write_text(text, encoding="utf-8")
+    for file in files:
+        report = check_file(str(file))
+        assert not report.unreadable
+        assert report.faults == {}, text_of(report)
+
+
+def test_nothing_is_wrong_with_its_stage_in_any_variant(made):
+    shot = made.stage.parents[1] / f"{made.stage.stem}_shot.usda"
+    for stage in (made.stage, shot):
+        report = check_file(str(stage))
+        assert not report.unreadable
+        assert report.faults == {}, text_of(report)
+        assert [name.split()[0] for name in report.validators] == ["usd-core", "usd-validation-nvidia"]

@@ -18,7 +18,7 @@ from balloon_usd.solver.corners import corner_table
 from balloon_usd.solver.flatten import _joined_corners
 from balloon_usd.solver.performance import simulate
 from balloon_usd.solver.simulation import simulate_many
-from tests.exchange.shapes import ball, icosahedron, write_obj
+from tests.mesh_file.shapes import ball, icosahedron, write_obj
 
 RECIPES = Path(__file__).parents[2] / "recipes" / "meshes"
 SOFT = "physics: {hold: 0.5, softening: false}\n"

@@ -131,7 +131,7 @@ def test_instances_have_their_own_colour_look_time_and_place(folder: Path) -> No
     assert points_of(stage, "/crowd/dog_1").GetTimeSamples() == [12 + t for t in range(1, FRAMES + 1)]
     assert np.array_equal(points_of(stage, "/crowd/dog_2").Get(24 + 5), made(5))
     place = UsdGeom.Xformable(clear).ComputeLocalToWorldTransform(1).ExtractTranslation()
-    assert tuple(place) == (1.2, 0.0, 0.0)
+    assert tuple(place) == (0.0, 0.8, 0.0)
 
 
 def hundred(folder: Path) -> Usd.Stage:
@@ -140,7 +140,7 @@ def hundred(folder: Path) -> Usd.Stage:
     for number in range(3, 100):
         copy = Sdf.Path(f"/crowd/dog_{number}")
         Sdf.CopySpec(layer, f"/crowd/dog_{number % 3}", layer, copy)
-        layer.GetPrimAtPath(copy).attributes["xformOp:translate"].default = (0.6 * number, 0.0, 0.0)
+        layer.GetPrimAtPath(copy).attributes["xformOp:translate"].default = (0.0, 0.4 * number, 0.0)
     layer.Export(str(folder / "hundred.usd"))
     return opened(folder, "hundred.usd")
 

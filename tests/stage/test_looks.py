@@ -13,7 +13,7 @@ import pytest
 from pxr import Usd, UsdGeom, UsdShade
 
 from balloon_usd import __version__
-from balloon_usd.diff import flat_equals_composed
+from balloon_usd.diff import differences
 from balloon_usd.stage import StageError, write_stage
 from balloon_usd.stage.properties import check_variants
 from balloon_usd.stage.stretch_color import stretch_colors
@@ -186,7 +186,7 @@ def test_a_flat_stage_holds_the_colours_of_stress_if_that_is_its_look(tmp_path: 
         Usd.Stage.Open(str(write_stage(sculpture(), stretched(4), tmp_path, flat=f, look="stress").files[0]))
         for f in (True, False)
     )
-    assert list(flat_equals_composed(flat, layered)) == []
+    assert list(differences(flat, layered)) == []
     plain = write_stage(sculpture(), stretched(4), tmp_path, flat=True).files[0]
     assert not Usd.Stage.Open(str(plain)).GetDefaultPrim().GetVariantSets().GetNames()
 
@@ -197,7 +197,7 @@ def test_flat_and_layered_are_alike_in_every_look(look: str, tmp_path: Path) -> 
         Usd.Stage.Open(str(write_stage(sculpture(), frames(2), tmp_path, flat=f, look=look).files[0]))
         for f in (True, False)
     )
-    assert list(flat_equals_composed(flat, layered)) == []
+    assert list(differences(flat, layered)) == []
 
 
 def test_another_look_of_the_next_run_keeps_the_other_details(tmp_path: Path) -> None:
@@ -290,7 +290,7 @@ def test_the_texture_is_the_same_bytes_everywhere() -> None:
 
 def test_flat_and_layered_are_alike(aired: Path) -> None:
     flat, layered = (Usd.Stage.Open(str(aired / name)) for name in ("capsule.usdc", "capsule/capsule.usda"))
-    assert list(flat_equals_composed(flat, layered)) == []
+    assert list(differences(flat, layered)) == []
 
 
 def test_the_flat_stage_takes_its_texture_along(tmp_path: Path) -> None:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from pxr import Sdf, Usd, UsdValidation, Vt
 
-from balloon_usd.diff import flat_equals_composed
+from balloon_usd.diff import differences
 from balloon_usd.stage.properties import (
     PROPERTIES,
     check_property,
@@ -231,13 +231,14 @@ def test_the_validators_of_usd_have_nothing_to_say(file: str, detail: str, writt
 def test_the_flat_stage_equals_the_composed_one(written: Path) -> None:
     composed = Usd.Stage.Open(str(written / "dog" / "dog.usda"))
     flat = Usd.Stage.Open(str(written / "dog.usdc"))
-    assert list(flat_equals_composed(flat, composed)) == []
+    assert list(differences(flat, composed)) == []
 
 
 def test_a_flat_stage_that_is_not_the_composed_one_is_found_out(stage: Usd.Stage, dog: Usd.Stage) -> None:
     set_at("points", 5, with_row(0, 0.25))(stage)
-    (finding,) = flat_equals_composed(stage, dog)
-    assert str(finding) == f"property 31: {MAIN}.points: differ by up to 0.25 at 5; at 1 of 12 time codes"
+    moved, changed = differences(stage, dog)
+    assert moved.startswith(f"{MAIN}: nose moved 421 mm at 5")
+    assert changed == f"{MAIN}.points: differ by up to 0.25 at 5; at 1 of 12 time codes"
 
 
 def test_a_truncated_file_is_not_whole(written: Path, tmp_path: Path) -> None:

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 from pxr import Sdf, Tf, UsdGeom, UsdUtils
 
+from balloon_usd.stage.opening import said_by
 from balloon_usd.stage.properties.finding import Finding
 from balloon_usd.stage.properties.kinds import ROOT_KIND, UP_AXIS, StageKind, kind_of
-from balloon_usd.stage.properties.reading import attributes_of, said_by
+from balloon_usd.stage.properties.reading import attributes_of
 from balloon_usd.stage.provenance import ABSOLUTE, COMPLETE, KEY, problems
 
 if TYPE_CHECKING:
@@ -148,9 +149,12 @@ def no_animated_visibility(stage: Any) -> Iterator[Finding]:
 
 
 def _facts(stage: Any) -> dict[str, Any]:
-    """The package's provenance in the root layer."""
-    facts = stage.GetRootLayer().customLayerData.get(KEY)
-    return facts if isinstance(facts, dict) else {}
+    """The package's provenance: that of the root layer, or of the asset that it lies over."""
+    for layer in stage.GetLayerStack(includeSessionLayers=False):
+        facts = layer.customLayerData.get(KEY)
+        if isinstance(facts, dict):
+            return facts
+    return {}
 
 
 def _root_info(stage: Any) -> dict[str, Any]:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from pxr import Tf, Usd
 
+from balloon_usd.stage.opening import said_by
 from balloon_usd.stage.properties.composition import opens_whole
 from balloon_usd.stage.properties.finding import Finding
 from balloon_usd.stage.properties.timing import one_sample_per_time_code
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
 
 def same_bytes(one: Path, other: Path) -> Iterator[Finding]:
     """Property 29: two runs of one recipe give byte-identical files."""
-    files = {_relative(root, file) for root in (one, other) for file in _files(root)}
+    files = {file.relative_to(root) for root in (one, other) for file in _files(root)}
     for name in sorted(files):
         pair = [root / name for root in (one, other)]
         missing = [str(file) for file in pair if not file.is_file()]
@@ -38,7 +39,7 @@ def whole_or_absent(folder: Path, name: str) -> Iterator[Finding]:
         try:
             stage = Usd.Stage.Open(str(file))
         except Tf.ErrorException as error:
-            yield Finding(30, f"{file} does not open: {error.args[0].commentary}")
+            yield Finding(30, f"{file} does not open: {said_by(error)}")
             continue
         for finding in (*opens_whole(stage), *one_sample_per_time_code(stage)):
             yield Finding(30, f"{file}: {finding}")
@@ -46,7 +47,3 @@ def whole_or_absent(folder: Path, name: str) -> Iterator[Finding]:
 
 def _files(root: Path) -> list[Path]:
     return [root] if root.is_file() else [file for file in root.rglob("*") if file.is_file()]
-
-
-def _relative(root: Path, file: Path) -> Path:
-    return file.relative_to(root)

@@ -18,6 +18,8 @@ from balloon_usd.stage.properties.reading import (
     samples_of,
     sculpted,
 )
+from balloon_usd.stage.properties.shape import lengths_of_cloud
+from balloon_usd.stage.shaders import PREVIEW_SURFACE
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -88,14 +90,9 @@ def color_and_sides_authored(stage: Any) -> Iterator[Finding]:
             yield Finding(25, "primvars:displayColor is not authored", str(cloud.GetPath()))
 
 
-def _cloud_lengths(cloud: Any) -> dict[str, int]:
-    """Number of elements of each interpolation."""
-    points = len(first_value(cloud.GetPointsAttr()))
-    return {"constant": 1, "uniform": 1, "varying": points, "vertex": points, "faceVarying": points}
-
-
 def _width_faults(cloud: Any) -> Iterator[Finding]:
-    expected = _cloud_lengths(cloud).get(cloud.GetWidthsInterpolation(), -1)
+    count = len(first_value(cloud.GetPointsAttr()))
+    expected = lengths_of_cloud(count).get(cloud.GetWidthsInterpolation(), -1)
     for time, widths in samples_of(cloud.GetWidthsAttr()):
         if len(widths) != expected:
             yield Finding(23, f"{len(widths)} widths, expected {expected}", str(cloud.GetPath()), time)
@@ -104,7 +101,7 @@ def _width_faults(cloud: Any) -> Iterator[Finding]:
 
 
 def _id_faults(cloud: Any) -> Iterator[Finding]:
-    expected = _cloud_lengths(cloud)["vertex"]
+    expected = len(first_value(cloud.GetPointsAttr()))
     for time, ids in samples_of(cloud.GetIdsAttr()):
         if len(ids) != expected:
             yield Finding(23, f"{len(ids)} ids, expected {expected}", str(cloud.GetPath()), time)
@@ -138,7 +135,7 @@ def _bound_subset_faults(mesh: Any) -> Iterator[Finding]:
 
 def _preview_faults(material: Any) -> Iterator[str]:
     shader, _, _ = material.ComputeSurfaceSource()
-    if not shader or shader.GetShaderId() != "UsdPreviewSurface":
+    if not shader or shader.GetShaderId() != PREVIEW_SURFACE:
         yield "no UsdPreviewSurface"
         return
     for color_input in shader.GetInputs():

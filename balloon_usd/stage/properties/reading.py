@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pxr import Kind, Usd, UsdGeom
+from pxr import Sdf, Usd, UsdGeom
 
+from balloon_usd.stage.component import in_component
 from balloon_usd.stage.properties.kinds import StageKind, kind_of
 
 if TYPE_CHECKING:
@@ -30,7 +31,9 @@ def mistyped(prim: Any) -> Iterator[tuple[str, str, str]]:
         meant = definition.GetAttributeDefinition(attribute.GetName())
         for spec in attribute.GetPropertyStack() if meant else ():
             wanted = meant.GetTypeName()
-            if spec.typeName.type != wanted.type:
+            if not isinstance(spec, Sdf.AttributeSpec):
+                yield str(attribute.GetPath()), "rel", str(wanted)
+            elif spec.typeName.type != wanted.type:
                 yield str(attribute.GetPath()), str(spec.typeName), str(wanted)
 
 
@@ -48,15 +51,7 @@ def sculpted(stage: Any, shapes: list[Any]) -> list[Any]:
     """Those of the shapes that belong to a sculpture: in a shot what stands in components, else all."""
     if kind_of(stage) is not StageKind.SHOT:
         return shapes
-    return [shape for shape in shapes if _in_component(shape.GetPrim())]
-
-
-def _in_component(prim: Any) -> bool:
-    while prim:
-        if prim.GetKind() == Kind.Tokens.component:
-            return True
-        prim = prim.GetParent()
-    return False
+    return [shape for shape in shapes if in_component(shape.GetPrim())]
 
 
 def attributes_of(stage: Any) -> Iterator[Any]:
@@ -66,12 +61,12 @@ def attributes_of(stage: Any) -> Iterator[Any]:
 
 
 def samples_of(attribute: Any) -> Iterator[tuple[float | None, NDArray[Any]]]:
-    """Time code and value of each sample; one value at None where there are no samples."""
+    """Time code and value of each sample, empty if blocked; one value at None where there are no samples."""
     times = attribute.GetTimeSamples()
     for time in times:
-        yield time, np.asarray(attribute.Get(time))
+        yield time, value_at(attribute, time)
     if not times and attribute.HasValue():
-        yield None, np.asarray(attribute.Get())
+        yield None, value_at(attribute, None)
 
 
 def value_at(attribute: Any, time_code: float | None) -> NDArray[Any]:
@@ -101,11 +96,3 @@ def opinions_on(*attributes: Any) -> Opinions:
         for attribute in attributes
         for spec, offset in attribute.GetPropertyStackWithLayerOffsets(Usd.TimeCode.Default())
     )
-
-
-def said_by(error: Any) -> str:
-    """What USD says about an error, on one line; "" for what is no text, as in a damaged file."""
-    try:
-        return " ".join(str(error.args[0].commentary).split())
-    except UnicodeDecodeError:
-        return ""

@@ -16,6 +16,10 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
+SHORTEST = 1e-300
+"""Time between two samples [s] by which a distance can still be divided, whatever rate a stage claims."""
+
+
 @dataclass(frozen=True)
 class Shape:
     """A mesh or a cloud of points of an open stage."""
@@ -73,18 +77,10 @@ class Shape:
     @cached_property
     def lengths(self) -> dict[str, int]:
         """Number of elements of each interpolation."""
-        points = self.point_count
         if not self.is_mesh:
-            return {"constant": 1, "uniform": 1, "varying": points, "vertex": points, "faceVarying": points}
-        corners = int(self.counts.sum(dtype=np.int64))
-        faces = len(self.counts)
-        return {
-            "constant": 1,
-            "uniform": faces,
-            "varying": points,
-            "vertex": points,
-            "faceVarying": corners,
-        }
+            return lengths_of_cloud(self.point_count)
+        points, corners = self.point_count, int(self.counts.sum(dtype=np.int64))
+        return _lengths(points, faces=len(self.counts), corners=corners)
 
     def opinions(self) -> Opinions:
         """Where the values come from that decide about its surface and movement."""
@@ -114,7 +110,8 @@ class Moment:
     def seconds(self) -> float:
         """Time since the sample before."""
         before = self.before.time_code if self.before else None
-        return ((self.time_code or 0.0) - (before or 0.0)) / self.shape.rate
+        elapsed = (self.time_code or 0.0) - (before or 0.0)
+        return max(elapsed / self.shape.rate, SHORTEST)
 
     def value(self, attribute: Any) -> NDArray[Any]:
         """Value of another attribute of the shape at this moment."""
@@ -136,3 +133,12 @@ class Value:
     def path(self) -> str:
         """Path of the attribute."""
         return str(self.attribute.GetPath())
+
+
+def lengths_of_cloud(points: int) -> dict[str, int]:
+    """Number of elements of each interpolation, of so many points without faces."""
+    return _lengths(points, faces=1, corners=points)
+
+
+def _lengths(points: int, *, faces: int, corners: int) -> dict[str, int]:
+    return {"constant": 1, "uniform": faces, "varying": points, "vertex": points, "faceVarying": corners}

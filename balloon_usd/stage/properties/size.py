@@ -24,8 +24,9 @@ SAME = 1e-6
 
 def plausible_size(stage: Any) -> Iterator[Finding]:
     """Property 8: the size in metres is plausible."""
-    low, high = whole_extent(stage, placed=True) * UsdGeom.GetStageMetersPerUnit(stage)
-    diagonal = float(np.linalg.norm(high - low))
+    with np.errstate(invalid="ignore", over="ignore"):
+        low, high = whole_extent(stage, placed=True) * UsdGeom.GetStageMetersPerUnit(stage)
+        diagonal = float(np.linalg.norm(high - low))
     if not SMALLEST <= diagonal <= LARGEST:
         yield Finding(8, f"diagonal is {diagonal:.3g} m, expected {SMALLEST} to {LARGEST} m")
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from balloon_usd.stage.interface import FINISHED, STATE
+from balloon_usd.stage.variant_sets import FINISHED, STATE
 
 
 def is_still(prim: Any) -> bool:

@@ -121,7 +121,7 @@ def surface_whole(moment: Moment) -> Iterator[Finding]:
     if triangles is None or len(points) != shape.point_count:
         return
     areas, volume = triangles.areas_and_volume(points)
-    flat = int((areas < SMALLEST_AREA / shape.metre**2).sum())
+    flat = int((areas < SMALLEST_AREA / shape.metre / shape.metre).sum())
     if flat:
         yield Finding(15, f"{flat} faces without area", shape.path, moment.time_code)
     if volume <= 0.0:

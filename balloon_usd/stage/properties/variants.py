@@ -4,14 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from pxr import Sdf, Usd
-
-from balloon_usd.stage.interface import FINISHED, MADE, STATE
-from balloon_usd.stage.interface import VARIANT_SET as DETAIL
 from balloon_usd.stage.looks import ON_EVERY_STAGE, THESIS
-from balloon_usd.stage.looks import VARIANT_SET as LOOK
+from balloon_usd.stage.opening import in_own_session
 from balloon_usd.stage.properties.finding import Finding
 from balloon_usd.stage.properties.reading import clouds_of
+from balloon_usd.stage.variant_sets import DETAIL, FINISHED, LOOK, MADE, STATE
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -27,9 +24,7 @@ def selections(stage: Any) -> Iterator[tuple[Selection, Any]]:
     stage is the same every time, with another selection in its session layer; the one given is left as
     it is.
     """
-    session = Sdf.Layer.CreateAnonymous()
-    other = Usd.Stage.Open(stage.GetRootLayer(), session)
-    other.SetEditTarget(session)
+    other = in_own_session(stage)
     root = other.GetDefaultPrim()
     own = _selected(root) if root else {}
     yield own, other

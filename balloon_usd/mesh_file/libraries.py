@@ -5,16 +5,16 @@ from __future__ import annotations
 from importlib import import_module
 from typing import Any
 
-from balloon_usd.exchange.error import ExchangeError
+from balloon_usd.mesh_file.error import MeshFileError
 
 
 def library(name: str) -> Any:
     """Import `meshio` or `h5py`.
 
     Raises:
-        ExchangeError: it is not installed.
+        MeshFileError: it is not installed.
     """
     try:
         return import_module(name)
     except ImportError as error:
-        raise ExchangeError(f"{name} is not installed: pip install 'balloon-usd[mesh]'") from error
+        raise MeshFileError(f"{name} is not installed: pip install 'balloon-usd[mesh]'") from error

@@ -8,7 +8,7 @@ import networkx as nx
 import numpy as np
 from numpy.typing import NDArray
 
-from balloon_usd.exchange.error import ExchangeError
+from balloon_usd.mesh_file.error import MeshFileError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -28,7 +28,7 @@ def closed_faces(points: Floats, faces: Sequence[Ints]) -> tuple[Floats, list[In
     Faces and points are counted from 1 in messages, as modelling programs show them in OBJ files.
 
     Raises:
-        ExchangeError: what keeps the faces from being a balloon.
+        MeshFileError: what keeps the faces from being a balloon.
     """
     _require_faces(points, faces)
     _require_areas(points, faces)
@@ -46,20 +46,20 @@ def closed_faces(points: Floats, faces: Sequence[Ints]) -> tuple[Floats, list[In
 
 def _require_faces(points: Floats, faces: Sequence[Ints]) -> None:
     if not faces:
-        raise ExchangeError("no faces, expected a closed surface of triangles or quads")
+        raise MeshFileError("no faces, expected a closed surface of triangles or quads")
     if not np.isfinite(points).all():
         row = int(np.argmin(np.isfinite(points).all(axis=1)))
-        raise ExchangeError(f"point {row + 1} is no number")
+        raise MeshFileError(f"point {row + 1} is no number")
     for number, face in enumerate(faces, start=1):
         if face.min() < 0 or face.max() >= len(points):
-            raise ExchangeError(f"face {number} names a point that is not among its {len(points)}")
+            raise MeshFileError(f"face {number} names a point that is not among its {len(points)}")
         if len(set(face.tolist())) < len(face):
-            raise ExchangeError(f"face {number} has one point at two corners")
+            raise MeshFileError(f"face {number} has one point at two corners")
     seen: dict[frozenset[int], int] = {}
     for number, face in enumerate(faces, start=1):
         first = seen.setdefault(frozenset(face.tolist()), number)
         if first != number:
-            raise ExchangeError(f"faces {first} and {number} are one face twice: delete one of them")
+            raise MeshFileError(f"faces {first} and {number} are one face twice: delete one of them")
 
 
 def _require_areas(points: Floats, faces: Sequence[Ints]) -> None:
@@ -73,9 +73,9 @@ def _require_areas(points: Floats, faces: Sequence[Ints]) -> None:
         longest = float((sides**2).sum(axis=1).max())
         if not area > THIN * longest:
             what = "has no area" if longest == 0.0 else "is a sliver"
-            raise ExchangeError(f"face {number} {what}, expected faces about as wide as long")
+            raise MeshFileError(f"face {number} {what}, expected faces about as wide as long")
         if (corners @ normal).min() < FOLDED * area * float(np.linalg.norm(normal)):
-            raise ExchangeError(f"face {number} has a corner that points inwards: triangulate it")
+            raise MeshFileError(f"face {number} has a corner that points inwards: triangulate it")
 
 
 def _sides(faces: Sequence[Ints]) -> dict[tuple[int, int], list[tuple[int, bool]]]:
@@ -93,7 +93,7 @@ def _require_closed(points: Floats, sides: dict[tuple[int, int], list[tuple[int,
         if len(beside) > 2:
             numbers = ", ".join(str(number) for number, _ in beside)
             text = f"faces {numbers} meet at the edge of points {a + 1} and {b + 1}"
-            raise ExchangeError(f"{text}, expected two at every edge")
+            raise MeshFileError(f"{text}, expected two at every edge")
     rim = [edge for edge, beside in sides.items() if len(beside) == 1]
     if rim:
         a, b = rim[0]
@@ -101,7 +101,7 @@ def _require_closed(points: Floats, sides: dict[tuple[int, int], list[tuple[int,
         at = np.unique(np.array(rim).ravel())
         doubled = len(np.unique(points[at], axis=0)) < len(at)
         remedy = "merge its points by distance" if doubled else "fill its holes"
-        raise ExchangeError(f"{text}: {remedy}")
+        raise MeshFileError(f"{text}: {remedy}")
 
 
 def _edges(count: int) -> str:
@@ -112,7 +112,7 @@ def _require_one_way(sides: dict[tuple[int, int], list[tuple[int, bool]]]) -> No
     for (one, forward), (other, too) in sides.values():
         if forward == too:
             text = f"faces {one} and {other} are turned against each other"
-            raise ExchangeError(f"{text}: recalculate its normals to the outside")
+            raise MeshFileError(f"{text}: recalculate its normals to the outside")
 
 
 def _require_plain_points(faces: Sequence[Ints]) -> None:
@@ -126,7 +126,7 @@ def _require_plain_points(faces: Sequence[Ints]) -> None:
             fans.setdefault(at, nx.Graph()).add_edge(before, after)
     for point, fan in fans.items():
         if not nx.is_connected(fan):
-            raise ExchangeError(f"two parts touch in point {point + 1} alone, expected joined edges")
+            raise MeshFileError(f"two parts touch in point {point + 1} alone, expected joined edges")
 
 
 def _require_one_piece(faces: Sequence[Ints]) -> None:
@@ -135,7 +135,7 @@ def _require_one_piece(faces: Sequence[Ints]) -> None:
         nx.add_path(joined, face.tolist())
     pieces = nx.number_connected_components(joined)
     if pieces > 1:
-        raise ExchangeError(f"{pieces} pieces that are not joined, expected one: give each a balloon")
+        raise MeshFileError(f"{pieces} pieces that are not joined, expected one: give each a balloon")
 
 
 def _volume(points: Floats, faces: Sequence[Ints]) -> float:

@@ -9,9 +9,9 @@ import meshio
 import numpy as np
 import pytest
 
-from balloon_usd.exchange.error import ExchangeError
-from balloon_usd.exchange.read_shape import read_shape
-from tests.exchange.shapes import ball, cube, heart_text, icosahedron, write_obj
+from balloon_usd.mesh_file.error import MeshFileError
+from balloon_usd.mesh_file.read_shape import read_shape
+from tests.mesh_file.shapes import ball, cube, heart_text, icosahedron, write_obj
 
 RECIPES = Path(__file__).parents[2] / "recipes" / "meshes"
 
@@ -140,14 +140,14 @@ def damaged(name: str) -> tuple[list[tuple[float, ...]], list[tuple[int, ...]]]:
 def test_a_mesh_that_is_no_balloon_is_refused_with_its_fault(
     fault: str, message: str, tmp_path: Path
 ) -> None:
-    with pytest.raises(ExchangeError, match=message):
+    with pytest.raises(MeshFileError, match=message):
         read_shape(write_obj(tmp_path / "cube.obj", *damaged(fault)), 0.01)
 
 
 def test_a_quad_with_a_corner_that_points_inwards_is_refused(tmp_path: Path) -> None:
     points, faces = cube()
     points[0] = [0.9, 0.9, -1.0]
-    with pytest.raises(ExchangeError, match=r"^face \d has a corner that points inwards: triangulate it$"):
+    with pytest.raises(MeshFileError, match=r"^face \d has a corner that points inwards: triangulate it$"):
         read_shape(write_obj(tmp_path / "cube.obj", points, faces), 0.01)
 
 
@@ -171,18 +171,18 @@ def test_files_that_hold_no_mesh_are_refused(
     file = tmp_path / name
     if content is not None:
         file.write_bytes(content)
-    with pytest.raises(ExchangeError, match=message):
+    with pytest.raises(MeshFileError, match=message):
         read_shape(file, 1.0)
     assert capfd.readouterr() == ("", "")
 
 
 def test_too_many_faces_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("balloon_usd.exchange.read_shape.MOST_FACES", 5)
-    with pytest.raises(ExchangeError, match=r"^6 faces, expected at most 5: simplify it$"):
+    monkeypatch.setattr("balloon_usd.mesh_file.read_shape.MOST_FACES", 5)
+    with pytest.raises(MeshFileError, match=r"^6 faces, expected at most 5: simplify it$"):
         read_shape(write_obj(tmp_path / "cube.obj", *cube()), 1.0)
 
 
 def test_without_meshio_its_remedy_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "meshio", None)
-    with pytest.raises(ExchangeError, match=r"^meshio is not installed: pip install 'balloon-usd\[mesh\]'$"):
+    with pytest.raises(MeshFileError, match=r"^meshio is not installed: pip install 'balloon-usd\[mesh\]'$"):
         read_shape(write_obj(tmp_path / "cube.obj", *cube()), 1.0)

@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from balloon_usd.balloon.closed_shape import ClosedShape, shape_of_faces
-from balloon_usd.exchange.closed_faces import closed_faces
-from balloon_usd.exchange.error import ExchangeError
-from balloon_usd.exchange.libraries import library
+from balloon_usd.mesh_file.closed_faces import closed_faces
+from balloon_usd.mesh_file.error import MeshFileError
+from balloon_usd.mesh_file.libraries import library
 
 if TYPE_CHECKING:
-    from balloon_usd.exchange.closed_faces import Floats, Ints
+    from balloon_usd.mesh_file.closed_faces import Floats, Ints
 
 CORNERS = {"triangle": 3, "quad": 4}
 """Cells that make a wall."""
@@ -31,7 +31,7 @@ def read_shape(file: str | Path, scale: float) -> ClosedShape:
     `scale`: metres in one unit of the file. Triangles are cut into quads.
 
     Raises:
-        ExchangeError: the file cannot be read, or its faces make no balloon; without the file's name.
+        MeshFileError: the file cannot be read, or its faces make no balloon; without the file's name.
     """
     points, faces = closed_faces(*_read(Path(file)))
     return shape_of_faces(scale * points, faces)
@@ -42,19 +42,19 @@ def _read(file: Path) -> tuple[Floats, list[Ints]]:
     mesh = _meshio_mesh(file)
     points = np.asarray(mesh.points, dtype=np.float64)
     if points.ndim != 2 or points.shape[1] < 3:
-        raise ExchangeError("no points in space, expected a closed surface of triangles or quads")
+        raise MeshFileError("no points in space, expected a closed surface of triangles or quads")
     count = sum(len(block.data) for block in mesh.cells)
     if count > MOST_FACES:
-        raise ExchangeError(f"{count} faces, expected at most {MOST_FACES}: simplify it")
+        raise MeshFileError(f"{count} faces, expected at most {MOST_FACES}: simplify it")
     faces: list[Ints] = []
     for block in mesh.cells:
         if block.type in CORNERS:
             faces += list(np.asarray(block.data, dtype=np.int32))
         elif block.type == "polygon":
             corners = len(block.data[0])
-            raise ExchangeError(f"faces with {corners} corners, expected triangles and quads")
+            raise MeshFileError(f"faces with {corners} corners, expected triangles and quads")
         elif block.type not in IGNORED:
-            raise ExchangeError(f"cells of type {block.type}, expected triangles and quads")
+            raise MeshFileError(f"cells of type {block.type}, expected triangles and quads")
     return points[:, :3], faces
 
 
@@ -65,9 +65,9 @@ def _meshio_mesh(file: Path) -> Any:
         with file.open("rb"):
             pass
     except OSError as error:
-        raise ExchangeError(f"cannot be read ({error.strerror or error})") from error
+        raise MeshFileError(f"cannot be read ({error.strerror or error})") from error
     if not any(suffix.lower() in meshio.extension_to_filetypes for suffix in file.suffixes[-1:]):
-        raise ExchangeError(f'"{file.suffix}" is no known format, expected one such as .obj, .ply or .stl')
+        raise MeshFileError(f'"{file.suffix}" is no known format, expected one such as .obj, .ply or .stl')
     silent = io.StringIO()
     try:
         with (
@@ -77,4 +77,4 @@ def _meshio_mesh(file: Path) -> Any:
         ):
             return meshio.read(file)
     except (Exception, SystemExit) as error:
-        raise ExchangeError(f"cannot be read as {file.suffix.removeprefix('.').lower()}") from error
+        raise MeshFileError(f"cannot be read as {file.suffix.removeprefix('.').lower()}") from error
