@@ -1,40 +1,12 @@
-"""Balloons of any closed shape, from mesh files: one bubble each, blown up as a whole."""
+"""A balloon of any closed shape: its flat wall, and how far it is blown up."""
 
 from __future__ import annotations
 
-import hashlib
 from dataclasses import dataclass, field
-from itertools import combinations
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from balloon_usd.balloon.closed_shape import ClosedShape
-from balloon_usd.balloon.sizes import BalloonSize
-from balloon_usd.plan.lengths import cm
-from balloon_usd.plan.strip import PlannedBubble, Strip
-from balloon_usd.recipe.balloons import USUAL_SWELL
-from balloon_usd.recipe.problem import RecipeError
-from balloon_usd.recipe.quantities import METRES
-
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
-
-    from balloon_usd.balloon.rubber import Rubber
-    from balloon_usd.recipe import Recipe
-    from balloon_usd.recipe.problem import Problem
-
-WALL = 0.25e-3
-"""Wall of a balloon from a mesh, if the recipe does not say, m: that of a party balloon."""
-SMALLEST, LARGEST = 0.02, 3.0
-"""Longest side of the box round a flat balloon, m."""
-LIKELY_SMALLEST, LIKELY_LARGEST = 0.05, 2.0
-"""Longest side of what artists usually model, m."""
-THICKEST = 0.05
-"""Thickness of a wall in radii of a ball of it, up to which it bends and stretches as a membrane."""
-LEAST_AIR = 1.05
-"""Volume when blown up, in that of the shape before."""
-USUAL_VOLUME, USUAL_SECONDS = 2.0e-3, 2.0
-"""Volume (m3) that is blown in within so long (s), or less; more of it takes longer as balloons grow."""
+    from balloon_usd.balloon.closed_shape import ClosedShape
 
 
 @dataclass(frozen=True)
@@ -53,102 +25,3 @@ class Shaped:
     """Gauge pressure of that ball when it is so large, Pa."""
     seconds: float
     """Time that this takes, s."""
-
-
-def shaped_strip(recipe: Recipe, name: str, rubber: Rubber) -> Strip:
-    """Return the strip of a balloon from a mesh file: one bubble, named as the balloon.
-
-    Raises:
-        RecipeError: the file cannot be read or makes no balloon, or its size or the swell is not plausible.
-    """
-    balloon = recipe.balloons[name]
-    surface, sha256 = _surface(recipe, name)
-    thickness, swell = balloon.thickness or WALL, balloon.swell or USUAL_SWELL
-    if thickness > THICKEST * surface.ball_radius:
-        text = f"a wall of {1e3 * thickness:g} mm is no thin skin of a balloon of {cm(max(surface.size))}"
-        most = f"expected at most {1e3 * THICKEST * surface.ball_radius:.2g} mm"
-        raise RecipeError([recipe.problem(("balloons", name, "thickness"), f"{text}, {most}")])
-    volume = swell**3 * surface.ball_volume
-    least = (LEAST_AIR * ClosedShape(surface.parted(), surface.quads).volume / surface.ball_volume) ** (1 / 3)
-    if swell < least:
-        text = f"{swell:g} is less than {name} holds before it is blown up, expected at least {least:.2f}"
-        raise RecipeError([recipe.problem(("balloons", name, "swell"), text)])
-    shape = Shaped(
-        surface,
-        sha256,
-        swell,
-        volume,
-        ball_pressure(rubber, swell, thickness / surface.ball_radius),
-        USUAL_SECONDS * max(1.0, (volume / USUAL_VOLUME) ** (1 / 3)),
-    )
-    longest = max(surface.size)
-    size = BalloonSize("mesh", surface.ball_radius, longest, thickness)
-    bubble = PlannedBubble(
-        name=name,
-        balloon=name,
-        kind="shape",
-        length=longest,
-        start=0.0,
-        end=longest,
-        rest_start=0.0,
-        rest_end=longest,
-        volume=volume,
-        step=len(recipe.steps),
-    )
-    return Strip(name, size, rubber, 0.0, (bubble,), shape=shape)
-
-
-def ball_pressure(rubber: Rubber, swell: float, thinness: float) -> float:
-    """Return the gauge pressure (Pa) in a ball of rubber that is stretched so many times.
-
-    `thinness`: unstressed thickness of the wall over the unstressed radius.
-    """
-    stretch = max(swell, 1.0)
-    return float(2.0 * thinness * rubber.nominal_stress(stretch, stretch)[0] / stretch**2)
-
-
-def overlap_problems(recipe: Recipe, strips: Mapping[str, Strip]) -> Iterator[Problem]:
-    """Yield the balloons from meshes that lie in the box of one before them: walls must start apart."""
-    shapes = [(name, strip.shape.surface.points) for name, strip in strips.items() if strip.shape is not None]
-    boxes = [(name, points.min(axis=0), points.max(axis=0)) for name, points in shapes]
-    for (one, low, high), (name, least, most) in combinations(boxes, 2):
-        if (least <= high).all() and (low <= most).all():
-            text = f"lies where {one} is, expected its box beside that: at: [x, y, z]"
-            yield recipe.problem(("balloons", name), text)
-
-
-def _surface(recipe: Recipe, name: str) -> tuple[ClosedShape, str]:
-    """Read the shape of a balloon, and the hash of its file."""
-    # Recipes of tubes need no library for meshes.
-    from balloon_usd.mesh_file.error import MeshFileError  # noqa: PLC0415
-    from balloon_usd.mesh_file.read_shape import read_shape  # noqa: PLC0415
-
-    balloon, path = recipe.balloons[name], ("balloons", name, "mesh")
-    unit = balloon.unit or recipe.units
-    if unit is None:
-        text = "has no unit, expected unit: m beside it, or units: cm at the top of the recipe"
-        raise RecipeError([recipe.problem(path, text)])
-    file = Path(recipe.file).parent / str(balloon.mesh)
-    try:
-        shape = read_shape(file, float(METRES[unit]))
-        content = file.read_bytes()
-    except (MeshFileError, OSError) as error:
-        raise RecipeError([recipe.problem(path, f"{file}: {error}")]) from error
-    longest = max(shape.size)
-    if not SMALLEST <= longest <= LARGEST:
-        text = f"{file}: {_shown(longest)} long in {unit}, expected {_shown(SMALLEST)} to {_shown(LARGEST)}"
-        raise RecipeError([recipe.problem(path, text + _likely_unit(longest / float(METRES[unit])))])
-    place = balloon.at or (0.0, 0.0, 0.0)
-    return ClosedShape(shape.points + place, shape.quads), hashlib.sha256(content).hexdigest()
-
-
-def _shown(length: float) -> str:
-    return cm(length) if length < 1.0 else f"{length:.3g} m"
-
-
-def _likely_unit(length: float) -> str:
-    """Say in which unit a length would be that of a balloon."""
-    for unit in ("mm", "cm", "m", "in"):
-        if LIKELY_SMALLEST <= length * float(METRES[unit]) <= LIKELY_LARGEST:
-            return f": is its unit {unit}?"
-    return ""

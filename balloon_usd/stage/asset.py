@@ -43,7 +43,7 @@ def begin_asset(description: StageDescription, wanted: Wanted, work: Workspace) 
         layers = Layers(*(Sdf.Layer.CreateNew(str(work.built / f)) for f in (files.samples, files.stress)))
     for layer in layers.all:
         set_units(layer, description.name)
-        set_provenance(layer, provenance_of(description, wanted.detail))
+        set_provenance(layer, provenance_of(description.provenance, description.fps, wanted.detail))
     layers.stress.documentation = ramp_legend(description.highest_stretch)
     return layers
 
@@ -96,7 +96,9 @@ def _interface_layer(description: StageDescription, take: Take, wanted: Wanted, 
     """The layer that people open: it selects the detail just written and offers the earlier ones."""
     layer = Sdf.Layer.CreateAnonymous(".usda")
     set_time_range(layer, description.fps, take.first, take.last)
-    root = author_root(layer, description, provenance_of(description, wanted.detail))
+    root = author_root(
+        layer, description, provenance_of(description.provenance, description.fps, wanted.detail)
+    )
     set_asset_info(root, f"{description.name}.usda")
     written = Extents(take.extent, take.final.extent)
     for name, extents in sorted({**earlier.kept, wanted.detail: written}.items()):

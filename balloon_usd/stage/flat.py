@@ -47,7 +47,9 @@ def begin_single_layer(description: StageDescription, wanted: Wanted, work: Work
     """
     with writing(work.final):
         layer = Sdf.Layer.CreateNew(str(file))
-    root = author_root(layer, description, provenance_of(description, wanted.detail))
+    root = author_root(
+        layer, description, provenance_of(description.provenance, description.fps, wanted.detail)
+    )
     set_asset_info(root, work.final.name)
     return Layers(layer, layer if wanted.look == STRESS else None)
 

@@ -10,8 +10,6 @@ from balloon_usd import __version__
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from balloon_usd.stage.description import StageDescription
-
 SCHEMA = 2
 """Version of the layout of prims, attributes and files."""
 
@@ -33,10 +31,12 @@ RUN_DEPENDENT = frozenset(
 ABSOLUTE = re.compile(r"[/\\]|[A-Za-z]:[/\\]|[a-z]+://")
 
 
-def provenance_of(description: StageDescription, detail: str) -> dict[str, str | int | float]:
-    """Provenance for the layers of one detail: the description's facts and the writer's own."""
-    own: dict[str, str | int | float] = {"detail": detail, "fps": float(description.fps), "schema": SCHEMA}
-    return {"version": __version__, **description.provenance, **own}
+def provenance_of(
+    given: Mapping[str, str | int | float], fps: float, detail: str
+) -> dict[str, str | int | float]:
+    """Provenance for the layers of one detail: the facts that were given and the writer's own."""
+    own: dict[str, str | int | float] = {"detail": detail, "fps": float(fps), "schema": SCHEMA}
+    return {"version": __version__, **given, **own}
 
 
 def problems(facts: Mapping[str, object], required: tuple[str, ...]) -> Iterator[str]:
