@@ -40,7 +40,8 @@ def print_summary(outcomes: Sequence[Outcome], seconds: float, detail: str, devi
         size = sum(file.stat().st_size for file in outcome.written.files) / MEGABYTE
         length = f"{count / recipe.fps:.1f} s"
         tails = ", ".join(cm(tail) for tail in outcome.tally.tails_left.values())
-        stretch = f"{outcome.tally.highest_stretch:.1f} of {BURST_STRETCH:.1f}"
+        bears = f" of {BURST_STRETCH:.1f}" if recipe.physics.model == "latex" else ""
+        stretch = f"{outcome.tally.highest_stretch:.1f}{bears}"
         table.add_row(recipe.name, str(count), length, tails, stretch, f"{size:.1f} MB")
         files.append(f"stage {outcome.written.files[0]}")
         files += [f"shot {file}" for file in outcome.written.files if file.stem == f"{recipe.name}_shot"]

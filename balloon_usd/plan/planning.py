@@ -13,6 +13,7 @@ from balloon_usd.plan.laying import lay_strips
 from balloon_usd.plan.model import Plan
 from balloon_usd.plan.rings import RingTable
 from balloon_usd.plan.settings import pace_problems, settings_problems
+from balloon_usd.plan.welding import weld_problems
 from balloon_usd.recipe.problem import RecipeError
 
 if TYPE_CHECKING:
@@ -37,6 +38,7 @@ def plan(recipe: Recipe) -> Plan:
     cautions = cautions_of(recipe, strips, graph, budgets)
     choreography = choreograph(recipe, strips, table)
     problems += pace_problems(recipe, choreography)
+    problems += weld_problems(recipe, choreography)
     if problems:
         raise RecipeError(problems)
     return Plan(recipe, strips, graph, holding, budgets, cautions, table, choreography)

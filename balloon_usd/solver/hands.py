@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from balloon_usd.plan.welding import MOST_WELDED
 from balloon_usd.solver.kernels.fingers import Finger
 from balloon_usd.solver.kernels.joints import CLASP_MODE, GRIP_MODE, LEAD_MODE
-from balloon_usd.solver.scene import WELD_SLOTS
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -148,8 +148,8 @@ class Hands:
         for group in self.welds_of(joints):
             merged |= set(group)
             self.welds.remove(group)
-        if len(merged) > WELD_SLOTS:
-            raise ValueError(f"at most {WELD_SLOTS} joints can be twisted into one, got {len(merged)}")
+        if len(merged) > MOST_WELDED:
+            raise ValueError(f"at most {MOST_WELDED} joints can be twisted into one, got {len(merged)}")
         group = tuple(sorted(merged))
         self.welds.append(group)
         self._weld_of.update(dict.fromkeys(group, group))
@@ -207,7 +207,7 @@ class Hands:
         rows = len(s.weld_size)
         if len(self.welds) > rows:
             raise ValueError(f"{len(self.welds)} welds but room for {rows}")
-        joint = np.zeros((rows, WELD_SLOTS), dtype=np.int32)
+        joint = np.zeros((rows, MOST_WELDED), dtype=np.int32)
         size = np.zeros(rows, dtype=np.int32)
         reach, gap = np.zeros(rows, dtype=np.float32), np.zeros(rows, dtype=np.float32)
         of_joint = np.zeros(len(self.mode), dtype=np.int32)

@@ -9,6 +9,7 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
+from balloon_usd.plan.welding import MOST_WELDED
 from balloon_usd.solver.flatten import Arrays, chunk_arrays, mesh_arrays, ring_arrays, segment_arrays
 from balloon_usd.solver.kernels.contact import HITS, TARGETS, Touch
 from balloon_usd.solver.kernels.fingers import Finger
@@ -21,8 +22,6 @@ if TYPE_CHECKING:
 
 SELF_DISTANCE = 1.0
 """Unstressed distance along one bubble within which its wall never meets itself, R0."""
-WELD_SLOTS = 16
-"""Joints that one weld may hold together."""
 
 Ints = NDArray[np.int64]
 
@@ -149,7 +148,7 @@ def _hand_arrays(scene: Scene, welds: int) -> None:
     scene.zeros("hand", joints, int)
     scene.zeros("fingers", len(scene.bodies), Finger)
     scene.zeros("finger_share", int(scene.vertex_start[-1]), float)
-    scene.zeros("weld_joint", (welds, WELD_SLOTS), int)
+    scene.zeros("weld_joint", (welds, MOST_WELDED), int)
     scene.zeros("weld_size", welds, int)
     scene.zeros("weld_reach", welds, float)
     scene.zeros("weld_gap", welds, float)

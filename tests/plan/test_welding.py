@@ -1,0 +1,29 @@
+from __future__ import annotations
+
+import pytest
+
+from balloon_usd.plan import plan
+from balloon_usd.recipe import Recipe, RecipeError
+
+
+def chain(steps: str, bubbles: int = 18) -> str:
+    lengths = ", ".join(f"b{number}: 3.5" for number in range(bubbles))
+    head = "format: 1\nname: chain\nunits: cm\nballoons: {main: {size: 260, color: red, tail: 12}}\n"
+    return f"{head}steps:\n  - bubbles: {{{lengths}}}\n{steps}"
+
+
+def lock(first: int, last: int) -> str:
+    return f"  - lock: {{joints: [{', '.join(f'b{number}.end' for number in range(first, last))}]}}\n"
+
+
+def test_sixteen_joints_can_be_twisted_into_one_and_no_more():
+    assert plan(Recipe.parse(chain(lock(0, 16)))).bubbles
+    with pytest.raises(
+        RecipeError, match=r":7:5: steps\[1\]: 17 joints would be twisted into one, expected at most 16$"
+    ):
+        plan(Recipe.parse(chain(lock(0, 17))))
+
+
+def test_joints_that_hang_together_already_count():
+    with pytest.raises(RecipeError, match=r"steps\[2\]: 17 joints"):
+        plan(Recipe.parse(chain(lock(0, 9) + lock(8, 17))))
