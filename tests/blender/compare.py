@@ -11,7 +11,6 @@ import sys
 import tempfile
 import time
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 import bpy
@@ -19,6 +18,7 @@ import numpy as np
 from pxr import Gf, Usd, UsdGeom, UsdLux
 
 from tests.blender.arrays import array_differences
+from tests.blender.comparison import Comparison
 from tests.blender.imported import import_stage, show_frame, topology_of
 from tests.blender.selections import all_selections, authored_selection, select
 from tests.blender.surfaces import dome_differences, surface_differences
@@ -29,18 +29,6 @@ LOOK = (Gf.Vec3d(0.0, 0.0, 0.0), Gf.Vec3d(0.0, 0.0, -1.0))
 """Local points of cameras and lights: where they stand, and where they look."""
 SHOWN = 8
 """Differences told of one selection."""
-
-
-@dataclass(frozen=True)
-class Comparison:
-    """What was compared and what differs."""
-
-    findings: tuple[str, ...]
-    selections: int
-    frames: int
-    """Frames of all selections."""
-    seconds: float
-    """Time of the processor."""
 
 
 def compare_stage(

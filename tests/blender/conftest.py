@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import multiprocessing
 import os
+import sys
 from concurrent.futures import ProcessPoolExecutor
 from importlib import import_module
 from importlib.util import find_spec
@@ -24,6 +25,8 @@ def blender(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[..., 
     apart = multiprocessing.get_context("spawn")
     with ProcessPoolExecutor(1, apart, initializer=settle, initargs=(str(home),)) as process:
         yield lambda name, *given, **named: process.submit(call, name, given, named).result()
+    # A process with Blender's USD and this package's breaks down when it ends.
+    assert "bpy" not in sys.modules
 
 
 def settle(home: str) -> None:
