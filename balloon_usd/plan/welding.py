@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from balloon_usd.recipe import Recipe
     from balloon_usd.recipe.problem import Problem
 
-MOST_WELDED = 16
+MOST_WELDED = 32
 """Joints that can be twisted into one: more necks than that leave no room for each other."""
 
 

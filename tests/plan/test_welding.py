@@ -6,9 +6,9 @@ from balloon_usd.plan import plan
 from balloon_usd.recipe import Recipe, RecipeError
 
 
-def chain(steps: str, bubbles: int = 18) -> str:
-    lengths = ", ".join(f"b{number}: 3.5" for number in range(bubbles))
-    head = "format: 1\nname: chain\nunits: cm\nballoons: {main: {size: 260, color: red, tail: 12}}\n"
+def chain(steps: str, bubbles: int = 34) -> str:
+    lengths = ", ".join(f"b{number}: 2.5" for number in range(bubbles))
+    head = "format: 1\nname: chain\nunits: cm\nballoons: {main: {size: 260, color: red, tail: 8}}\n"
     return f"{head}steps:\n  - bubbles: {{{lengths}}}\n{steps}"
 
 
@@ -16,14 +16,14 @@ def lock(first: int, last: int) -> str:
     return f"  - lock: {{joints: [{', '.join(f'b{number}.end' for number in range(first, last))}]}}\n"
 
 
-def test_sixteen_joints_can_be_twisted_into_one_and_no_more():
-    assert plan(Recipe.parse(chain(lock(0, 16)))).bubbles
+def test_thirty_two_joints_can_be_twisted_into_one_and_no_more():
+    assert plan(Recipe.parse(chain(lock(0, 32)))).bubbles
     with pytest.raises(
-        RecipeError, match=r":7:5: steps\[1\]: 17 joints would be twisted into one, expected at most 16$"
+        RecipeError, match=r":7:5: steps\[1\]: 33 joints would be twisted into one, expected at most 32$"
     ):
-        plan(Recipe.parse(chain(lock(0, 17))))
+        plan(Recipe.parse(chain(lock(0, 33))))
 
 
 def test_joints_that_hang_together_already_count():
-    with pytest.raises(RecipeError, match=r"steps\[2\]: 17 joints"):
-        plan(Recipe.parse(chain(lock(0, 9) + lock(8, 17))))
+    with pytest.raises(RecipeError, match=r"steps\[2\]: 33 joints"):
+        plan(Recipe.parse(chain(lock(0, 17) + lock(16, 33))))
