@@ -94,23 +94,17 @@ def vertex_surface(
 ):
     """Write the outward unit normal and the share of the wall's area (m2) of every vertex."""
     i = wp.tid()
-    slots = corners[i]
     total = wp.vec3(0.0)
     size = float(0.0)
-    for k in range(4):
-        if slots[k] >= 0:
-            a = quad_area[slots[k] // 4]
-            total += a
-            size += 0.25 * wp.length(a)
-    more = -2 - slots[3]
-    while more >= 0:
-        slots = corners[more]
+    row = int(i)
+    while row >= 0:
+        slots = corners[row]
         for k in range(4):
             if slots[k] >= 0:
                 a = quad_area[slots[k] // 4]
                 total += a
                 size += 0.25 * wp.length(a)
-        more = -2 - slots[3]
+        row = -2 - slots[3]
     normal[i] = wp.normalize(total)
     area[i] = size
 

@@ -166,18 +166,12 @@ def vertex_stretch(
     i = wp.tid()
     total = float(0.0)
     count = float(0.0)
-    slots = corners[i]
-    for k in range(4):
-        slot = slots[k]
-        if slot >= 0:
-            total += stretch_of_quad(slot // 4, quads, to_rest, x)
-            count += 1.0
-    more = -2 - slots[3]
-    while more >= 0:
-        slots = corners[more]
+    row = int(i)
+    while row >= 0:
+        slots = corners[row]
         for k in range(4):
             if slots[k] >= 0:
                 total += stretch_of_quad(slots[k] // 4, quads, to_rest, x)
                 count += 1.0
-        more = -2 - slots[3]
+        row = -2 - slots[3]
     stretch[i] = total / wp.max(count, 1.0)

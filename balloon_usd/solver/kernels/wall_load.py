@@ -25,17 +25,13 @@ def load_of_vertex(
         if target[i, k] >= 0:
             load += pressing_on(target[i, k], quads, x, contact_force[i, k])
     beside = float(0.0)
-    slots = corners[i]
-    for k in range(4):
-        if slots[k] >= 0:
-            beside += 1.0
-    more = -2 - slots[3]
-    while more >= 0:
-        slots = corners[more]
+    row = int(i)
+    while row >= 0:
+        slots = corners[row]
         for k in range(4):
             if slots[k] >= 0:
                 beside += 1.0
-        more = -2 - slots[3]
+        row = -2 - slots[3]
     return load / wp.max(beside, 1.0)
 
 
