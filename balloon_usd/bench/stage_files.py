@@ -13,7 +13,10 @@ from typing import TYPE_CHECKING, Any
 
 from balloon_usd.bench.long_animation import NAME, long_description, long_frames, long_mesh
 from balloon_usd.bench.machine import peak_memory
+from balloon_usd.check import check_file
 from balloon_usd.check.nvidia import nvidia_installed
+from balloon_usd.diff import compare_files
+from balloon_usd.stage import write_stage
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -87,8 +90,6 @@ def _measured(what: Callable[..., float], arguments: tuple[Any, ...]) -> tuple[f
 
 def _written(folder: Path, frames: int, moved: bool) -> float:
     """Write a stage down to the disk; return the time (s) without that for making up the frames."""
-    from balloon_usd.stage import write_stage  # noqa: PLC0415
-
     mesh = long_mesh()
     watch = _Watch(long_frames(mesh, frames, moved=moved))
     begin = time.perf_counter()
@@ -110,8 +111,6 @@ def _plain(file: Path, size: int) -> float:
 
 def _checked(stage: Path, nvidia: bool) -> float:
     """Check a stage in all its variants; return the time (s)."""
-    from balloon_usd.check import check_file  # noqa: PLC0415
-
     begin = time.perf_counter()
     check_file(str(stage), nvidia=nvidia)
     return time.perf_counter() - begin
@@ -119,8 +118,6 @@ def _checked(stage: Path, nvidia: bool) -> float:
 
 def _compared(one: Path, other: Path) -> float:
     """Compare two stages; return the time (s)."""
-    from balloon_usd.diff import compare_files  # noqa: PLC0415
-
     begin = time.perf_counter()
     compare_files(one, other)
     return time.perf_counter() - begin

@@ -20,7 +20,7 @@ FOREIGN = ("PYTHONPATH", "PYTHONHOME", "LD_LIBRARY_PATH", "DYLD_LIBRARY_PATH")
 SILENT = ("--progress", "lines", "--no-preview", "--no-report")
 
 
-class CommandMissing(Exception):  # noqa: N818
+class CommandMissingError(Exception):
     """There is no such program; says what to do."""
 
 
@@ -41,15 +41,15 @@ def run_words(command: str, recipe: Path, options: Sequence[str]) -> list[str]:
     """Return the words that make a recipe's stage, to be run in the folder of the recipe.
 
     Raises:
-        CommandMissing: there is no program of this name.
+        CommandMissingError: there is no program of this name.
     """
     try:
         words = split_command(command)
     except ValueError as error:
-        raise CommandMissing(f'The command "{command}" is not complete ({error})') from error
+        raise CommandMissingError(f'The command "{command}" is not complete ({error})') from error
     program = shutil.which(words[0], path=surroundings().get("PATH")) if words else None
     if program is None:
-        raise CommandMissing(
+        raise CommandMissingError(
             f'The command "{command}" is not found.\n'
             'Install it ("pip install balloon-usd") and write its whole path into\n'
             "Edit > Preferences > Add-ons > Balloon recipes > Command"

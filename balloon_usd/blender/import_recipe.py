@@ -11,7 +11,7 @@ import bpy
 from bpy_extras.io_utils import ImportHelper
 
 from .arrival import bring_in
-from .command import CommandMissing, run_words
+from .command import CommandMissingError, run_words
 from .complaint import cautions, first_place
 from .making import Making
 from .preferences import command_of
@@ -93,7 +93,7 @@ class ImportRecipe(bpy.types.Operator, ImportHelper):
             options = ["--detail", self.detail, "-o", str(folder)]
             options += [] if self.look == AS_IT_IS else ["--look", self.look]
             self.making = Making(run_words(command_of(context), self.recipe, options), self.recipe.parent)
-        except (CommandMissing, OSError) as error:
+        except (CommandMissingError, OSError) as error:
             self.report({"ERROR"}, str(error))
             return False
         return True

@@ -39,7 +39,8 @@ def check_file(name: str, *, nvidia: bool = True) -> Report:
     Nothing is written. Memory does not grow with the number of frames, but with NVIDIA's validator, which
     holds all samples of a layer. `nvidia`: ask that where it is installed.
     """
-    report = Report(name, asks_nvidia=nvidia)
+    asked = nvidia and nvidia_installed()
+    report = Report(name, asks_nvidia=asked, misses_nvidia=nvidia and not asked)
     with streaming():
         try:
             file = stage_file(name)
@@ -55,8 +56,7 @@ def check_file(name: str, *, nvidia: bool = True) -> Report:
 
 def _check(file: Path, stage: Any, report: Report) -> None:
     report.kind = kind_of(stage)
-    asked = report.asks_nvidia and nvidia_installed()
-    report.validators = [NAME, *([nvidia_name()] if asked else [])]
+    report.validators = [NAME, *([nvidia_name()] if report.asks_nvidia else [])]
     for finding in nothing_left_over(file):
         report.add(fault_of(finding), "")
     own: Selection | None = None
@@ -99,7 +99,7 @@ def _flatten(stage: Any, report: Report, variants: str) -> None:
 
 def _ask(stage: Any, report: Report, variants: str, asked: Asked, time_code: float | None = None) -> None:
     """Ask the validators, and keep apart what does not count."""
-    for fault in _said(stage, asked, nvidia=report.asks_nvidia and nvidia_installed()):
+    for fault in _said(stage, asked, nvidia=report.asks_nvidia):
         why = why_not_counted(fault.rule, fault.text)
         if why:
             report.not_counted[why] += 1

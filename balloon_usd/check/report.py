@@ -18,8 +18,10 @@ class Report:
 
     stage: str
     """The stage as it was named."""
-    asks_nvidia: bool = True
-    """Whether NVIDIA's validator is asked where it is installed."""
+    asks_nvidia: bool = False
+    """Whether NVIDIA's validator is asked."""
+    misses_nvidia: bool = False
+    """Whether it would be asked, but is not installed."""
     kind: StageKind = StageKind.ASSET
     unreadable: str = ""
     """Why it cannot be read, in one line; empty if it can."""

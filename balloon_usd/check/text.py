@@ -6,7 +6,7 @@ from itertools import groupby
 from typing import TYPE_CHECKING
 
 from balloon_usd.check.fault import OURS
-from balloon_usd.check.nvidia import INSTALL, nvidia_installed
+from balloon_usd.check.nvidia import INSTALL
 from balloon_usd.stage.properties import PROPERTIES
 
 if TYPE_CHECKING:
@@ -64,5 +64,5 @@ def _line(fault: Fault) -> str:
 def _foot(report: Report) -> Iterator[str]:
     for why, count in report.not_counted.items():
         yield f"  not counted: {count} x {why}"
-    if report.asks_nvidia and not nvidia_installed():
+    if report.misses_nvidia:
         yield f"  NVIDIA's validator is not installed and was not asked: {INSTALL}"
