@@ -89,6 +89,18 @@ def lanes_that(yes: int) -> int:
 
 @_native("""
 #if defined(__CUDA_ARCH__)
+return 0;
+#else
+return 1;
+#endif
+""")
+def lane_is_alone() -> int:
+    """Return 1 on the CPU: what does not run there is not even compiled."""
+    return 1
+
+
+@_native("""
+#if defined(__CUDA_ARCH__)
 return __ffs(bits) - 1;
 #else
 return 0;

@@ -2,7 +2,14 @@
 
 import warp as wp
 
-from balloon_usd.solver.kernels.rubber import LEAST_ENERGY, Knot, Law, membrane_law, softening_factor
+from balloon_usd.solver.kernels.rubber import (
+    LEAST_ENERGY,
+    Knot,
+    Law,
+    followed_stretches,
+    membrane_law,
+    softening_factor,
+)
 
 MIN_STRETCH = wp.constant(0.05)
 """Smallest stretch that enters a rubber law (1): a collapsed quad must not divide by zero."""
@@ -10,6 +17,141 @@ SLACK = wp.constant(1.0e-4)
 """Difference of squared stretches below which they count as equal (1)."""
 TINY = wp.constant(1.0e-16)
 """Squared length of the side of a collapsed quad (m2)."""
+
+
+@wp.func
+def edges_of_quad(x0: wp.vec3, x1: wp.vec3, x2: wp.vec3, x3: wp.vec3):
+    """Return the mean edges (m) of a quad round the tube and along it; of speeds, their rates (m/s)."""
+    return 0.5 * (x1 - x0 + x2 - x3), 0.5 * (x3 - x0 + x2 - x1)
+
+
+@wp.func
+def gradient_of_quad(hoop: wp.vec3, axial: wp.vec3, b: wp.mat22):
+    """Return the columns of the mean deformation gradient of a quad, given its edges (m)."""
+    return hoop * b[0, 0] + axial * b[1, 0], hoop * b[0, 1] + axial * b[1, 1]
+
+
+@wp.func
+def squared_stretches(f1: wp.vec3, f2: wp.vec3):
+    """Return the squared principal stretches of a deformation gradient."""
+    c11 = wp.dot(f1, f1)
+    c22 = wp.dot(f2, f2)
+    c12 = wp.dot(f1, f2)
+    mean = 0.5 * (c11 + c22)
+    radius = wp.sqrt(wp.max(0.25 * (c11 - c22) * (c11 - c22) + c12 * c12, 0.0))
+    return mean + radius, mean - radius
+
+
+@wp.func
+def stretches_of_quad(x0: wp.vec3, x1: wp.vec3, x2: wp.vec3, x3: wp.vec3, b: wp.mat22):
+    """Return the squared principal stretches of a quad, as large as a rubber law needs them."""
+    hoop, axial = edges_of_quad(x0, x1, x2, x3)
+    f1, f2 = gradient_of_quad(hoop, axial, b)
+    large2, small2 = squared_stretches(f1, f2)
+    least = MIN_STRETCH * MIN_STRETCH
+    return wp.max(large2, least), wp.max(small2, least)
+
+
+@wp.func
+def forces_of_quad(
+    law: Law,
+    b: wp.mat22,
+    h: wp.vec4,
+    volume: float,
+    softening: float,
+    known: float,
+    large2: float,
+    small2: float,
+    t: wp.vec3,
+    x0: wp.vec3,
+    x1: wp.vec3,
+    x2: wp.vec3,
+    x3: wp.vec3,
+    v0: wp.vec3,
+    v1: wp.vec3,
+    v2: wp.vec3,
+    v3: wp.vec3,
+):
+    """Return the force (N) of the wall on the four corners of a quad and its peak energy (J/m3) hereafter.
+
+    `volume`: of its rubber, m3; `known`: its peak energy so far; `large2`, `small2`: its squared stretches;
+    `t`: what the law says of these. There are no decisions: a CPU does many quads at once.
+    """
+    hoop, axial = edges_of_quad(x0, x1, x2, x3)
+    f1, f2 = gradient_of_quad(hoop, axial, b)
+    c11 = wp.dot(f1, f1)
+    c22 = wp.dot(f2, f2)
+    c12 = wp.dot(f1, f2)
+
+    # Divisions come first: nothing waits for them then.
+    inverse_known = 1.0 / wp.max(known, LEAST_ENERGY)
+    apart = large2 - small2
+    inverse_apart = 1.0 / wp.max(apart, SLACK)
+    peak = wp.max(known, t[2])
+    reached = known + softening * (peak - known)
+    soft = softening_factor(law, t[2], peak, inverse_known)
+    stress_large = soft * t[0]
+    stress_small = soft * t[1]
+    linear = wp.where(apart > SLACK, (stress_large - stress_small) * inverse_apart, 0.0)
+    isotropic = stress_large - linear * large2
+    s11 = isotropic + linear * c11
+    s22 = isotropic + linear * c22
+    s12 = linear * c12
+
+    hoop_rate, axial_rate = edges_of_quad(v0, v1, v2, v3)
+    g1, g2 = gradient_of_quad(hoop_rate, axial_rate, b)
+    viscous = law.viscosity / wp.max(0.5 * (c11 + c22), 0.25)
+    s11 += viscous * wp.dot(f1, g1)
+    s22 += viscous * wp.dot(f2, g2)
+    s12 += viscous * 0.5 * (wp.dot(f1, g2) + wp.dot(f2, g1))
+
+    p1 = volume * (f1 * s11 + f2 * s12)
+    p2 = volume * (f1 * s12 + f2 * s22)
+    pull_hoop = 0.5 * (p1 * b[0, 0] + p2 * b[0, 1])
+    pull_axial = 0.5 * (p1 * b[1, 0] + p2 * b[1, 1])
+
+    # Hourglass: the one deformation that the mean gradient does not see. What is damped are its products
+    # with hoop, axial and normal, the changes seen from the quad itself: a turning quad feels no torque.
+    bow = h[0] * x0 + h[1] * x1 + h[2] * x2 + h[3] * x3
+    bow_rate = h[0] * v0 + h[1] * v1 + h[2] * v2 + h[3] * v3
+    normal = wp.cross(hoop, axial)
+    normal_rate = wp.cross(hoop_rate, axial) + wp.cross(hoop, axial_rate)
+    hoop2 = wp.length_sq(hoop)
+    axial2 = wp.length_sq(axial)
+    bent = x0 - x1 + x2 - x3
+    bent2 = wp.length_sq(bent) + TINY
+    slow = law.hourglass_damping
+    slow1 = slow * (wp.dot(bow_rate, hoop) + wp.dot(bow, hoop_rate)) / wp.max(hoop2, bent2)
+    slow2 = slow * (wp.dot(bow_rate, axial) + wp.dot(bow, axial_rate)) / wp.max(axial2, bent2)
+    most2 = wp.max(wp.length_sq(normal), bent2 * wp.max(hoop2, axial2))
+    slow3 = slow * (wp.dot(bow_rate, normal) + wp.dot(bow, normal_rate)) / (most2 + TINY * TINY)
+    resist = -(bow + slow1 * hoop + slow2 * axial + slow3 * normal)
+    pull_hoop += 0.5 * (slow1 * bow + slow3 * wp.cross(axial, bow))
+    pull_axial += 0.5 * (slow2 * bow + slow3 * wp.cross(bow, hoop))
+
+    return (
+        pull_hoop + pull_axial + h[0] * resist,
+        -pull_hoop + pull_axial + h[1] * resist,
+        -pull_hoop - pull_axial + h[2] * resist,
+        pull_hoop - pull_axial + h[3] * resist,
+        reached,
+    )
+
+
+@wp.func
+def lifts_of_quad(x0: wp.vec3, x1: wp.vec3, x2: wp.vec3, x3: wp.vec3, origin: wp.vec3):
+    """Return what gas will push on (m2), three vectors of which `lift_of_corner` makes four, and the volume
+    (m3) between a quad and an origin.
+    """
+    hoop, axial = edges_of_quad(x0, x1, x2, x3)
+    normal = wp.cross(hoop, axial)
+    bent = x0 - x1 + x2 - x3
+    return (
+        0.25 * normal,
+        wp.cross(hoop, bent) / 24.0,
+        wp.cross(bent, axial) / 24.0,
+        wp.dot(0.25 * (x0 + x1 + x2 + x3) - origin, normal) / 3.0,
+    )
 
 
 @wp.func
@@ -39,95 +181,40 @@ def wall_of_quad(
     x1 = x[c[1]]
     x2 = x[c[2]]
     x3 = x[c[3]]
-    hoop = 0.5 * (x1 - x0 + x2 - x3)
-    axial = 0.5 * (x3 - x0 + x2 - x1)
     b = to_rest[q]
-    f1 = hoop * b[0, 0] + axial * b[1, 0]
-    f2 = hoop * b[0, 1] + axial * b[1, 1]
-    c11 = wp.dot(f1, f1)
-    c22 = wp.dot(f2, f2)
-    c12 = wp.dot(f1, f2)
-
-    # Squared principal stretches of the mean deformation. Divisions come first: nothing waits for them then.
-    known = peak_energy[q]
-    inverse_known = 1.0 / wp.max(known, LEAST_ENERGY)
-    mean = 0.5 * (c11 + c22)
-    radius = wp.sqrt(wp.max(0.25 * (c11 - c22) * (c11 - c22) + c12 * c12, 0.0))
-    large2 = wp.max(mean + radius, MIN_STRETCH * MIN_STRETCH)
-    small2 = wp.max(mean - radius, MIN_STRETCH * MIN_STRETCH)
-    apart = large2 - small2
-    inverse_apart = 1.0 / wp.max(apart, SLACK)
-    stress_large = float(0.0)
-    stress_small = float(0.0)
+    large2, small2 = stretches_of_quad(x0, x1, x2, x3, b)
+    t = wp.vec3(0.0)
     if large2 > 1.0:
-        t = membrane_law(law, curves, large2, small2)
-        peak = wp.max(known, t[2])
-        peak_energy[q] = known + softening_rate[quad_law[q]] * (peak - known)
-        soft = softening_factor(law, t[2], peak, inverse_known)
-        stress_large = soft * t[0]
-        stress_small = soft * t[1]
-    isotropic = stress_large
-    linear = float(0.0)
-    if apart > SLACK:
-        linear = (stress_large - stress_small) * inverse_apart
-        isotropic = stress_large - linear * large2
-    s11 = isotropic + linear * c11
-    s22 = isotropic + linear * c22
-    s12 = linear * c12
-
-    v0 = v[c[0]]
-    v1 = v[c[1]]
-    v2 = v[c[2]]
-    v3 = v[c[3]]
-    hoop_rate = 0.5 * (v1 - v0 + v2 - v3)
-    axial_rate = 0.5 * (v3 - v0 + v2 - v1)
-    g1 = hoop_rate * b[0, 0] + axial_rate * b[1, 0]
-    g2 = hoop_rate * b[0, 1] + axial_rate * b[1, 1]
-    viscous = law.viscosity / wp.max(mean, 0.25)
-    s11 += viscous * wp.dot(f1, g1)
-    s22 += viscous * wp.dot(f2, g2)
-    s12 += viscous * 0.5 * (wp.dot(f1, g2) + wp.dot(f2, g1))
-
-    w = rubber_volume[q]
-    p1 = w * (f1 * s11 + f2 * s12)
-    p2 = w * (f1 * s12 + f2 * s22)
-    pull_hoop = 0.5 * (p1 * b[0, 0] + p2 * b[0, 1])
-    pull_axial = 0.5 * (p1 * b[1, 0] + p2 * b[1, 1])
-
-    # Hourglass: the one deformation that the mean gradient does not see. What is damped are its products
-    # with hoop, axial and normal, the changes seen from the quad itself: a turning quad feels no torque.
-    h = hourglass[q]
-    bow = h[0] * x0 + h[1] * x1 + h[2] * x2 + h[3] * x3
-    bow_rate = h[0] * v0 + h[1] * v1 + h[2] * v2 + h[3] * v3
-    normal = wp.cross(hoop, axial)
-    normal_rate = wp.cross(hoop_rate, axial) + wp.cross(hoop, axial_rate)
-    hoop2 = wp.length_sq(hoop)
-    axial2 = wp.length_sq(axial)
-    bent = x0 - x1 + x2 - x3
-    bent2 = wp.length_sq(bent) + TINY
-    slow = law.hourglass_damping
-    slow1 = slow * (wp.dot(bow_rate, hoop) + wp.dot(bow, hoop_rate)) / wp.max(hoop2, bent2)
-    slow2 = slow * (wp.dot(bow_rate, axial) + wp.dot(bow, axial_rate)) / wp.max(axial2, bent2)
-    most2 = wp.max(wp.length_sq(normal), bent2 * wp.max(hoop2, axial2))
-    slow3 = slow * (wp.dot(bow_rate, normal) + wp.dot(bow, normal_rate)) / (most2 + TINY * TINY)
-    resist = -(bow + slow1 * hoop + slow2 * axial + slow3 * normal)
-    pull_hoop += 0.5 * (slow1 * bow + slow3 * wp.cross(axial, bow))
-    pull_axial += 0.5 * (slow2 * bow + slow3 * wp.cross(bow, hoop))
-
-    f0 = pull_hoop + pull_axial + h[0] * resist
-    fa = -pull_hoop + pull_axial + h[1] * resist
-    fb = -pull_hoop - pull_axial + h[2] * resist
-    fc = pull_hoop - pull_axial + h[3] * resist
-
+        t = membrane_law(law, curves, followed_stretches(law, large2, small2))
+    f0, f1, f2, f3, reached = forces_of_quad(
+        law,
+        b,
+        hourglass[q],
+        rubber_volume[q],
+        softening_rate[quad_law[q]],
+        peak_energy[q],
+        large2,
+        small2,
+        t,
+        x0,
+        x1,
+        x2,
+        x3,
+        v[c[0]],
+        v[c[1]],
+        v[c[2]],
+        v[c[3]],
+    )
+    peak_energy[q] = reached
     corner_force[q, 0] = f0
-    corner_force[q, 1] = fa
-    corner_force[q, 2] = fb
-    corner_force[q, 3] = fc
-
-    lift[q, 0] = 0.25 * normal
-    lift[q, 1] = wp.cross(hoop, bent) / 24.0
-    lift[q, 2] = wp.cross(bent, axial) / 24.0
-    return wp.dot(0.25 * (x0 + x1 + x2 + x3) - origin, normal) / 3.0
+    corner_force[q, 1] = f1
+    corner_force[q, 2] = f2
+    corner_force[q, 3] = f3
+    l0, l1, l2, volume = lifts_of_quad(x0, x1, x2, x3, origin)
+    lift[q, 0] = l0
+    lift[q, 1] = l1
+    lift[q, 2] = l2
+    return volume
 
 
 @wp.func
@@ -143,15 +230,10 @@ def stretch_of_quad(q: int, quads: wp.array[wp.vec4i], to_rest: wp.array[wp.mat2
     """Return the largest principal stretch of a quad's mean deformation."""
     c = quads[q]
     b = to_rest[q]
-    hoop = 0.5 * (x[c[1]] - x[c[0]] + x[c[2]] - x[c[3]])
-    axial = 0.5 * (x[c[3]] - x[c[0]] + x[c[2]] - x[c[1]])
-    f1 = hoop * b[0, 0] + axial * b[1, 0]
-    f2 = hoop * b[0, 1] + axial * b[1, 1]
-    c11 = wp.dot(f1, f1)
-    c22 = wp.dot(f2, f2)
-    c12 = wp.dot(f1, f2)
-    radius = wp.sqrt(wp.max(0.25 * (c11 - c22) * (c11 - c22) + c12 * c12, 0.0))
-    return wp.sqrt(0.5 * (c11 + c22) + radius)
+    hoop, axial = edges_of_quad(x[c[0]], x[c[1]], x[c[2]], x[c[3]])
+    f1, f2 = gradient_of_quad(hoop, axial, b)
+    large2, _ = squared_stretches(f1, f2)
+    return wp.sqrt(large2)
 
 
 @wp.kernel

@@ -68,18 +68,26 @@ def on_curve(law: Law, curves: wp.array[Knot], squared: float):
 
 
 @wp.func
-def membrane_law(law: Law, curves: wp.array[Knot], large2: float, small2: float):
-    """Return dW/dlarge over large, dW/dsmall over small (Pa) and W (J/m3) from the squares of two stretches
-    (Ogden 1972; Gent 1996).
+def followed_stretches(law: Law, large2: float, small2: float):
+    """Return the squares of the three principal stretches at which a law is taken, given those of two.
 
     The smaller one does not count below what uniaxial tension gives: there the wall wrinkles instead of
     pushing (tension field).
     """
     a2 = wp.min(large2, law.most)
     b2 = wp.min(small2, law.most)
-    if b2 * b2 * a2 < 1.0:
-        b2 = 1.0 / wp.sqrt(a2)
-    c2 = 1.0 / (a2 * b2)
+    b2 = wp.where(b2 * b2 * a2 < 1.0, 1.0 / wp.sqrt(a2), b2)
+    return wp.vec3(a2, b2, 1.0 / (a2 * b2))
+
+
+@wp.func
+def membrane_law(law: Law, curves: wp.array[Knot], squared: wp.vec3):
+    """Return dW/dlarge over large, dW/dsmall over small (Pa) and W (J/m3) from the squares of three stretches
+    (Ogden 1972; Gent 1996).
+    """
+    a2 = squared[0]
+    b2 = squared[1]
+    c2 = squared[2]
     a = on_curve(law, curves, a2)
     b = on_curve(law, curves, b2)
     c = on_curve(law, curves, c2)
@@ -101,13 +109,11 @@ def softening_factor(law: Law, energy: float, peak: float, inverse_peak: float):
     """Return Ogden & Roxburgh's factor on the stress after a peak energy (1999, their eq. for eta), all in
     J/m3.
     """
-    factor = float(1.0)
-    if law.soft_depth > 0.0 and peak > LEAST_ENERGY and peak > energy:
-        z = (1.0 - energy * inverse_peak) * law.soft_steepness
-        z3 = z * z * z
-        t = 1.0 + z * (ERF_1 + z * ERF_2) + z3 * ((ERF_3 + z * ERF_4) + z * z * (ERF_5 + z * ERF_6))
-        t2 = t * t
-        t4 = t2 * t2
-        t8 = t4 * t4
-        factor = 1.0 - law.soft_depth * (1.0 - 1.0 / (t8 * t8))
-    return factor
+    z = (1.0 - energy * inverse_peak) * law.soft_steepness
+    z3 = z * z * z
+    t = 1.0 + z * (ERF_1 + z * ERF_2) + z3 * ((ERF_3 + z * ERF_4) + z * z * (ERF_5 + z * ERF_6))
+    t2 = t * t
+    t4 = t2 * t2
+    t8 = t4 * t4
+    factor = 1.0 - law.soft_depth * (1.0 - 1.0 / (t8 * t8))
+    return wp.where(peak > LEAST_ENERGY and peak > energy, factor, 1.0)

@@ -1,0 +1,140 @@
+"""Quads side by side get the forces that each gets alone, however many there are."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import warp as wp
+
+from balloon_usd.balloon.detail import detail_named
+from balloon_usd.balloon.rubber import rubber_named
+from balloon_usd.balloon.sizes import size_named
+from balloon_usd.balloon.tube_mesh import tube_mesh
+from balloon_usd.solver.kernels.membrane import wall_of_quad
+from balloon_usd.solver.kernels.rubber import Knot, Law
+from balloon_usd.solver.kernels.side_by_side import ABREAST, walls_abreast
+from balloon_usd.solver.latex.body import tube_body
+from balloon_usd.solver.latex.scene import build_scene
+from balloon_usd.solver.settings import SceneSettings
+
+ROUNDING = 2e-5
+"""Largest difference, as a share of the largest value: a product and a sum may be rounded once or twice."""
+WRITTEN = ("corner_force", "lift", "peak_energy")
+
+
+@wp.kernel
+def one_by_one(
+    begin: int,
+    end: int,
+    quads: wp.array[wp.vec4i],
+    quad_law: wp.array[int],
+    to_rest: wp.array[wp.mat22],
+    hourglass: wp.array[wp.vec4],
+    rubber_volume: wp.array[float],
+    laws: wp.array[Law],
+    curves: wp.array[Knot],
+    x: wp.array[wp.vec3],
+    v: wp.array[wp.vec3],
+    softening_rate: wp.array[float],
+    peak_energy: wp.array[float],
+    corner_force: wp.array2d[wp.vec3],
+    lift: wp.array2d[wp.vec3],
+    volume: wp.array[float],
+):
+    """Write what each of some quads gets alone."""
+    for q in range(begin, end):
+        volume[0] = volume[0] + wall_of_quad(
+            q,
+            quads,
+            quad_law,
+            to_rest,
+            hourglass,
+            rubber_volume,
+            laws,
+            curves,
+            x,
+            v,
+            x[0],
+            softening_rate,
+            peak_energy,
+            corner_force,
+            lift,
+        )
+
+
+@wp.kernel
+def abreast(
+    begin: int,
+    end: int,
+    quads: wp.array[wp.vec4i],
+    quad_law: wp.array[int],
+    to_rest: wp.array[wp.mat22],
+    hourglass: wp.array[wp.vec4],
+    rubber_volume: wp.array[float],
+    laws: wp.array[Law],
+    curves: wp.array[Knot],
+    x: wp.array[wp.vec3],
+    v: wp.array[wp.vec3],
+    softening_rate: wp.array[float],
+    peak_energy: wp.array[float],
+    corner_force: wp.array2d[wp.vec3],
+    lift: wp.array2d[wp.vec3],
+    volume: wp.array[float],
+):
+    """Write what they get side by side."""
+    volume[0] = walls_abreast(
+        begin,
+        end,
+        quads,
+        quad_law,
+        to_rest,
+        hourglass,
+        rubber_volume,
+        laws,
+        curves,
+        x,
+        v,
+        x[0],
+        softening_rate,
+        peak_energy,
+        corner_force,
+        lift,
+    )
+
+
+def scene():
+    """A tube drawn out unevenly, so that some of its wall is stretched and some is slack."""
+    size = size_named("260")
+    mesh = tube_mesh(size, detail_named("draft"), (0.03,), (0.03, size.length))
+    body = tube_body(mesh, rubber_named(), size.radius, size.thickness, (0.03,), (), 5000.0)
+    made = build_scene([body], [0], SceneSettings(dt=4e-4), "cpu", 1, 1)
+    chance = np.random.default_rng(1)
+    x = made.x.numpy()
+    made.x.assign(x * chance.uniform(0.8, 2.0, x.shape).astype(np.float32))
+    made.v.assign(chance.normal(size=x.shape).astype(np.float32))
+    made.peak_energy.assign(chance.uniform(0.0, 1e5, len(made.quads)).astype(np.float32))
+    return made
+
+
+def written(kernel, begin, end):
+    """What a kernel writes for some quads, and the volume between them and a point."""
+    made = scene()
+    made.zeros("volume", 1, float)
+    inputs = [begin, end, *(made.arrays[a.label] for a in kernel.adj.args[2:])]
+    wp.launch(kernel, dim=1, inputs=inputs, device="cpu")
+    return {name: made.arrays[name].numpy() for name in (*WRITTEN, "volume")}
+
+
+@pytest.mark.parametrize("count", [1, ABREAST - 1, ABREAST, 2 * ABREAST + 3])
+def test_quads_side_by_side_get_what_each_gets_alone(count):
+    alone, together = written(one_by_one, 5, 5 + count), written(abreast, 5, 5 + count)
+    for name, expected in alone.items():
+        apart = np.abs(together[name] - expected).max()
+        assert apart <= ROUNDING * np.abs(expected).max(), name
+
+
+def test_quads_beside_are_left_alone():
+    before, after = scene(), written(abreast, 5, 8)
+    for name in WRITTEN:
+        kept = np.delete(np.arange(len(before.quads)), [5, 6, 7])
+        assert np.array_equal(after[name][kept], before.arrays[name].numpy()[kept])
