@@ -3,9 +3,8 @@
 import warp as wp
 
 from balloon_usd.solver.kernels.gas import Air, advance_gas
-from balloon_usd.solver.kernels.membrane import lift_of_corner
+from balloon_usd.solver.kernels.membrane import lift_of_corner, wall_of_quad
 from balloon_usd.solver.kernels.rubber import Knot, Law
-from balloon_usd.solver.kernels.side_by_side import walls_of_quads
 
 
 @wp.kernel
@@ -28,11 +27,8 @@ def quad_forces(
 ):
     """Write the force (N) of wall and gas on the four corners of every quad."""
     q = wp.tid()
-    walls_of_quads(
+    wall_of_quad(
         q,
-        q + 1,
-        0,
-        1,
         quads,
         quad_law,
         to_rest,

@@ -99,6 +99,12 @@ def lane_is_alone() -> int:
     return 1
 
 
+@_native("__builtin_assume(index >= 0); return index;")
+def counted(index: int) -> int:
+    """Return an index of which compilers may know that it is not negative, so counts from no array's end."""
+    return index
+
+
 @_native("""
 #if defined(__CUDA_ARCH__)
 return __ffs(bits) - 1;

@@ -148,9 +148,9 @@ def lifts_of_quad(x0: wp.vec3, x1: wp.vec3, x2: wp.vec3, x3: wp.vec3, origin: wp
     bent = x0 - x1 + x2 - x3
     return (
         0.25 * normal,
-        wp.cross(hoop, bent) / 24.0,
-        wp.cross(bent, axial) / 24.0,
-        wp.dot(0.25 * (x0 + x1 + x2 + x3) - origin, normal) / 3.0,
+        wp.cross(hoop, bent) * (1.0 / 24.0),
+        wp.cross(bent, axial) * (1.0 / 24.0),
+        wp.dot(0.25 * (x0 + x1 + x2 + x3) - origin, normal) * (1.0 / 3.0),
     )
 
 

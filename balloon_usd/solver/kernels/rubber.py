@@ -2,6 +2,8 @@
 
 import warp as wp
 
+from balloon_usd.solver.kernels.lanes import counted
+
 Knot = wp.types.matrix(shape=(2, 4), dtype=float)
 """Cubic from a knot to the next, of stress and of energy: factors of the powers of the share of the way."""
 
@@ -60,7 +62,8 @@ def on_curve(law: Law, curves: wp.array[Knot], squared: float):
     """
     bits = wp.cast(squared, wp.int32)
     t = float(bits & ((1 << law.step_bits) - 1)) * law.step_share
-    c = curves[wp.clamp(law.zero_knot + (bits >> law.step_bits), law.first_knot, law.last_knot)]
+    knot = wp.clamp(law.zero_knot + (bits >> law.step_bits), law.first_knot, law.last_knot)
+    c = curves[counted(knot)]
     return wp.vec2(
         ((c[0, 3] * t + c[0, 2]) * t + c[0, 1]) * t + c[0, 0],
         ((c[1, 3] * t + c[1, 2]) * t + c[1, 1]) * t + c[1, 0],

@@ -15,10 +15,19 @@ from balloon_usd.solver.kernels.joints import (
     shift_middle,
     weld_joint_to_others,
 )
-from balloon_usd.solver.kernels.lanes import FEW, WARP, block_meets, blocks_meet, few_sum, lanes_sum
+from balloon_usd.solver.kernels.lanes import (
+    FEW,
+    WARP,
+    block_meets,
+    blocks_meet,
+    few_sum,
+    lane_is_alone,
+    lanes_sum,
+)
+from balloon_usd.solver.kernels.membrane import wall_of_quad
 from balloon_usd.solver.kernels.motion import Spin, move_vertex
 from balloon_usd.solver.kernels.rubber import Knot, Law
-from balloon_usd.solver.kernels.side_by_side import walls_of_quads
+from balloon_usd.solver.kernels.side_by_side import walls_abreast
 
 # A product and a sum in one instruction: a tenth less time on a CPU.
 wp.set_module_options(
@@ -182,14 +191,14 @@ def advance_sculptures(
                 press_finger(i, vertex_balloon, mass, fingers, finger_share, dt, fraction, x, v)
             goal += crew
             blocks_meet(gates, w, crew, goal, lane)
-        for c in range(chunk_begin + warp, chunk_end, warps):
-            share = walls_of_quads(
-                chunk_quad[c],
-                chunk_quad[c + 1],
-                one,
-                gang,
+        if lane_is_alone() == 1:
+            walls_abreast(
+                chunk_begin,
+                chunk_end,
                 quads,
                 quad_law,
+                chunk_quad,
+                chunk_origin,
                 to_rest,
                 hourglass,
                 rubber_volume,
@@ -197,15 +206,36 @@ def advance_sculptures(
                 curves,
                 x,
                 v,
-                x[chunk_origin[c]],
                 softening_rate,
                 peak_energy,
                 corner_force,
                 lift,
+                chunk_share,
             )
-            share = lanes_sum(share)
-            if one == 0:
-                chunk_share[c] = share
+        else:
+            for c in range(chunk_begin + warp, chunk_end, warps):
+                share = float(0.0)
+                for q in range(chunk_quad[c] + one, chunk_quad[c + 1], gang):
+                    share += wall_of_quad(
+                        q,
+                        quads,
+                        quad_law,
+                        to_rest,
+                        hourglass,
+                        rubber_volume,
+                        laws,
+                        curves,
+                        x,
+                        v,
+                        x[chunk_origin[c]],
+                        softening_rate,
+                        peak_energy,
+                        corner_force,
+                        lift,
+                    )
+                share = lanes_sum(share)
+                if one == 0:
+                    chunk_share[c] = share
         for j in range(joint_begin + warps - 1 - warp, joint_end, warps):
             measure_open_ring(
                 j,

@@ -7,12 +7,11 @@ coordinate. So the quads of a chunk are laid in rows first, and what comes of th
 
 import warp as wp
 
-from balloon_usd.solver.kernels.lanes import lane_is_alone
+from balloon_usd.solver.kernels.lanes import counted
 from balloon_usd.solver.kernels.membrane import (
     forces_of_quad,
     lifts_of_quad,
     stretches_of_quad,
-    wall_of_quad,
 )
 from balloon_usd.solver.kernels.rubber import Knot, Law, followed_stretches, membrane_law
 
@@ -36,6 +35,8 @@ def walls_abreast(
     end: int,
     quads: wp.array[wp.vec4i],
     quad_law: wp.array[int],
+    chunk_quad: wp.array[int],
+    chunk_origin: wp.array[int],
     to_rest: wp.array[wp.mat22],
     hourglass: wp.array[wp.vec4],
     rubber_volume: wp.array[float],
@@ -43,173 +44,113 @@ def walls_abreast(
     curves: wp.array[Knot],
     x: wp.array[wp.vec3],
     v: wp.array[wp.vec3],
-    origin: wp.vec3,
     softening_rate: wp.array[float],
     peak_energy: wp.array[float],
     corner_force: wp.array2d[wp.vec3],
     lift: wp.array2d[wp.vec3],
+    chunk_share: wp.array[float],
 ):
-    """Write what `wall_of_quad` does for quads of one rubber, and return the volume (m3) between them and an
-    origin.
+    """Write what `wall_of_quad` does for the quads of chunks, each of one rubber, and the volume (m3) between
+    those of each chunk and its origin.
     """
-    law = laws[quad_law[begin]]
-    softening = softening_rate[quad_law[begin]]
-    total = float(0.0)
     g = Given()
     a = Asked()
     r = Found()
     # Counted by hand: compilers do not see through Warp's ranges.
-    first = int(begin)
-    while first < end:
-        k = int(0)
-        while k < ROW:
-            # The last quad stands for those that a row lacks.
-            q = wp.min(first + k, end - 1)
-            c = quads[q]
-            g[0:3, k] = x[c[0]]
-            g[3:6, k] = x[c[1]]
-            g[6:9, k] = x[c[2]]
-            g[9:12, k] = x[c[3]]
-            g[12:15, k] = v[c[0]]
-            g[15:18, k] = v[c[1]]
-            g[18:21, k] = v[c[2]]
-            g[21:24, k] = v[c[3]]
-            b = to_rest[q]
-            g[24:26, k] = b[0]
-            g[26:28, k] = b[1]
-            g[28:32, k] = hourglass[q]
-            g[32, k] = rubber_volume[q]
-            g[33, k] = peak_energy[q]
-            k += 1
-        k = int(0)
-        while k < ROW:
-            large2, small2 = stretches_of_quad(
-                g[0:3, k],
-                g[3:6, k],
-                g[6:9, k],
-                g[9:12, k],
-                wp.mat22(g[24, k], g[25, k], g[26, k], g[27, k]),
-            )
-            a[0, k] = large2
-            a[1, k] = small2
-            a[2:5, k] = followed_stretches(law, large2, small2)
-            k += 1
-        k = int(0)
-        while k < ROW:
-            t = wp.vec3(0.0)
-            if a[0, k] > 1.0:
-                t = membrane_law(law, curves, a[2:5, k])
-            a[2:5, k] = t
-            k += 1
-        k = int(0)
-        while k < ROW:
-            f0, f1, f2, f3, reached = forces_of_quad(
-                law,
-                wp.mat22(g[24, k], g[25, k], g[26, k], g[27, k]),
-                g[28:32, k],
-                g[32, k],
-                softening,
-                g[33, k],
-                a[0, k],
-                a[1, k],
-                a[2:5, k],
-                g[0:3, k],
-                g[3:6, k],
-                g[6:9, k],
-                g[9:12, k],
-                g[12:15, k],
-                g[15:18, k],
-                g[18:21, k],
-                g[21:24, k],
-            )
-            l0, l1, l2, volume = lifts_of_quad(g[0:3, k], g[3:6, k], g[6:9, k], g[9:12, k], origin)
-            r[0:3, k] = f0
-            r[3:6, k] = f1
-            r[6:9, k] = f2
-            r[9:12, k] = f3
-            r[12:15, k] = l0
-            r[15:18, k] = l1
-            r[18:21, k] = l2
-            r[21, k] = volume
-            r[22, k] = reached
-            k += 1
-        k = int(0)
-        while k < wp.min(ROW, end - first):
-            corner_force[first + k, 0] = r[0:3, k]
-            corner_force[first + k, 1] = r[3:6, k]
-            corner_force[first + k, 2] = r[6:9, k]
-            corner_force[first + k, 3] = r[9:12, k]
-            lift[first + k, 0] = r[12:15, k]
-            lift[first + k, 1] = r[15:18, k]
-            lift[first + k, 2] = r[18:21, k]
-            total += r[21, k]
-            peak_energy[first + k] = r[22, k]
-            k += 1
-        first += ROW
-    return total
-
-
-@wp.func
-def walls_of_quads(
-    begin: int,
-    end: int,
-    lane: int,
-    lanes: int,
-    quads: wp.array[wp.vec4i],
-    quad_law: wp.array[int],
-    to_rest: wp.array[wp.mat22],
-    hourglass: wp.array[wp.vec4],
-    rubber_volume: wp.array[float],
-    laws: wp.array[Law],
-    curves: wp.array[Knot],
-    x: wp.array[wp.vec3],
-    v: wp.array[wp.vec3],
-    origin: wp.vec3,
-    softening_rate: wp.array[float],
-    peak_energy: wp.array[float],
-    corner_force: wp.array2d[wp.vec3],
-    lift: wp.array2d[wp.vec3],
-):
-    """Write the force (N) of the wall on the corners of quads of one rubber and what gas will push on (m2),
-    and return a lane's share of the volume (m3) between them and an origin.
-    """
-    share = float(0.0)
-    if lane_is_alone() == 1:
-        share = walls_abreast(
-            begin,
-            end,
-            quads,
-            quad_law,
-            to_rest,
-            hourglass,
-            rubber_volume,
-            laws,
-            curves,
-            x,
-            v,
-            origin,
-            softening_rate,
-            peak_energy,
-            corner_force,
-            lift,
-        )
-    else:
-        for q in range(begin + lane, end, lanes):
-            share += wall_of_quad(
-                q,
-                quads,
-                quad_law,
-                to_rest,
-                hourglass,
-                rubber_volume,
-                laws,
-                curves,
-                x,
-                v,
-                origin,
-                softening_rate,
-                peak_energy,
-                corner_force,
-                lift,
-            )
-    return share
+    chunk = int(begin)
+    while chunk < end:
+        first = chunk_quad[chunk]
+        last = chunk_quad[chunk + 1]
+        law = laws[quad_law[first]]
+        softening = softening_rate[quad_law[first]]
+        origin = x[chunk_origin[chunk]]
+        total = float(0.0)
+        while first < last:
+            k = int(0)
+            while k < ROW:
+                # The last quad stands for those that a row lacks.
+                q = counted(wp.min(first + k, last - 1))
+                c = quads[q]
+                g[0:3, k] = x[counted(c[0])]
+                g[3:6, k] = x[counted(c[1])]
+                g[6:9, k] = x[counted(c[2])]
+                g[9:12, k] = x[counted(c[3])]
+                g[12:15, k] = v[counted(c[0])]
+                g[15:18, k] = v[counted(c[1])]
+                g[18:21, k] = v[counted(c[2])]
+                g[21:24, k] = v[counted(c[3])]
+                b = to_rest[q]
+                g[24:26, k] = b[0]
+                g[26:28, k] = b[1]
+                g[28:32, k] = hourglass[q]
+                g[32, k] = rubber_volume[q]
+                g[33, k] = peak_energy[q]
+                k += 1
+            k = int(0)
+            while k < ROW:
+                large2, small2 = stretches_of_quad(
+                    g[0:3, k],
+                    g[3:6, k],
+                    g[6:9, k],
+                    g[9:12, k],
+                    wp.mat22(g[24, k], g[25, k], g[26, k], g[27, k]),
+                )
+                a[0, k] = large2
+                a[1, k] = small2
+                a[2:5, k] = followed_stretches(law, large2, small2)
+                k += 1
+            k = int(0)
+            while k < ROW:
+                t = wp.vec3(0.0)
+                if a[0, k] > 1.0:
+                    t = membrane_law(law, curves, a[2:5, k])
+                a[2:5, k] = t
+                k += 1
+            k = int(0)
+            while k < ROW:
+                f0, f1, f2, f3, reached = forces_of_quad(
+                    law,
+                    wp.mat22(g[24, k], g[25, k], g[26, k], g[27, k]),
+                    g[28:32, k],
+                    g[32, k],
+                    softening,
+                    g[33, k],
+                    a[0, k],
+                    a[1, k],
+                    a[2:5, k],
+                    g[0:3, k],
+                    g[3:6, k],
+                    g[6:9, k],
+                    g[9:12, k],
+                    g[12:15, k],
+                    g[15:18, k],
+                    g[18:21, k],
+                    g[21:24, k],
+                )
+                l0, l1, l2, volume = lifts_of_quad(g[0:3, k], g[3:6, k], g[6:9, k], g[9:12, k], origin)
+                r[0:3, k] = f0
+                r[3:6, k] = f1
+                r[6:9, k] = f2
+                r[9:12, k] = f3
+                r[12:15, k] = l0
+                r[15:18, k] = l1
+                r[18:21, k] = l2
+                r[21, k] = volume
+                r[22, k] = reached
+                k += 1
+            k = int(0)
+            while k < wp.min(ROW, last - first):
+                done = counted(first + k)
+                corner_force[done, 0] = r[0:3, k]
+                corner_force[done, 1] = r[3:6, k]
+                corner_force[done, 2] = r[6:9, k]
+                corner_force[done, 3] = r[9:12, k]
+                lift[done, 0] = r[12:15, k]
+                lift[done, 1] = r[15:18, k]
+                lift[done, 2] = r[18:21, k]
+                total += r[21, k]
+                peak_energy[done] = r[22, k]
+                k += 1
+            first += ROW
+        chunk_share[chunk] = total
+        chunk += 1
