@@ -124,6 +124,7 @@ def _contact_arrays(scene: Scene) -> None:
     for name in ("chunk_low", "chunk_high"):
         scene.zeros(name, len(a["chunk_quad"]) - 1, wp.vec3)
     scene.zeros("area", vertices, float)
+    scene.zeros("vertex_own", vertices, wp.vec2i)
     scene.zeros("ring_radius", len(a["ring_first"]), float)
     for name in ("slip", "contact_force"):
         scene.zeros(name, (vertices, TARGETS), wp.vec3)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from balloon_usd.solver.kernels.contact import (
     chunk_surface,
+    find_own_walls,
     find_walls,
     order_hits,
     ring_radii,
@@ -23,6 +24,7 @@ class WallSearch:
     def __init__(self, launcher: Launcher) -> None:
         self._launcher = launcher
         launcher.values["touch"] = launcher.scene.touch
+        launcher.launch(find_own_walls, len(launcher.scene.x))
         launcher.load(vertex_surface, order_hits)
         launcher.load(chunk_surface, ring_radii, find_walls, lanes=WARP)
 

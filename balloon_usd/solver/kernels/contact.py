@@ -3,6 +3,7 @@
 import warp as wp
 
 from balloon_usd.solver.kernels.lanes import (
+    counted,
     lanes_least,
     lanes_max3,
     lanes_most,
@@ -33,6 +34,8 @@ STABLE = wp.constant(0.25)
 """Largest contact stiffness, in the lightest of the vertex masses per squared time step."""
 CROWD = wp.constant(0.5)
 """How much each further vertex on the same quad lowers that limit."""
+OWN = wp.constant(256)
+"""Most quads before a vertex, and after it, that are known as its own."""
 FAR = wp.constant(1.0e6)
 """Farther than any wall, m."""
 NORMAL_DAMPING = wp.constant(0.3)
@@ -187,6 +190,58 @@ def distance_beside(
 
 
 @wp.func
+def may_meet(
+    q: int,
+    mine: int,
+    home: int,
+    place: wp.vec3,
+    apart: float,
+    quad_segment: wp.array[int],
+    quad_place: wp.array[wp.vec3],
+    quad_balloon: wp.array[int],
+):
+    """Return whether a quad may ever touch a vertex, given its balloon, bubble and place."""
+    elsewhere = quad_balloon[q] != mine or wp.max(wp.abs(quad_place[q] - place)) > apart
+    return elsewhere or (home >= 0 and quad_segment[q] != home)
+
+
+@wp.kernel
+def find_own_walls(
+    quads: wp.array[wp.vec4i],
+    corners: wp.array[wp.vec4i],
+    quad_segment: wp.array[int],
+    quad_place: wp.array[wp.vec3],
+    quad_balloon: wp.array[int],
+    vertex_place: wp.array[wp.vec3],
+    vertex_balloon: wp.array[int],
+    vertex_segment: wp.array[int],
+    balloon_radius: wp.array[float],
+    touch: Touch,
+    vertex_own: wp.array[wp.vec2i],
+):
+    """Write for every vertex the first and the end of a run of quads about it that it never touches."""
+    i = wp.tid()
+    mine = vertex_balloon[i]
+    home = vertex_segment[i]
+    place = vertex_place[i]
+    apart = touch.apart * balloon_radius[mine]
+    middle = wp.max(corners[i][0], 0) // 4
+    first = wp.max(middle - OWN, 0)
+    begin = int(middle)
+    while begin > first and not may_meet(
+        wp.max(begin - 1, first), mine, home, place, apart, quad_segment, quad_place, quad_balloon
+    ):
+        begin -= 1
+    last = wp.min(middle + OWN, quads.shape[0]) - 1
+    end = int(middle)
+    while end <= last and not may_meet(
+        wp.min(end, last), mine, home, place, apart, quad_segment, quad_place, quad_balloon
+    ):
+        end += 1
+    vertex_own[i] = wp.vec2i(begin, end)
+
+
+@wp.func
 def distance_of_wall(
     q: int,
     d: wp.vec3,
@@ -212,8 +267,7 @@ def distance_of_wall(
     `d`: from the quad's middle to the vertex, m; `mine`, `home`, `place`: its balloon, bubble and place.
     """
     distance = float(FAR)
-    elsewhere = quad_balloon[q] != mine or wp.max(wp.abs(quad_place[q] - place)) > apart
-    if elsewhere or (home >= 0 and quad_segment[q] != home):
+    if may_meet(q, mine, home, place, apart, quad_segment, quad_place, quad_balloon):
         a = quad_area[q]
         size = wp.length(a)
         face = a / wp.max(size, 1.0e-12)
@@ -237,6 +291,7 @@ def find_walls(
     vertex_place: wp.array[wp.vec3],
     vertex_balloon: wp.array[int],
     vertex_segment: wp.array[int],
+    vertex_own: wp.array[wp.vec2i],
     balloon_world: wp.array[int],
     balloon_radius: wp.array[float],
     touching: wp.array[int],
@@ -268,6 +323,7 @@ def find_walls(
     home = vertex_segment[i]
     place = vertex_place[i]
     apart = touch.apart * balloon_radius[mine]
+    own = vertex_own[i]
     depth = DEPTH_LIMIT * ring_radius[vertex_ring[i]]
     reach = REACH * wp.sqrt(area[i]) + touch.offset + touch.margin
     # What this lane has found.
@@ -277,11 +333,12 @@ def find_walls(
     last = world_chunk[world + 1]
     if touching[mine] == 0:
         last = 0
-    for begin in range(world_chunk[world], last, lanes):
+    begin = world_chunk[world]
+    while begin < last:
         mine_too = int(0)
         if begin + lane < last:
-            low = chunk_low[begin + lane]
-            high = chunk_high[begin + lane]
+            low = chunk_low[counted(begin + lane)]
+            high = chunk_high[counted(begin + lane)]
             # Most are far away along the balloon already.
             if low[0] - p[0] < reach and p[0] - high[0] < reach:
                 off = wp.max(wp.max(low - p, p - high), wp.vec3(0.0))
@@ -291,8 +348,16 @@ def find_walls(
         while chunks != 0:
             chunk = begin + lowest(chunks)
             chunks &= chunks - 1
-            for q in range(chunk_quad[chunk] + lane, chunk_quad[chunk + 1], lanes):
-                d = p - quad_middle[q]
+            first = chunk_quad[chunk]
+            end = chunk_quad[chunk + 1]
+            # Its own at one end of them are left out.
+            if own[0] <= first:
+                first = wp.max(first, own[1])
+            if own[1] >= end:
+                end = wp.min(end, own[0])
+            q = first + lane
+            while q < end:
+                d = p - quad_middle[counted(q)]
                 if wp.dot(d, d) < reach * reach:
                     distance = distance_of_wall(
                         q,
@@ -324,6 +389,8 @@ def find_walls(
                     elif distance < near[1] and quad_segment[nearest[0]] != quad_segment[q]:
                         near = wp.vec2(near[0], distance)
                         nearest = wp.vec2i(nearest[0], q)
+                q += lanes
+        begin += lanes
     # The nearest of all lanes, and the nearest of another bubble than that.
     found = wp.vec2i(-1, -1)
     least = lanes_least(near[0])
