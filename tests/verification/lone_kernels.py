@@ -3,7 +3,7 @@
 import warp as wp
 
 from balloon_usd.solver.kernels.gas import Air, advance_gas
-from balloon_usd.solver.kernels.membrane import lift_of_corner, wall_of_quad
+from balloon_usd.solver.kernels.membrane import wall_of_quad
 from balloon_usd.solver.kernels.rubber import Knot, Law
 
 
@@ -45,7 +45,7 @@ def quad_forces(
         lift,
     )
     for k in range(4):
-        push = pressure[quad_segment[q]] * lift_of_corner(q, k, lift)
+        push = pressure[quad_segment[q]] * lift[q, k]
         corner_force[q, k] = corner_force[q, k] + push
 
 

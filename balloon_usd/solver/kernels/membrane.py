@@ -140,16 +140,20 @@ def forces_of_quad(
 
 @wp.func
 def lifts_of_quad(x0: wp.vec3, x1: wp.vec3, x2: wp.vec3, x3: wp.vec3, origin: wp.vec3):
-    """Return what gas will push on (m2), three vectors of which `lift_of_corner` makes four, and the volume
-    (m3) between a quad and an origin.
+    """Return the exact gradients (m2) of the volume between a quad, a bilinear patch, and an origin by its
+    four corners, which gas pushes on, and the volume (m3).
     """
     hoop, axial = edges_of_quad(x0, x1, x2, x3)
     normal = wp.cross(hoop, axial)
     bent = x0 - x1 + x2 - x3
+    mean = 0.25 * normal
+    hoopwise = wp.cross(hoop, bent) * (1.0 / 24.0)
+    axialwise = wp.cross(bent, axial) * (1.0 / 24.0)
     return (
-        0.25 * normal,
-        wp.cross(hoop, bent) * (1.0 / 24.0),
-        wp.cross(bent, axial) * (1.0 / 24.0),
+        mean - hoopwise - axialwise,
+        mean + hoopwise - axialwise,
+        mean + hoopwise + axialwise,
+        mean - hoopwise + axialwise,
         wp.dot(0.25 * (x0 + x1 + x2 + x3) - origin, normal) * (1.0 / 3.0),
     )
 
@@ -210,19 +214,12 @@ def wall_of_quad(
     corner_force[q, 1] = f1
     corner_force[q, 2] = f2
     corner_force[q, 3] = f3
-    l0, l1, l2, volume = lifts_of_quad(x0, x1, x2, x3, origin)
+    l0, l1, l2, l3, volume = lifts_of_quad(x0, x1, x2, x3, origin)
     lift[q, 0] = l0
     lift[q, 1] = l1
     lift[q, 2] = l2
+    lift[q, 3] = l3
     return volume
-
-
-@wp.func
-def lift_of_corner(q: int, corner: int, lift: wp.array2d[wp.vec3]):
-    """Return the exact gradient (m2) of the volume under a bilinear patch by one of its corners."""
-    hoop = wp.where(corner == 1 or corner == 2, 1.0, -1.0)
-    axial = wp.where(corner >= 2, 1.0, -1.0)
-    return lift[q, 0] + hoop * lift[q, 1] + axial * lift[q, 2]
 
 
 @wp.func

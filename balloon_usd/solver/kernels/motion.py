@@ -2,8 +2,6 @@
 
 import warp as wp
 
-from balloon_usd.solver.kernels.membrane import lift_of_corner
-
 
 @wp.struct
 class Spin:
@@ -49,7 +47,7 @@ def force_of_further_quads(
             if slots[k] >= 0:
                 q = slots[k] >> 2
                 corner = slots[k] & 3
-                f += corner_force[q, corner] + inside * lift_of_corner(q, corner, lift)
+                f += corner_force[q, corner] + inside * lift[q, corner]
         more = -2 - slots[3]
     return f
 
@@ -78,7 +76,7 @@ def force_on_vertex(
         q = slot >> 2
         corner = slot & 3
         p = wp.where(quad_segment[q] == side, inside, beyond)
-        g = corner_force[q, corner] + p * lift_of_corner(q, corner, lift)
+        g = corner_force[q, corner] + p * lift[q, corner]
         f += wp.where(slots[k] >= 0, g, wp.vec3(0.0))
     return f
 

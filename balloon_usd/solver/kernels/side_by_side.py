@@ -25,8 +25,8 @@ of rubber and peak energy.
 """
 Asked = wp.types.matrix(shape=(5, ABREAST), dtype=float)
 """Rows of two squared stretches, and of the three at which the law is taken or of what it says."""
-Found = wp.types.matrix(shape=(23, ABREAST), dtype=float)
-"""Rows of four forces, three lifts, volume and peak energy."""
+Found = wp.types.matrix(shape=(26, ABREAST), dtype=float)
+"""Rows of four forces, four lifts, volume and peak energy."""
 
 
 @wp.func
@@ -127,7 +127,7 @@ def walls_abreast(
                     g[18:21, k],
                     g[21:24, k],
                 )
-                l0, l1, l2, volume = lifts_of_quad(g[0:3, k], g[3:6, k], g[6:9, k], g[9:12, k], origin)
+                l0, l1, l2, l3, volume = lifts_of_quad(g[0:3, k], g[3:6, k], g[6:9, k], g[9:12, k], origin)
                 r[0:3, k] = f0
                 r[3:6, k] = f1
                 r[6:9, k] = f2
@@ -135,8 +135,9 @@ def walls_abreast(
                 r[12:15, k] = l0
                 r[15:18, k] = l1
                 r[18:21, k] = l2
-                r[21, k] = volume
-                r[22, k] = reached
+                r[21:24, k] = l3
+                r[24, k] = volume
+                r[25, k] = reached
                 k += 1
             k = int(0)
             while k < wp.min(ROW, last - first):
@@ -148,8 +149,9 @@ def walls_abreast(
                 lift[done, 0] = r[12:15, k]
                 lift[done, 1] = r[15:18, k]
                 lift[done, 2] = r[18:21, k]
-                total += r[21, k]
-                peak_energy[done] = r[22, k]
+                lift[done, 3] = r[21:24, k]
+                total += r[24, k]
+                peak_energy[done] = r[25, k]
                 k += 1
             first += ROW
         chunk_share[chunk] = total
