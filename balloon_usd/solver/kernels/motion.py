@@ -2,6 +2,8 @@
 
 import warp as wp
 
+from balloon_usd.solver.kernels.lanes import counted
+
 
 @wp.struct
 class Spin:
@@ -68,7 +70,7 @@ def force_on_vertex(
 
     `inside`, `beyond`: gauge pressures (Pa) in the segment `side` and in the other that it may border on.
     """
-    slots = corners[i]
+    slots = corners[counted(i)]
     f = contact_force[i, 0] + contact_force[i, 1]
     # No load waits for a decision: where there is no quad, one is read and left out.
     for k in range(4):
@@ -99,7 +101,7 @@ def step_of_vertex(
     """Return where a force (N) moves a vertex (m) and its speed there (m/s), by symplectic Euler
     (Kosaka 2008, eqs. 3.22 and 3.23).
     """
-    b = vertex_balloon[i]
+    b = counted(vertex_balloon[counted(i)])
     turn = spin[b]
     along = vertex_along[i]
     pull = wp.vec3(0.0, 0.0, -gravity[b] * weight[i])

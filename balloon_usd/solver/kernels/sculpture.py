@@ -20,6 +20,7 @@ from balloon_usd.solver.kernels.lanes import (
     WARP,
     block_meets,
     blocks_meet,
+    counted,
     few_sum,
     lane_is_alone,
     lanes_sum,
@@ -252,7 +253,7 @@ def advance_sculptures(
         if walls == 1:
             for i in range(vertex_begin + lanes - 1 - me, vertex_end, lanes):
                 press_wall(
-                    i,
+                    counted(i),
                     quads,
                     mass,
                     touch,
@@ -310,7 +311,9 @@ def advance_sculptures(
         if other >= 0:
             if walls == 1:
                 for q in range(quad_begin + other, quad_end, others):
-                    press_quad_back(q, quads, hit_count, hits, contact_force, contact_place, x, corner_force)
+                    press_quad_back(
+                        counted(q), quads, hit_count, hits, contact_force, contact_place, x, corner_force
+                    )
             slots = joint_struts.shape[1]
             # From the other end: those that press no wall back.
             for at in range(joint_begin * slots + others - 1 - other, joint_end * slots, others):
@@ -376,9 +379,9 @@ def advance_sculptures(
                 hand_load,
             )
         for i in range(vertex_begin + lanes - 1 - me, vertex_end, lanes):
-            if vertex_joint[i] < 0:
+            if vertex_joint[counted(i)] < 0:
                 move_vertex(
-                    i,
+                    counted(i),
                     corners,
                     vertex_balloon,
                     vertex_segment,
