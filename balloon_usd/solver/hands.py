@@ -211,6 +211,7 @@ class Hands:
         size = np.zeros(rows, dtype=np.int32)
         reach, gap = np.zeros(rows, dtype=np.float32), np.zeros(rows, dtype=np.float32)
         of_joint = np.zeros(len(self.mode), dtype=np.int32)
+        leader = np.arange(len(self.mode), dtype=np.int32)
         count = len(self.welds)
         size[:count] = [len(group) for group in self.welds]
         joints = np.array([j for group in self.welds for j in group], dtype=np.int32)
@@ -218,6 +219,7 @@ class Hands:
         weld = np.repeat(np.arange(count), size[:count])
         joint[weld, np.arange(len(joints)) - first[weld]] = joints
         of_joint[joints] = weld + 1
+        leader[joints] = joints[first][weld]
         gap[:count], reach[:count] = np.array([self._weld_size(g) for g in self.welds]).reshape(-1, 2).T
         of_world = np.bincount(self._ring_world[joints[first]], minlength=max(s.worlds) + 1)
         for name, values in (
@@ -226,6 +228,7 @@ class Hands:
             ("weld_reach", reach),
             ("weld_gap", gap),
             ("joint_weld", of_joint),
+            ("joint_leader", leader),
             ("world_welds", of_world.astype(np.int32)),
         ):
             s.arrays[name].assign(values)

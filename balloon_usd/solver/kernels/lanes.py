@@ -2,22 +2,14 @@
 other. On the CPU every lane is alone.
 """
 
-from collections.abc import Callable
-from typing import TypeVar, cast
-
 import warp as wp
 
-Stub = TypeVar("Stub")
+from balloon_usd.solver.kernels.native import native
 
 WARP = 32
 """Lanes of a warp."""
 FEW = 8
 """Lanes that sum what is too little for a warp."""
-
-
-def _native(snippet: str) -> Callable[[Stub], Stub]:
-    """Return the decorator that gives a stub its code, with the stub's own type."""
-    return cast("Callable[[Stub], Stub]", wp.func_native(snippet))
 
 
 _OVER_LANES = """
@@ -32,7 +24,7 @@ return value;
 """
 
 
-@_native(
+@native(
     _OVER_LANES.format(lanes=WARP, type="float", add="total += __shfl_xor_sync(0xffffffffu, total, step);"),
 )
 def lanes_sum(value: float) -> float:
@@ -40,17 +32,15 @@ def lanes_sum(value: float) -> float:
     return value
 
 
-@_native(
-    _OVER_LANES.format(
-        lanes=FEW, type="float", add="total += __shfl_xor_sync(0xffu << (threadIdx.x & 24), total, step);"
-    ),
+@native(
+    _OVER_LANES.format(lanes=FEW, type="float", add="total += __shfl_xor_sync(0xffffffffu, total, step);"),
 )
 def few_sum(value: float) -> float:
     """Return the sum over a few lanes, in a fixed order."""
     return value
 
 
-@_native(
+@native(
     _OVER_LANES.format(
         lanes=WARP,
         type="wp::vec_t<3, float>",
@@ -62,7 +52,7 @@ def lanes_sum3(value: wp.vec3) -> wp.vec3:
     return value
 
 
-@_native(
+@native(
     _OVER_LANES.format(
         lanes=WARP,
         type="wp::vec_t<3, float>",
@@ -75,7 +65,7 @@ def lanes_max3(value: wp.vec3) -> wp.vec3:
     return value
 
 
-@_native("""
+@native("""
 #if defined(__CUDA_ARCH__)
 return (int)__ballot_sync(0xffffffffu, yes);
 #else
@@ -87,7 +77,7 @@ def lanes_that(yes: int) -> int:
     return yes
 
 
-@_native("""
+@native("""
 #if defined(__CUDA_ARCH__)
 return __ffs(bits) - 1;
 #else
@@ -99,7 +89,7 @@ def lowest(bits: int) -> int:
     return bits
 
 
-@_native(
+@native(
     _OVER_LANES.format(
         lanes=WARP, type="float", add="total = fminf(total, __shfl_xor_sync(0xffffffffu, total, step));"
     ),
@@ -109,7 +99,7 @@ def lanes_least(value: float) -> float:
     return value
 
 
-@_native(
+@native(
     _OVER_LANES.format(
         lanes=WARP, type="int", add="total = max(total, __shfl_xor_sync(0xffffffffu, total, step));"
     ),
@@ -119,7 +109,13 @@ def lanes_most(value: int) -> int:
     return value
 
 
-@_native("""
+@native("return WP_TILE_BLOCK_DIM;")
+def block_lanes() -> int:
+    """Return how many lanes a block has: known when the kernel is compiled, as that of Warp is not."""
+    return 1
+
+
+@native("""
 #if defined(__CUDA_ARCH__)
 __syncwarp();
 #endif
@@ -129,7 +125,7 @@ def lanes_meet():
     ...
 
 
-@_native("""
+@native("""
 #if defined(__CUDA_ARCH__)
 __syncthreads();
 #endif
@@ -139,7 +135,7 @@ def block_meets():
     ...
 
 
-@_native("""
+@native("""
 #if defined(__CUDA_ARCH__)
 __syncthreads();
 if (blocks > 1) {

@@ -2,6 +2,8 @@
 
 import warp as wp
 
+from balloon_usd.solver.kernels.at import float_at, int_at, mat22_at, put_float, vec3_at, vec4_at, vec4i_at
+from balloon_usd.solver.kernels.planes import put, read
 from balloon_usd.solver.kernels.rubber import LEAST_ENERGY, Knot, Law, membrane_law, softening_factor
 
 MIN_STRETCH = wp.constant(0.05)
@@ -27,21 +29,21 @@ def wall_of_quad(
     origin: wp.vec3,
     softening_rate: wp.array[float],
     peak_energy: wp.array[float],
-    corner_force: wp.array2d[wp.vec3],
-    lift: wp.array2d[wp.vec3],
+    corner_force: wp.array2d[float],
+    lift: wp.array2d[float],
 ):
     """Write the force (N) of the wall on the four corners of a quad and what gas will push on (m2), and
     return the volume (m3) between the quad and an origin.
     """
-    c = quads[q]
-    law = laws[quad_law[q]]
-    x0 = x[c[0]]
-    x1 = x[c[1]]
-    x2 = x[c[2]]
-    x3 = x[c[3]]
+    c = vec4i_at(quads, q)
+    law = laws[int_at(quad_law, q)]
+    x0 = vec3_at(x, c[0])
+    x1 = vec3_at(x, c[1])
+    x2 = vec3_at(x, c[2])
+    x3 = vec3_at(x, c[3])
     hoop = 0.5 * (x1 - x0 + x2 - x3)
     axial = 0.5 * (x3 - x0 + x2 - x1)
-    b = to_rest[q]
+    b = mat22_at(to_rest, q)
     f1 = hoop * b[0, 0] + axial * b[1, 0]
     f2 = hoop * b[0, 1] + axial * b[1, 1]
     c11 = wp.dot(f1, f1)
@@ -49,7 +51,7 @@ def wall_of_quad(
     c12 = wp.dot(f1, f2)
 
     # Squared principal stretches of the mean deformation. Divisions come first: nothing waits for them then.
-    known = peak_energy[q]
+    known = float_at(peak_energy, q)
     inverse_known = 1.0 / wp.max(known, LEAST_ENERGY)
     mean = 0.5 * (c11 + c22)
     radius = wp.sqrt(wp.max(0.25 * (c11 - c22) * (c11 - c22) + c12 * c12, 0.0))
@@ -62,7 +64,7 @@ def wall_of_quad(
     if large2 > 1.0:
         t = membrane_law(law, curves, large2, small2)
         peak = wp.max(known, t[2])
-        peak_energy[q] = known + softening_rate[quad_law[q]] * (peak - known)
+        put_float(peak_energy, q, known + float_at(softening_rate, int_at(quad_law, q)) * (peak - known))
         soft = softening_factor(law, t[2], peak, inverse_known)
         stress_large = soft * t[0]
         stress_small = soft * t[1]
@@ -75,10 +77,10 @@ def wall_of_quad(
     s22 = isotropic + linear * c22
     s12 = linear * c12
 
-    v0 = v[c[0]]
-    v1 = v[c[1]]
-    v2 = v[c[2]]
-    v3 = v[c[3]]
+    v0 = vec3_at(v, c[0])
+    v1 = vec3_at(v, c[1])
+    v2 = vec3_at(v, c[2])
+    v3 = vec3_at(v, c[3])
     hoop_rate = 0.5 * (v1 - v0 + v2 - v3)
     axial_rate = 0.5 * (v3 - v0 + v2 - v1)
     g1 = hoop_rate * b[0, 0] + axial_rate * b[1, 0]
@@ -88,7 +90,7 @@ def wall_of_quad(
     s22 += viscous * wp.dot(f2, g2)
     s12 += viscous * 0.5 * (wp.dot(f1, g2) + wp.dot(f2, g1))
 
-    w = rubber_volume[q]
+    w = float_at(rubber_volume, q)
     p1 = w * (f1 * s11 + f2 * s12)
     p2 = w * (f1 * s12 + f2 * s22)
     pull_hoop = 0.5 * (p1 * b[0, 0] + p2 * b[0, 1])
@@ -96,7 +98,7 @@ def wall_of_quad(
 
     # Hourglass: the one deformation that the mean gradient does not see. What is damped are its products
     # with hoop, axial and normal, the changes seen from the quad itself: a turning quad feels no torque.
-    h = hourglass[q]
+    h = vec4_at(hourglass, q)
     bow = h[0] * x0 + h[1] * x1 + h[2] * x2 + h[3] * x3
     bow_rate = h[0] * v0 + h[1] * v1 + h[2] * v2 + h[3] * v3
     normal = wp.cross(hoop, axial)
@@ -119,32 +121,32 @@ def wall_of_quad(
     fb = -pull_hoop - pull_axial + h[2] * resist
     fc = pull_hoop - pull_axial + h[3] * resist
 
-    corner_force[q, 0] = f0
-    corner_force[q, 1] = fa
-    corner_force[q, 2] = fb
-    corner_force[q, 3] = fc
+    put(corner_force, q, 0, f0)
+    put(corner_force, q, 1, fa)
+    put(corner_force, q, 2, fb)
+    put(corner_force, q, 3, fc)
 
-    lift[q, 0] = 0.25 * normal
-    lift[q, 1] = wp.cross(hoop, bent) / 24.0
-    lift[q, 2] = wp.cross(bent, axial) / 24.0
+    put(lift, q, 0, 0.25 * normal)
+    put(lift, q, 1, wp.cross(hoop, bent) / 24.0)
+    put(lift, q, 2, wp.cross(bent, axial) / 24.0)
     return wp.dot(0.25 * (x0 + x1 + x2 + x3) - origin, normal) / 3.0
 
 
 @wp.func
-def lift_of_corner(q: int, corner: int, lift: wp.array2d[wp.vec3]):
+def lift_of_corner(q: int, corner: int, lift: wp.array2d[float]):
     """Return the exact gradient (m2) of the volume under a bilinear patch by one of its corners."""
     hoop = wp.where(corner == 1 or corner == 2, 1.0, -1.0)
     axial = wp.where(corner >= 2, 1.0, -1.0)
-    return lift[q, 0] + hoop * lift[q, 1] + axial * lift[q, 2]
+    return read(lift, q, 0) + hoop * read(lift, q, 1) + axial * read(lift, q, 2)
 
 
 @wp.func
 def stretch_of_quad(q: int, quads: wp.array[wp.vec4i], to_rest: wp.array[wp.mat22], x: wp.array[wp.vec3]):
     """Return the largest principal stretch of a quad's mean deformation."""
-    c = quads[q]
-    b = to_rest[q]
-    hoop = 0.5 * (x[c[1]] - x[c[0]] + x[c[2]] - x[c[3]])
-    axial = 0.5 * (x[c[3]] - x[c[0]] + x[c[2]] - x[c[1]])
+    c = vec4i_at(quads, q)
+    b = mat22_at(to_rest, q)
+    hoop = 0.5 * (vec3_at(x, c[1]) - vec3_at(x, c[0]) + vec3_at(x, c[2]) - vec3_at(x, c[3]))
+    axial = 0.5 * (vec3_at(x, c[3]) - vec3_at(x, c[0]) + vec3_at(x, c[2]) - vec3_at(x, c[1]))
     f1 = hoop * b[0, 0] + axial * b[1, 0]
     f2 = hoop * b[0, 1] + axial * b[1, 1]
     c11 = wp.dot(f1, f1)
@@ -168,10 +170,10 @@ def vertex_stretch(
     count = float(0.0)
     row = int(i)
     while row >= 0:
-        slots = corners[row]
+        slots = vec4i_at(corners, row)
         for k in range(4):
             if slots[k] >= 0:
                 total += stretch_of_quad(slots[k] // 4, quads, to_rest, x)
                 count += 1.0
         row = -2 - slots[3]
-    stretch[i] = total / wp.max(count, 1.0)
+    put_float(stretch, i, total / wp.max(count, 1.0))

@@ -40,13 +40,14 @@ class Crew:
         ):
             scene.put({f"world_{name}": scene.by_world(starts)})
         # While some look after the quads of a chunk, others see to the vertices that touch something.
-        vertices, chunks = scene.world_vertex.numpy(), scene.world_chunk.numpy()
-        need = int((np.diff(vertices) + WARP * np.diff(chunks)).max())
+        vertices, chunks = np.diff(scene.world_vertex.numpy()), np.diff(scene.world_chunk.numpy())
+        need = int((vertices + WARP * chunks).max())
         device = wp.get_device(scene.device)
         at_once = device.sm_count // worlds if device.is_cuda else 1
         # Where there is room, more blocks of fewer lanes: each has more of its processor.
         self.lanes = LANES // 2 if need <= LANES * at_once else LANES
         self.blocks = max(1, min(-(-need // self.lanes), at_once))
+        self._most_vertices = int(vertices.max())
         crowded = worlds > device.sm_count if device.is_cuda else False
         self._kernel = _quick_kernel(crowded=crowded) if device.is_cuda else advance_sculptures
         scene.zeros("gates", worlds, int)
@@ -62,12 +63,17 @@ class Crew:
             worlds * self.blocks,
             lanes=self.lanes,
             crew=self.blocks,
+            joint_blocks=self._blocks_without_vertices() or self.blocks,
             substeps=substeps,
             begin=begin,
             end=end,
             walls=int(contact),
             pressing=int(fingers),
         )
+
+    def _blocks_without_vertices(self) -> int:
+        """Return how many blocks of a sculpture need not move any vertex but those of joints."""
+        return max(0, self.blocks - -(-self._most_vertices // self.lanes))
 
 
 @cache
