@@ -4,7 +4,7 @@ import warp as wp
 
 from balloon_usd.solver.kernels.gas import Air, advance_gas
 from balloon_usd.solver.kernels.membrane import lift_of_corner, wall_of_quad
-from balloon_usd.solver.kernels.planes import put, read
+from balloon_usd.solver.kernels.planes import put, seen_in
 from balloon_usd.solver.kernels.rubber import Knot, Law
 
 
@@ -47,7 +47,7 @@ def quad_forces(
     )
     for k in range(4):
         push = pressure[quad_segment[q]] * lift_of_corner(q, k, lift)
-        put(corner_force, q, k, read(corner_force, q, k) + push)
+        put(corner_force, q, k, seen_in(corner_force, q, k) + push)
 
 
 @wp.kernel

@@ -11,7 +11,8 @@ from balloon_usd.solver.kernels.lanes import (
     lanes_that,
     lowest,
 )
-from balloon_usd.solver.kernels.planes import put, read
+from balloon_usd.solver.kernels.planes import put, seen_in
+from balloon_usd.solver.kernels.seen import vec2_seen, vec3_seen
 
 TARGETS = 2
 """Walls that one vertex may touch at a time."""
@@ -406,11 +407,11 @@ def press_wall(
         q = int_in(target, i, k)
         if q >= 0:
             c = vec4i_at(quads, q)
-            p = vec3_at(x, i)
-            x0 = vec3_at(x, c[0])
-            x1 = vec3_at(x, c[1])
-            x2 = vec3_at(x, c[2])
-            x3 = vec3_at(x, c[3])
+            p = vec3_seen(x, i)
+            x0 = vec3_seen(x, c[0])
+            x1 = vec3_seen(x, c[1])
+            x2 = vec3_seen(x, c[2])
+            x3 = vec3_seen(x, c[3])
             # It slides little in a substep: one step from where it was is enough.
             place = nearer_on_patch(x0, x1, x2, x3, p, vec2_at(contact_place, 2 * i + k))
             s = patch_shares(place)
@@ -434,11 +435,11 @@ def press_wall(
                 stiffness = wp.min(
                     touch.pressure * float_at(area, i) / touch.offset, STABLE * lightest / (dt * dt * crowd)
                 )
-                going = vec3_at(v, i) - (
-                    s[0] * vec3_at(v, c[0])
-                    + s[1] * vec3_at(v, c[1])
-                    + s[2] * vec3_at(v, c[2])
-                    + s[3] * vec3_at(v, c[3])
+                going = vec3_seen(v, i) - (
+                    s[0] * vec3_seen(v, c[0])
+                    + s[1] * vec3_seen(v, c[1])
+                    + s[2] * vec3_seen(v, c[2])
+                    + s[3] * vec3_seen(v, c[3])
                 )
                 approach = wp.dot(going, face)
                 near = wp.min(overlap / touch.offset, 1.0)
@@ -485,10 +486,10 @@ def press_quad_back(
     if count == 0:
         return
     c = vec4i_at(quads, q)
-    x0 = vec3_at(x, c[0])
-    x1 = vec3_at(x, c[1])
-    x2 = vec3_at(x, c[2])
-    x3 = vec3_at(x, c[3])
+    x0 = vec3_seen(x, c[0])
+    x1 = vec3_seen(x, c[1])
+    x2 = vec3_seen(x, c[2])
+    x3 = vec3_seen(x, c[3])
     middle = 0.25 * (x0 + x1 + x2 + x3)
     r0 = x0 - middle
     r1 = x1 - middle
@@ -501,16 +502,16 @@ def press_quad_back(
     couple = wp.vec3(0.0)
     for k in range(count):
         hit = int_in(hits, q, k)
-        f = read(contact_force, hit // 2, hit % 2)
-        share = patch_shares(vec2_at(contact_place, hit))
+        f = seen_in(contact_force, hit // 2, hit % 2)
+        share = patch_shares(vec2_seen(contact_place, hit))
         f0 += share[0] * f
         f1 += share[1] * f
         f2 += share[2] * f
         f3 += share[3] * f
         touched = middle + share[0] * r0 + share[1] * r1 + share[2] * r2 + share[3] * r3
-        couple += wp.cross(vec3_at(x, hit // 2) - touched, f)
+        couple += wp.cross(vec3_seen(x, hit // 2) - touched, f)
     turn = balancing_turn(r0, r1, r2, r3, couple)
-    put(corner_force, q, 0, read(corner_force, q, 0) - f0 - wp.cross(turn, r0))
-    put(corner_force, q, 1, read(corner_force, q, 1) - f1 - wp.cross(turn, r1))
-    put(corner_force, q, 2, read(corner_force, q, 2) - f2 - wp.cross(turn, r2))
-    put(corner_force, q, 3, read(corner_force, q, 3) - f3 - wp.cross(turn, r3))
+    put(corner_force, q, 0, seen_in(corner_force, q, 0) - f0 - wp.cross(turn, r0))
+    put(corner_force, q, 1, seen_in(corner_force, q, 1) - f1 - wp.cross(turn, r1))
+    put(corner_force, q, 2, seen_in(corner_force, q, 2) - f2 - wp.cross(turn, r2))
+    put(corner_force, q, 3, seen_in(corner_force, q, 3) - f3 - wp.cross(turn, r3))

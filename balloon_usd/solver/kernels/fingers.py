@@ -2,7 +2,8 @@
 
 import warp as wp
 
-from balloon_usd.solver.kernels.at import float_at, int_at, put_vec3, vec3_at
+from balloon_usd.solver.kernels.at import float_at, int_at, put_vec3
+from balloon_usd.solver.kernels.seen import vec3_seen
 
 
 @wp.struct
@@ -42,8 +43,8 @@ def press_finger(
         finger = fingers[int_at(vertex_balloon, i)]
         load = share * wp.lerp(finger.load_start, finger.load_end, fraction) * (dt / float_at(mass, i))
         tip = finger.start + fraction * (finger.end - finger.start)
-        behind = wp.max(wp.dot(tip - vec3_at(x, i), finger.along), 0.0)
-        put_vec3(v, i, vec3_at(v, i) + (load + share * finger.stiff * behind / dt) * finger.along)
+        behind = wp.max(wp.dot(tip - vec3_seen(x, i), finger.along), 0.0)
+        put_vec3(v, i, vec3_seen(v, i) + (load + share * finger.stiff * behind / dt) * finger.along)
 
 
 @wp.kernel

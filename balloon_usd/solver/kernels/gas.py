@@ -4,6 +4,7 @@ import warp as wp
 
 from balloon_usd.solver.kernels.at import float_at, int_at, put_float, vec3_at, vec4i_at
 from balloon_usd.solver.kernels.lanes import lanes_meet
+from balloon_usd.solver.kernels.seen import vec3_seen
 
 
 @wp.func
@@ -28,8 +29,8 @@ def volume_of_fans(
     # No load waits for a decision: where there is no ring, one is read and left out.
     first = wp.max(start, 0)
     last = wp.max(end, 0)
-    begins = wp.dot(vec3_at(ring_middle, first) - o, vec3_at(ring_area, first))
-    ends = wp.dot(vec3_at(ring_middle, last) - o, vec3_at(ring_area, last))
+    begins = wp.dot(vec3_seen(ring_middle, first) - o, vec3_seen(ring_area, first))
+    ends = wp.dot(vec3_seen(ring_middle, last) - o, vec3_seen(ring_area, last))
     return (wp.where(end >= 0, ends, 0.0) - wp.where(start >= 0, begins, 0.0)) / 3.0
 
 

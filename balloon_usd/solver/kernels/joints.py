@@ -17,6 +17,7 @@ from balloon_usd.solver.kernels.at import (
 from balloon_usd.solver.kernels.gas import fan_gradient
 from balloon_usd.solver.kernels.lanes import lanes_meet, lanes_sum3, lanes_that
 from balloon_usd.solver.kernels.motion import Spin, force_on_vertex, step_of_vertex
+from balloon_usd.solver.kernels.seen import float_seen, vec3_seen
 
 GRIP_MODE = 1
 LEAD_MODE = 2
@@ -99,7 +100,7 @@ def ring_fan(first: int, n: int, c: wp.vec3, lane: int, lanes: int, x: wp.array[
     """
     fan = wp.vec3(0.0)
     for k in range(lane, n, lanes):
-        fan += wp.cross(vec3_at(x, first + (k + n - 1) % n) - c, vec3_at(x, first + k) - c)
+        fan += wp.cross(vec3_seen(x, first + (k + n - 1) % n) - c, vec3_seen(x, first + k) - c)
     return 0.5 * fan
 
 
@@ -138,9 +139,9 @@ def measure_open_ring(
 ):
     """Write the vector area (m2) of a ring that parts two chambers and is not being closed."""
     if int_at(joint_parts, j) == 1 and float_at(radius_to, j) == 0.0:
-        area = lanes_sum3(
-            ring_fan(int_at(joint_first, j), int_at(joint_around, j), vec3_at(ring_middle, j), lane, lanes, x)
-        )
+        first = int_at(joint_first, j)
+        n = int_at(joint_around, j)
+        area = lanes_sum3(ring_fan(first, n, vec3_seen(ring_middle, j), lane, lanes, x))
         if lane == 0:
             put_vec3(ring_area, j, area)
 
@@ -209,12 +210,12 @@ def move_joint(
     wanted = (vec3_at(hand_to, j) - start) / frame_seconds
     # All places are taken from where the middle was: sums of small numbers lose nothing.
     home = vec3_at(ring_middle, j)
-    area = vec3_at(ring_area, j)
+    area = vec3_seen(ring_area, j)
     axes = ring_axes[j]
     beside = vec2i_at(joint_beside, j)
     side = beside[0]
-    inside = float_at(pressure, side)
-    outside = float_at(pressure, beside[1])
+    inside = float_seen(pressure, side)
+    outside = float_seen(pressure, beside[1])
     heavy = float_at(joint_mass, j)
     grip = float_at(hand_force, j)
     stiffness = float_at(hand_stiffness, j)
@@ -224,7 +225,7 @@ def move_joint(
     force = wp.vec3(0.0)
     for k in range(lane, joint_struts.shape[1], lanes):
         strut = int_in(joint_struts, j, k)
-        pull = vec3_at(strut_force, wp.max(wp.abs(strut) - 1, 0))
+        pull = vec3_seen(strut_force, wp.max(wp.abs(strut) - 1, 0))
         force += wp.where(strut == 0, wp.vec3(0.0), wp.where(strut > 0, pull, -pull))
     p = wp.vec3(0.0)
     s = wp.vec3(0.0)
@@ -324,13 +325,13 @@ def measure_rings(
     n = int_at(joint_around, j)
     c = wp.vec3(0.0)
     for k in range(lane, n, lanes):
-        c += vec3_at(x, first + k)
+        c += vec3_seen(x, first + k)
     c = lanes_sum3(c) / float(n)
     a = wp.vec3(0.0)
     b = wp.vec3(0.0)
     for k in range(lane, n, lanes):
-        a += vec2_at(corner, first + k)[0] * (vec3_at(x, first + k) - c)
-        b += vec2_at(corner, first + k)[1] * (vec3_at(x, first + k) - c)
+        a += vec2_at(corner, first + k)[0] * (vec3_seen(x, first + k) - c)
+        b += vec2_at(corner, first + k)[1] * (vec3_seen(x, first + k) - c)
     axes = nearest_axes(lanes_sum3(a), lanes_sum3(b))
     area = lanes_sum3(ring_fan(first, n, c, lane, lanes, x))
     if lane == 0:
@@ -422,7 +423,7 @@ def load_strut(
     ends = vec2i_at(strut_joint, s)
     pull = wp.vec3(0.0)
     if ends[0] >= 0:
-        d = vec3_at(ring_middle, ends[1]) - vec3_at(ring_middle, ends[0])
+        d = vec3_seen(ring_middle, ends[1]) - vec3_seen(ring_middle, ends[0])
         now = wp.length(d)
         along = d / wp.max(now, 1.0e-6)
         tension = float_at(strut_stiffness, s) * (now - float_at(strut_length, s))
@@ -433,7 +434,7 @@ def load_strut(
             put_float(strut_length, s, now + float_at(strut_yield, s) / float_at(strut_stiffness, s))
             tension = -float_at(strut_yield, s)
         tension += float_at(strut_damping, s) * wp.dot(
-            vec3_at(ring_speed, ends[1]) - vec3_at(ring_speed, ends[0]), along
+            vec3_seen(ring_speed, ends[1]) - vec3_seen(ring_speed, ends[0]), along
         )
         pull = tension * along
     put_vec3(strut_force, s, pull)

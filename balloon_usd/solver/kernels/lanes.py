@@ -144,7 +144,7 @@ if (blocks > 1) {
         asm volatile("red.release.gpu.global.add.s32 [%0], 1;" :: "l"(gate) : "memory");
         int come = 0;
         do {
-            asm volatile("ld.acquire.gpu.global.s32 %0, [%1];" : "=r"(come) : "l"(gate) : "memory");
+            asm volatile("ld.relaxed.gpu.global.s32 %0, [%1];" : "=r"(come) : "l"(gate) : "memory");
         } while (come < goal);
     }
     __syncthreads();
@@ -152,7 +152,7 @@ if (blocks > 1) {
 #endif
 """)
 def blocks_meet(gates: wp.array[int], sculpture: int, blocks: int, goal: int, lane: int):
-    """Let all blocks of a sculpture see what the others wrote.
+    """Let all blocks of a sculpture see what the others wrote, where they read it as `seen`.
 
     `goal`: what its gate counts when all have come, `blocks` more than at the last meeting.
     """

@@ -3,8 +3,9 @@
 import warp as wp
 
 from balloon_usd.solver.kernels.at import float_at, int_at, mat22_at, put_float, vec3_at, vec4_at, vec4i_at
-from balloon_usd.solver.kernels.planes import put, read
+from balloon_usd.solver.kernels.planes import put, seen_in
 from balloon_usd.solver.kernels.rubber import LEAST_ENERGY, Knot, Law, membrane_law, softening_factor
+from balloon_usd.solver.kernels.seen import vec3_seen
 
 MIN_STRETCH = wp.constant(0.05)
 """Smallest stretch that enters a rubber law (1): a collapsed quad must not divide by zero."""
@@ -37,10 +38,10 @@ def wall_of_quad(
     """
     c = vec4i_at(quads, q)
     law = laws[int_at(quad_law, q)]
-    x0 = vec3_at(x, c[0])
-    x1 = vec3_at(x, c[1])
-    x2 = vec3_at(x, c[2])
-    x3 = vec3_at(x, c[3])
+    x0 = vec3_seen(x, c[0])
+    x1 = vec3_seen(x, c[1])
+    x2 = vec3_seen(x, c[2])
+    x3 = vec3_seen(x, c[3])
     hoop = 0.5 * (x1 - x0 + x2 - x3)
     axial = 0.5 * (x3 - x0 + x2 - x1)
     b = mat22_at(to_rest, q)
@@ -77,10 +78,10 @@ def wall_of_quad(
     s22 = isotropic + linear * c22
     s12 = linear * c12
 
-    v0 = vec3_at(v, c[0])
-    v1 = vec3_at(v, c[1])
-    v2 = vec3_at(v, c[2])
-    v3 = vec3_at(v, c[3])
+    v0 = vec3_seen(v, c[0])
+    v1 = vec3_seen(v, c[1])
+    v2 = vec3_seen(v, c[2])
+    v3 = vec3_seen(v, c[3])
     hoop_rate = 0.5 * (v1 - v0 + v2 - v3)
     axial_rate = 0.5 * (v3 - v0 + v2 - v1)
     g1 = hoop_rate * b[0, 0] + axial_rate * b[1, 0]
@@ -137,7 +138,7 @@ def lift_of_corner(q: int, corner: int, lift: wp.array2d[float]):
     """Return the exact gradient (m2) of the volume under a bilinear patch by one of its corners."""
     hoop = wp.where(corner == 1 or corner == 2, 1.0, -1.0)
     axial = wp.where(corner >= 2, 1.0, -1.0)
-    return read(lift, q, 0) + hoop * read(lift, q, 1) + axial * read(lift, q, 2)
+    return seen_in(lift, q, 0) + hoop * seen_in(lift, q, 1) + axial * seen_in(lift, q, 2)
 
 
 @wp.func

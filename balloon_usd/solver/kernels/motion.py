@@ -2,9 +2,10 @@
 
 import warp as wp
 
-from balloon_usd.solver.kernels.at import float_at, int_at, put_vec3, vec3_at, vec4i_at
+from balloon_usd.solver.kernels.at import float_at, int_at, put_vec3, vec4i_at
 from balloon_usd.solver.kernels.membrane import lift_of_corner
-from balloon_usd.solver.kernels.planes import read
+from balloon_usd.solver.kernels.planes import seen_in
+from balloon_usd.solver.kernels.seen import float_seen, vec3_seen
 
 
 @wp.struct
@@ -51,7 +52,7 @@ def force_of_further_quads(
             if slots[k] >= 0:
                 q = slots[k] >> 2
                 corner = slots[k] & 3
-                f += read(corner_force, q, corner) + inside * lift_of_corner(q, corner, lift)
+                f += seen_in(corner_force, q, corner) + inside * lift_of_corner(q, corner, lift)
         more = -2 - slots[3]
     return f
 
@@ -73,14 +74,14 @@ def force_on_vertex(
     `inside`, `beyond`: gauge pressures (Pa) in the segment `side` and in the other that it may border on.
     """
     slots = vec4i_at(corners, i)
-    f = read(contact_force, i, 0) + read(contact_force, i, 1)
+    f = seen_in(contact_force, i, 0) + seen_in(contact_force, i, 1)
     # No load waits for a decision: where there is no quad, one is read and left out.
     for k in range(4):
         slot = wp.max(slots[k], 0)
         q = slot >> 2
         corner = slot & 3
         p = wp.where(int_at(quad_segment, q) == side, inside, beyond)
-        g = read(corner_force, q, corner) + p * lift_of_corner(q, corner, lift)
+        g = seen_in(corner_force, q, corner) + p * lift_of_corner(q, corner, lift)
         f += wp.where(slots[k] >= 0, g, wp.vec3(0.0))
     return f
 
@@ -107,10 +108,10 @@ def step_of_vertex(
     turn = spin[b]
     along = float_at(vertex_along, i)
     pull = wp.vec3(0.0, 0.0, -float_at(gravity, b) * float_at(weight, i))
-    speed = (vec3_at(v, i) + (f + pull) * (dt / float_at(mass, i))) * wp.max(
+    speed = (vec3_seen(v, i) + (f + pull) * (dt / float_at(mass, i))) * wp.max(
         1.0 - float_at(drag, b) * dt, 0.0
     )
-    p = vec3_at(x, i) + speed * dt
+    p = vec3_seen(x, i) + speed * dt
     rate = turn.back_rate
     axis = turn.back_axis
     drift = turn.back_drift
@@ -149,7 +150,7 @@ def move_vertex(
 ):
     """Move a vertex (m) that belongs to no ring by the forces on it, and write its speed (m/s)."""
     home = int_at(vertex_segment, i)
-    inside = float_at(pressure, home)
+    inside = float_seen(pressure, home)
     f = force_on_vertex(i, home, inside, inside, corners, quad_segment, contact_force, corner_force, lift)
     last = vec4i_at(corners, i)[3]
     if last < -1:

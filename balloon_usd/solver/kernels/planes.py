@@ -7,6 +7,7 @@ neighbouring words. A CPU's one lane writes all of one quad together.
 import warp as wp
 
 from balloon_usd.solver.kernels.native import native
+from balloon_usd.solver.kernels.seen import HEARS, SEE
 
 _PLACE = """
 #if defined(__CUDA_ARCH__)
@@ -32,7 +33,22 @@ def put(planes: wp.array2d[float], item: int, k: int, value: wp.vec3):
     ...
 
 
-@native(_PLACE + "return wp::vec_t<3, float>(place[0], place[step], place[2 * step]);")
-def read(planes: wp.array2d[float], item: int, k: int) -> wp.vec3:
-    """Return vector `k` of an item."""
+_SEEN = "wp::vec_t<3, float> value;\n" + " ".join(
+    SEE.format(value=f"value.c[{k}]", place=f"place + {k} * step") for k in range(3)
+)
+
+
+@native(
+    _PLACE
+    + f"""
+#if {HEARS}
+{_SEEN}
+return value;
+#else
+return wp::vec_t<3, float>(place[0], place[step], place[2 * step]);
+#endif
+"""
+)
+def seen_in(planes: wp.array2d[float], item: int, k: int) -> wp.vec3:
+    """Return vector `k` of an item, that another block may have written since the last meeting."""
     return wp.vec3(planes[item, k])

@@ -4,7 +4,7 @@ other, in place of a launch for each law.
 
 import warp as wp
 
-from balloon_usd.solver.kernels.at import float_at, int_at, int_in, put_float, vec3_at
+from balloon_usd.solver.kernels.at import int_at, int_in, put_float
 from balloon_usd.solver.kernels.contact import Touch, press_quad_back, press_wall
 from balloon_usd.solver.kernels.fingers import Finger, press_finger
 from balloon_usd.solver.kernels.gas import Air, advance_gas, volume_of_fans
@@ -31,6 +31,7 @@ from balloon_usd.solver.kernels.lanes import (
 from balloon_usd.solver.kernels.membrane import wall_of_quad
 from balloon_usd.solver.kernels.motion import Spin, move_vertex
 from balloon_usd.solver.kernels.rubber import Knot, Law
+from balloon_usd.solver.kernels.seen import float_seen, vec3_seen
 
 # A product and a sum in one instruction: a tenth less time on a CPU.
 wp.set_module_options(
@@ -214,7 +215,7 @@ def advance_sculptures(
                     curves,
                     x,
                     v,
-                    vec3_at(x, int_at(chunk_origin, c)),
+                    vec3_seen(x, int_at(chunk_origin, c)),
                     softening_rate,
                     peak_energy,
                     corner_force,
@@ -265,14 +266,14 @@ def advance_sculptures(
                 fans = float(0.0)
                 if s < segment_end:
                     for c in range(int_at(segment_chunk, s) + lane % few, int_at(segment_chunk, s + 1), few):
-                        total += float_at(chunk_share, c)
+                        total += float_seen(chunk_share, c)
                     fans = volume_of_fans(
                         s,
                         start_joint,
                         end_joint,
                         ring_middle,
                         ring_area,
-                        vec3_at(x, int_at(segment_origin, s)),
+                        vec3_seen(x, int_at(segment_origin, s)),
                     )
                 # All lanes of the warp are here.
                 total = few_sum(total)

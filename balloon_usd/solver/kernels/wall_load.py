@@ -3,7 +3,7 @@
 import warp as wp
 
 from balloon_usd.solver.kernels.at import int_at, int_in, put_float, vec3_at, vec4i_at
-from balloon_usd.solver.kernels.planes import read
+from balloon_usd.solver.kernels.planes import seen_in
 
 
 @wp.func
@@ -32,7 +32,7 @@ def load_of_vertex(
     load = float(0.0)
     for k in range(2):
         if int_in(target, i, k) >= 0:
-            load += pressing_on(int_in(target, i, k), quads, x, read(contact_force, i, k))
+            load += pressing_on(int_in(target, i, k), quads, x, seen_in(contact_force, i, k))
     beside = float(0.0)
     row = int(i)
     while row >= 0:
@@ -66,7 +66,7 @@ def wall_loads(
     for q in range(int_at(segment_quad, s) + lane, int_at(segment_quad_end, s), wp.block_dim()):
         for k in range(int_at(hit_count, q)):
             hit = int_in(hits, q, k)
-            total += pressing_on(q, quads, x, read(contact_force, hit // 2, hit % 2))
+            total += pressing_on(q, quads, x, seen_in(contact_force, hit // 2, hit % 2))
         c = vec4i_at(quads, q)
         for k in range(4):
             total += load_of_vertex(c[k], quads, corners, target, contact_force, x)
