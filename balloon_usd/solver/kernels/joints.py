@@ -15,7 +15,7 @@ from balloon_usd.solver.kernels.at import (
     vec3_at,
 )
 from balloon_usd.solver.kernels.gas import fan_gradient
-from balloon_usd.solver.kernels.lanes import lanes_meet, lanes_sum3, lanes_that
+from balloon_usd.solver.kernels.lanes import lanes_meet, lanes_sum3, lanes_sum_all, lanes_that
 from balloon_usd.solver.kernels.motion import Spin, force_on_vertex, step_of_vertex
 from balloon_usd.solver.kernels.seen import float_seen, vec3_seen
 
@@ -256,9 +256,10 @@ def move_joint(
         va += at[0] * s
         vb += at[1] * s
         own += wp.cross(d, s)
-    c = lanes_sum3(c) / float(n)
-    w = lanes_sum3(w) / float(n)
-    force = lanes_sum3(force)
+    sums = lanes_sum_all(force, c, w, a, b, va, vb, own)
+    force = sums[0]
+    c = sums[1] / float(n)
+    w = sums[2] / float(n)
     away = goal - home - c
     load = wp.vec3(0.0)
     if mode == LEAD:
@@ -274,12 +275,10 @@ def move_joint(
     # A ring that parts nothing is never closed: hands only need its middle.
     if parts == 1:
         if mode != CLASP:
-            a = lanes_sum3(a)
-            b = lanes_sum3(b)
-            axes = nearest_axes(a, b)
+            axes = nearest_axes(sums[3], sums[4])
             if closed > 0.0:
-                own = lanes_sum3(own) - float(n) * wp.cross(c, w)
-                turn = closing_spin(n, closed, dt, axes, a, b, lanes_sum3(va), lanes_sum3(vb), own)
+                own = sums[7] - float(n) * wp.cross(c, w)
+                turn = closing_spin(n, closed, dt, axes, sums[3], sums[4], sums[5], sums[6], own)
         if closed > 0.0:
             normal = wp.cross(axes * wp.vec2(1.0, 0.0), axes * wp.vec2(0.0, 1.0))
             area = (0.5 * float(n) * sine * closed * closed) * normal
