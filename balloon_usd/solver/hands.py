@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from balloon_usd.plan.welding import MOST_WELDED
 from balloon_usd.solver.kernels.fingers import Finger
 from balloon_usd.solver.kernels.joints import CLASP_MODE, GRIP_MODE, LEAD_MODE
+from balloon_usd.solver.parcel import Parcel
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -62,7 +63,7 @@ class Hands:
         """Where all vertices are, (V, 3), m, as last looked at."""
         self.rings = (scene.joint_first.numpy(), scene.joint_around.numpy())
         """First vertex of every ring, and how many it has."""
-        self._sent: dict[str, NDArray[Any]] = {}
+        self._parcel: Parcel | None = None
         self._due: dict[str, Any] = {}
         """What has changed since the last upload, by the names of the arrays."""
         self._welded = False
@@ -179,23 +180,23 @@ class Hands:
         for name, changed in self._due.items():
             self.scene.arrays[name].assign(changed)
         self._due.clear()
-        for name, values in (
-            ("hand", self.mode),
-            ("hand_from", self.start),
-            ("hand_to", self.goal),
-            ("hand_free", self.free),
-            ("hand_force", self.force),
-            ("hand_stiffness", self.stiffness),
-            ("radius_from", self.radius),
-            ("radius_to", self.radius_goal),
-        ):
-            self._send(name, values)
+        goals = self._goals()
+        if self._parcel is None:
+            self._parcel = Parcel(self.scene, goals)
+        self._parcel.send(goals)
 
-    def _send(self, name: str, values: NDArray[Any]) -> None:
-        """Send an array to the device if it has changed."""
-        if name not in self._sent or not np.array_equal(self._sent[name], values):
-            self._sent[name] = values.copy()
-            self.scene.arrays[name].assign(values)
+    def _goals(self) -> dict[str, NDArray[Any]]:
+        """Return what may differ in every frame, by the names of the arrays."""
+        return {
+            "hand": self.mode,
+            "hand_from": self.start,
+            "hand_to": self.goal,
+            "hand_free": self.free,
+            "hand_force": self.force,
+            "hand_stiffness": self.stiffness,
+            "radius_from": self.radius,
+            "radius_to": self.radius_goal,
+        }
 
     def arrived(self) -> None:
         """Make this frame's goals the next frame's starts."""
@@ -211,6 +212,7 @@ class Hands:
         size = np.zeros(rows, dtype=np.int32)
         reach, gap = np.zeros(rows, dtype=np.float32), np.zeros(rows, dtype=np.float32)
         of_joint = np.zeros(len(self.mode), dtype=np.int32)
+        leader = np.arange(len(self.mode), dtype=np.int32)
         count = len(self.welds)
         size[:count] = [len(group) for group in self.welds]
         joints = np.array([j for group in self.welds for j in group], dtype=np.int32)
@@ -218,6 +220,7 @@ class Hands:
         weld = np.repeat(np.arange(count), size[:count])
         joint[weld, np.arange(len(joints)) - first[weld]] = joints
         of_joint[joints] = weld + 1
+        leader[joints] = joints[first][weld]
         gap[:count], reach[:count] = np.array([self._weld_size(g) for g in self.welds]).reshape(-1, 2).T
         of_world = np.bincount(self._ring_world[joints[first]], minlength=max(s.worlds) + 1)
         for name, values in (
@@ -226,6 +229,7 @@ class Hands:
             ("weld_reach", reach),
             ("weld_gap", gap),
             ("joint_weld", of_joint),
+            ("joint_leader", leader),
             ("world_welds", of_world.astype(np.int32)),
         ):
             s.arrays[name].assign(values)

@@ -126,9 +126,9 @@ def _contact_arrays(scene: Scene) -> None:
     scene.zeros("area", vertices, float)
     scene.zeros("vertex_own", vertices, wp.vec2i)
     scene.zeros("ring_radius", len(a["ring_first"]), float)
-    for name in ("slip", "contact_force"):
-        scene.zeros(name, (vertices, TARGETS), wp.vec3)
-    scene.zeros("contact_place", (vertices, TARGETS), wp.vec2)
+    scene.zeros("slip", (vertices, TARGETS), wp.vec3)
+    scene.zeros("contact_force", (TARGETS * 3, vertices), float)
+    scene.zeros("contact_place", vertices * TARGETS, wp.vec2)
     a["target"] = wp.full((vertices, TARGETS), -1, dtype=int, device=scene.device)
     scene.zeros("touching", len(scene.bodies), int)
     scene.zeros("hit_count", quads, int)
@@ -154,6 +154,7 @@ def _hand_arrays(scene: Scene, welds: int) -> None:
     scene.zeros("weld_reach", welds, float)
     scene.zeros("weld_gap", welds, float)
     scene.zeros("joint_weld", joints, int)
+    scene.put({"joint_leader": np.arange(joints, dtype=np.int32)})
     scene.zeros("weld_shift", joints, wp.vec3)
     scene.zeros("world_welds", max(scene.worlds) + 1, int)
 

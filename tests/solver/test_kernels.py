@@ -34,6 +34,7 @@ CHANGING = {
     "substeps",
     "interval",
     "crew",
+    "joint_blocks",
     "begin",
     "end",
     "walls",

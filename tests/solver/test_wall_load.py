@@ -38,7 +38,8 @@ def pair():
 def normal_loads(scene):
     """Normal contact force that every vertex puts on every quad that it touches: vertex, quad, N."""
     x, quads, target = scene.x.numpy().astype(float), scene.quads.numpy(), scene.target.numpy()
-    force = scene.contact_force.numpy().astype(float)
+    # On a CPU the vectors of one vertex lie together.
+    force = scene.contact_force.numpy().astype(float).reshape(-1, 2, 3)
     for vertex, slot in zip(*np.nonzero(target >= 0), strict=True):
         c = x[quads[target[vertex, slot]]]
         face = np.cross(c[2] - c[0], c[3] - c[1])

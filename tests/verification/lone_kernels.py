@@ -4,6 +4,7 @@ import warp as wp
 
 from balloon_usd.solver.kernels.gas import Air, advance_gas
 from balloon_usd.solver.kernels.membrane import wall_of_quad
+from balloon_usd.solver.kernels.planes import put, seen_in
 from balloon_usd.solver.kernels.rubber import Knot, Law
 
 
@@ -22,8 +23,8 @@ def quad_forces(
     v: wp.array[wp.vec3],
     softening_rate: wp.array[float],
     peak_energy: wp.array[float],
-    corner_force: wp.array2d[wp.vec3],
-    lift: wp.array2d[wp.vec3],
+    corner_force: wp.array2d[float],
+    lift: wp.array2d[float],
 ):
     """Write the force (N) of wall and gas on the four corners of every quad."""
     q = wp.tid()
@@ -45,8 +46,8 @@ def quad_forces(
         lift,
     )
     for k in range(4):
-        push = pressure[quad_segment[q]] * lift[q, k]
-        corner_force[q, k] = corner_force[q, k] + push
+        push = pressure[quad_segment[q]] * seen_in(lift, q, k)
+        put(corner_force, q, k, seen_in(corner_force, q, k) + push)
 
 
 @wp.kernel

@@ -2,8 +2,8 @@
 
 import warp as wp
 
+from balloon_usd.solver.kernels.at import float_at, int_at, int_in, vec2_at, vec3_at, vec4i_at
 from balloon_usd.solver.kernels.lanes import (
-    counted,
     lanes_least,
     lanes_max3,
     lanes_most,
@@ -11,6 +11,8 @@ from balloon_usd.solver.kernels.lanes import (
     lanes_that,
     lowest,
 )
+from balloon_usd.solver.kernels.planes import put, seen_in
+from balloon_usd.solver.kernels.seen import vec2_seen, vec3_seen
 
 TARGETS = 2
 """Walls that one vertex may touch at a time."""
@@ -305,8 +307,8 @@ def find_walls(
     area: wp.array[float],
     ring_radius: wp.array[float],
     target: wp.array2d[int],
-    contact_place: wp.array2d[wp.vec2],
-    contact_force: wp.array2d[wp.vec3],
+    contact_place: wp.array[wp.vec2],
+    contact_force: wp.array2d[float],
     slip: wp.array2d[wp.vec3],
     hit_count: wp.array[int],
     hits: wp.array2d[int],
@@ -337,8 +339,8 @@ def find_walls(
     while begin < last:
         mine_too = int(0)
         if begin + lane < last:
-            low = chunk_low[counted(begin + lane)]
-            high = chunk_high[counted(begin + lane)]
+            low = vec3_at(chunk_low, begin + lane)
+            high = vec3_at(chunk_high, begin + lane)
             # Most are far away along the balloon already.
             if low[0] - p[0] < reach and p[0] - high[0] < reach:
                 off = wp.max(wp.max(low - p, p - high), wp.vec3(0.0))
@@ -357,7 +359,7 @@ def find_walls(
                 end = wp.min(end, own[0])
             q = first + lane
             while q < end:
-                d = p - quad_middle[counted(q)]
+                d = p - vec3_at(quad_middle, q)
                 if wp.dot(d, d) < reach * reach:
                     distance = distance_of_wall(
                         q,
@@ -415,12 +417,12 @@ def find_walls(
             elif before1 >= 0 and quad_segment[before1] == quad_segment[found[k]]:
                 kept = slip1
             c = quads[found[k]]
-            contact_place[i, k] = nearest_on_patch(x[c[0]], x[c[1]], x[c[2]], x[c[3]], p)
+            contact_place[2 * i + k] = nearest_on_patch(x[c[0]], x[c[1]], x[c[2]], x[c[3]], p)
             slot = wp.atomic_add(hit_count, found[k], 1)
             if slot < MOST_HITS:
                 hits[found[k], slot] = 2 * i + k
         else:
-            contact_force[i, k] = wp.vec3(0.0)
+            put(contact_force, i, k, wp.vec3(0.0))
         target[i, k] = found[k]
         slip[i, k] = kept
 
@@ -463,35 +465,48 @@ def press_wall(
     x: wp.array[wp.vec3],
     v: wp.array[wp.vec3],
     slip: wp.array2d[wp.vec3],
-    contact_force: wp.array2d[wp.vec3],
-    contact_place: wp.array2d[wp.vec2],
+    contact_force: wp.array2d[float],
+    contact_place: wp.array[wp.vec2],
 ):
     """Write the contact force (N) on a touching vertex and where on the quad that it touches."""
     for k in range(2):
-        q = target[i, k]
+        q = int_in(target, i, k)
         if q >= 0:
-            c = quads[q]
-            p = x[i]
+            c = vec4i_at(quads, q)
+            p = vec3_seen(x, i)
+            x0 = vec3_seen(x, c[0])
+            x1 = vec3_seen(x, c[1])
+            x2 = vec3_seen(x, c[2])
+            x3 = vec3_seen(x, c[3])
             # It slides little in a substep: one step from where it was is enough.
-            place = nearer_on_patch(x[c[0]], x[c[1]], x[c[2]], x[c[3]], p, contact_place[i, k])
+            place = nearer_on_patch(x0, x1, x2, x3, p, vec2_at(contact_place, 2 * i + k))
             s = patch_shares(place)
-            gap = p - (s[0] * x[c[0]] + s[1] * x[c[1]] + s[2] * x[c[2]] + s[3] * x[c[3]])
-            face = wp.normalize(wp.cross(x[c[2]] - x[c[0]], x[c[3]] - x[c[1]]))
+            gap = p - (s[0] * x0 + s[1] * x1 + s[2] * x2 + s[3] * x3)
+            face = wp.normalize(wp.cross(x2 - x0, x3 - x1))
             height = wp.dot(gap, face)
             overlap = touch.offset - height
             f = wp.vec3(0.0)
             moved = wp.vec3(0.0)
             if overlap > 0.0 and wp.length(gap - height * face) < 2.0 * SIDE_SLIP * wp.sqrt(
-                wp.length(quad_area[q])
+                wp.length(vec3_at(quad_area, q))
             ):
                 lightest = wp.min(
-                    mass[i], wp.min(wp.min(mass[c[0]], mass[c[1]]), wp.min(mass[c[2]], mass[c[3]]))
+                    float_at(mass, i),
+                    wp.min(
+                        wp.min(float_at(mass, c[0]), float_at(mass, c[1])),
+                        wp.min(float_at(mass, c[2]), float_at(mass, c[3])),
+                    ),
                 )
-                crowd = wp.max(CROWD * float(hit_count[q]), 1.0)
+                crowd = wp.max(CROWD * float(int_at(hit_count, q)), 1.0)
                 stiffness = wp.min(
-                    touch.pressure * area[i] / touch.offset, STABLE * lightest / (dt * dt * crowd)
+                    touch.pressure * float_at(area, i) / touch.offset, STABLE * lightest / (dt * dt * crowd)
                 )
-                going = v[i] - (s[0] * v[c[0]] + s[1] * v[c[1]] + s[2] * v[c[2]] + s[3] * v[c[3]])
+                going = vec3_seen(v, i) - (
+                    s[0] * vec3_seen(v, c[0])
+                    + s[1] * vec3_seen(v, c[1])
+                    + s[2] * vec3_seen(v, c[2])
+                    + s[3] * vec3_seen(v, c[3])
+                )
                 approach = wp.dot(going, face)
                 near = wp.min(overlap / touch.offset, 1.0)
                 damping = NORMAL_DAMPING * lightest / (dt * crowd)
@@ -500,14 +515,14 @@ def press_wall(
                 moved = slip[i, k] + along * dt
                 moved = moved - wp.dot(moved, face) * face
                 grip = STICK * stiffness
-                hold = friction[vertex_balloon[i]] * push / grip
+                hold = float_at(friction, int_at(vertex_balloon, i)) * push / grip
                 far = wp.length(moved)
                 if far > hold:
                     moved = moved * (hold / far)
                 f = push * face - grip * moved
             slip[i, k] = moved
-            contact_force[i, k] = f
-            contact_place[i, k] = place
+            put(contact_force, i, k, f)
+            contact_place[2 * i + k] = place
 
 
 @wp.func
@@ -527,38 +542,42 @@ def press_quad_back(
     quads: wp.array[wp.vec4i],
     hit_count: wp.array[int],
     hits: wp.array2d[int],
-    contact_force: wp.array2d[wp.vec3],
-    contact_place: wp.array2d[wp.vec2],
+    contact_force: wp.array2d[float],
+    contact_place: wp.array[wp.vec2],
     x: wp.array[wp.vec3],
-    corner_force: wp.array2d[wp.vec3],
+    corner_force: wp.array2d[float],
 ):
     """Take from the corners of a quad what the vertices that touch it felt, forces and torques."""
-    count = hit_count[q]
+    count = int_at(hit_count, q)
     if count == 0:
         return
-    c = quads[q]
-    middle = 0.25 * (x[c[0]] + x[c[1]] + x[c[2]] + x[c[3]])
-    r0 = x[c[0]] - middle
-    r1 = x[c[1]] - middle
-    r2 = x[c[2]] - middle
-    r3 = x[c[3]] - middle
+    c = vec4i_at(quads, q)
+    x0 = vec3_seen(x, c[0])
+    x1 = vec3_seen(x, c[1])
+    x2 = vec3_seen(x, c[2])
+    x3 = vec3_seen(x, c[3])
+    middle = 0.25 * (x0 + x1 + x2 + x3)
+    r0 = x0 - middle
+    r1 = x1 - middle
+    r2 = x2 - middle
+    r3 = x3 - middle
     f0 = wp.vec3(0.0)
     f1 = wp.vec3(0.0)
     f2 = wp.vec3(0.0)
     f3 = wp.vec3(0.0)
     couple = wp.vec3(0.0)
     for k in range(count):
-        hit = hits[q, k]
-        f = contact_force[hit // 2, hit % 2]
-        share = patch_shares(contact_place[hit // 2, hit % 2])
+        hit = int_in(hits, q, k)
+        f = seen_in(contact_force, hit // 2, hit % 2)
+        share = patch_shares(vec2_seen(contact_place, hit))
         f0 += share[0] * f
         f1 += share[1] * f
         f2 += share[2] * f
         f3 += share[3] * f
         touched = middle + share[0] * r0 + share[1] * r1 + share[2] * r2 + share[3] * r3
-        couple += wp.cross(x[hit // 2] - touched, f)
+        couple += wp.cross(vec3_seen(x, hit // 2) - touched, f)
     turn = balancing_turn(r0, r1, r2, r3, couple)
-    corner_force[q, 0] = corner_force[q, 0] - f0 - wp.cross(turn, r0)
-    corner_force[q, 1] = corner_force[q, 1] - f1 - wp.cross(turn, r1)
-    corner_force[q, 2] = corner_force[q, 2] - f2 - wp.cross(turn, r2)
-    corner_force[q, 3] = corner_force[q, 3] - f3 - wp.cross(turn, r3)
+    put(corner_force, q, 0, seen_in(corner_force, q, 0) - f0 - wp.cross(turn, r0))
+    put(corner_force, q, 1, seen_in(corner_force, q, 1) - f1 - wp.cross(turn, r1))
+    put(corner_force, q, 2, seen_in(corner_force, q, 2) - f2 - wp.cross(turn, r2))
+    put(corner_force, q, 3, seen_in(corner_force, q, 3) - f3 - wp.cross(turn, r3))

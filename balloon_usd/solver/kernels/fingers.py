@@ -2,6 +2,9 @@
 
 import warp as wp
 
+from balloon_usd.solver.kernels.at import float_at, int_at, put_vec3
+from balloon_usd.solver.kernels.seen import vec3_seen
+
 
 @wp.struct
 class Finger:
@@ -35,13 +38,13 @@ def press_finger(
     v: wp.array[wp.vec3],
 ):
     """Add to the speed (m/s) of a vertex under a finger what the finger's force gives it in a substep."""
-    share = finger_share[i]
+    share = float_at(finger_share, i)
     if share > 0.0:
-        finger = fingers[vertex_balloon[i]]
-        load = share * wp.lerp(finger.load_start, finger.load_end, fraction) * (dt / mass[i])
+        finger = fingers[int_at(vertex_balloon, i)]
+        load = share * wp.lerp(finger.load_start, finger.load_end, fraction) * (dt / float_at(mass, i))
         tip = finger.start + fraction * (finger.end - finger.start)
-        behind = wp.max(wp.dot(tip - x[i], finger.along), 0.0)
-        v[i] = v[i] + (load + share * finger.stiff * behind / dt) * finger.along
+        behind = wp.max(wp.dot(tip - vec3_seen(x, i), finger.along), 0.0)
+        put_vec3(v, i, vec3_seen(v, i) + (load + share * finger.stiff * behind / dt) * finger.along)
 
 
 @wp.kernel

@@ -2,7 +2,9 @@
 
 import warp as wp
 
+from balloon_usd.solver.kernels.at import float_at, int_at, put_float, vec3_at, vec4i_at
 from balloon_usd.solver.kernels.lanes import lanes_meet
+from balloon_usd.solver.kernels.seen import vec3_seen
 
 
 @wp.func
@@ -22,13 +24,13 @@ def volume_of_fans(
     o: wp.vec3,
 ):
     """Return the volume (m3) between a point and the flat fans that close a segment's ends."""
-    start = start_joint[s]
-    end = end_joint[s]
+    start = int_at(start_joint, s)
+    end = int_at(end_joint, s)
     # No load waits for a decision: where there is no ring, one is read and left out.
     first = wp.max(start, 0)
     last = wp.max(end, 0)
-    begins = wp.dot(ring_middle[first] - o, ring_area[first])
-    ends = wp.dot(ring_middle[last] - o, ring_area[last])
+    begins = wp.dot(vec3_seen(ring_middle, first) - o, vec3_seen(ring_area, first))
+    ends = wp.dot(vec3_seen(ring_middle, last) - o, vec3_seen(ring_area, last))
     return (wp.where(end >= 0, ends, 0.0) - wp.where(start >= 0, begins, 0.0)) / 3.0
 
 
@@ -49,14 +51,16 @@ def segment_volumes(
     summation.
     """
     s, lane = wp.tid()
-    o = x[segment_origin[s]]
+    o = vec3_at(x, int_at(segment_origin, s))
     total = float(0.0)
-    for q in range(segment_quad[s] + lane, segment_quad_end[s], wp.block_dim()):
-        c = quads[q]
-        total += patch_volume(x[c[0]] - o, x[c[1]] - o, x[c[2]] - o, x[c[3]] - o)
+    for q in range(int_at(segment_quad, s) + lane, int_at(segment_quad_end, s), wp.block_dim()):
+        c = vec4i_at(quads, q)
+        total += patch_volume(
+            vec3_at(x, c[0]) - o, vec3_at(x, c[1]) - o, vec3_at(x, c[2]) - o, vec3_at(x, c[3]) - o
+        )
     sums = wp.tile_sum(wp.tile(total))
     if lane == 0:
-        volume[s] = sums[0] + volume_of_fans(s, start_joint, end_joint, ring_middle, ring_area, o)
+        put_float(volume, s, sums[0] + volume_of_fans(s, start_joint, end_joint, ring_middle, ring_area, o))
 
 
 OPEN_PASSAGE = 1.0
@@ -84,7 +88,7 @@ class Air:
 @wp.func
 def passage_of(joint: int, fraction: float, open_from: wp.array[float], open_to: wp.array[float]):
     """Return the open area (m2) of a joint."""
-    return open_from[joint] + fraction * (open_to[joint] - open_from[joint])
+    return float_at(open_from, joint) + fraction * (float_at(open_to, joint) - float_at(open_from, joint))
 
 
 @wp.func
@@ -107,11 +111,11 @@ def press_chamber(
     ideal, isothermal, p V = n R T. A chamber without gas of its own is open to the air (the nozzle's lip)
     and keeps its pressure.
     """
-    space = volume[s]
+    space = float_at(volume, s)
     gas = amount[s]
     if begin == s:
         for k in range(begin + 1, end + 1):
-            space += volume[k]
+            space += float_at(volume, k)
             gas += amount[k]
         if begin <= into and into <= end and gas < pump_goal:
             here = float(gas * air.molar_energy) / space - air.atmosphere
@@ -122,8 +126,8 @@ def press_chamber(
         if gas > wp.float64(0.0):
             now = float(gas * air.molar_energy) / space - air.atmosphere
             for k in range(begin, end + 1):
-                pressure[k] = now
-        room[end] = space
+                put_float(pressure, k, now)
+        put_float(room, end, space)
 
 
 @wp.func
@@ -139,11 +143,11 @@ def blow_through(
     """Return the gas (mol) that flows in a substep through the neck behind segment `s`, an orifice of area
     `gap` (m2), into the chamber that ends with segment `end`.
     """
-    difference = pressure[s] - pressure[end]
+    difference = float_at(pressure, s) - float_at(pressure, end)
     speed = wp.sqrt(2.0 * wp.abs(difference) / air.density)
-    blown = air.discharge * gap * speed * dt * (pressure[end] + air.atmosphere)
+    blown = air.discharge * gap * speed * dt * (float_at(pressure, end) + air.atmosphere)
     # No more than a share of what would even out both chambers, were their walls rigid.
-    both = room[s] * room[end] / (room[s] + room[end])
+    both = float_at(room, s) * float_at(room, end) / (float_at(room, s) + float_at(room, end))
     most = air.equalise * wp.abs(difference) * both
     return wp.float64(wp.sign(difference) * wp.min(blown, most)) / air.molar_energy
 
@@ -179,31 +183,31 @@ def advance_gas(
     Segments whose common neck is fully open form one chamber; a neck that closes is an orifice.
     `blowing`: 1 where a balloon has such a neck.
     """
-    first = balloon_segment[b]
-    last = balloon_segment_end[b]
-    blows = blowing[b]
-    into = inlet[b]
-    inflow = pump_flow[b]
-    limit = pump_limit[b]
+    first = int_at(balloon_segment, b)
+    last = int_at(balloon_segment_end, b)
+    blows = int_at(blowing, b)
+    into = int_at(inlet, b)
+    inflow = float_at(pump_flow, b)
+    limit = float_at(pump_limit, b)
     wanted = pump_goal[b]
     for s in range(first + lane, last, lanes):
-        begin = chamber_first[s]
-        end = chamber_last[s]
+        begin = int_at(chamber_first, s)
+        end = int_at(chamber_last, s)
         press_chamber(s, begin, end, into, air, dt, inflow, limit, wanted, volume, room, amount, pressure)
     if blows == 0:
         return
     lanes_meet()
     for s in range(first + lane, last, lanes):
         flow[s] = wp.float64(0.0)
-        if chamber_last[s] == s and s + 1 < last:
-            gap = passage_of(end_joint[s], fraction, open_from, open_to)
+        if int_at(chamber_last, s) == s and s + 1 < last:
+            gap = passage_of(int_at(end_joint, s), fraction, open_from, open_to)
             if gap > 0.0:
-                flow[s] = blow_through(s, chamber_last[s + 1], gap, air, dt, room, pressure)
+                flow[s] = blow_through(s, int_at(chamber_last, s + 1), gap, air, dt, room, pressure)
     lanes_meet()
     for s in range(first + lane, last, lanes):
         # What a neck lets through leaves one chamber's last segment for the next one's.
-        if chamber_last[s] == s:
-            before = chamber_first[s] - 1
+        if int_at(chamber_last, s) == s:
+            before = int_at(chamber_first, s) - 1
             if before >= first:
                 amount[s] = amount[s] + flow[before]
             amount[s] = amount[s] - flow[s]

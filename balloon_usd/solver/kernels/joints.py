@@ -4,9 +4,20 @@ weld's pose.
 
 import warp as wp
 
+from balloon_usd.solver.kernels.at import (
+    float_at,
+    int_at,
+    int_in,
+    put_float,
+    put_vec3,
+    vec2_at,
+    vec2i_at,
+    vec3_at,
+)
 from balloon_usd.solver.kernels.gas import fan_gradient
-from balloon_usd.solver.kernels.lanes import lanes_meet, lanes_sum3
+from balloon_usd.solver.kernels.lanes import lanes_meet, lanes_sum3, lanes_sum_all, lanes_that
 from balloon_usd.solver.kernels.motion import Spin, force_on_vertex, step_of_vertex
+from balloon_usd.solver.kernels.seen import float_seen, vec3_seen
 
 GRIP_MODE = 1
 LEAD_MODE = 2
@@ -89,8 +100,28 @@ def ring_fan(first: int, n: int, c: wp.vec3, lane: int, lanes: int, x: wp.array[
     """
     fan = wp.vec3(0.0)
     for k in range(lane, n, lanes):
-        fan += wp.cross(x[first + (k + n - 1) % n] - c, x[first + k] - c)
+        fan += wp.cross(vec3_seen(x, first + (k + n - 1) % n) - c, vec3_seen(x, first + k) - c)
     return 0.5 * fan
+
+
+@wp.func
+def block_of_joint(j: int, first: int, blocks: int, joint_leader: wp.array[int]) -> int:
+    """Return which of a sculpture's blocks moves a joint: the same for all of a weld.
+
+    `first`: the sculpture's first joint.
+    """
+    return (int_at(joint_leader, j) - first) % blocks
+
+
+@wp.func
+def joints_of_block(
+    j: int, first: int, end: int, block: int, blocks: int, joint_leader: wp.array[int]
+) -> int:
+    """Return the bits of the lanes of a warp whose joint `j`, if below `end`, is one of this block's."""
+    mine = int(0)
+    if j < end:
+        mine = wp.where(block_of_joint(j, first, blocks, joint_leader) == block, 1, 0)
+    return lanes_that(mine)
 
 
 @wp.func
@@ -107,10 +138,12 @@ def measure_open_ring(
     ring_area: wp.array[wp.vec3],
 ):
     """Write the vector area (m2) of a ring that parts two chambers and is not being closed."""
-    if joint_parts[j] == 1 and radius_to[j] == 0.0:
-        area = lanes_sum3(ring_fan(joint_first[j], joint_around[j], ring_middle[j], lane, lanes, x))
+    if int_at(joint_parts, j) == 1 and float_at(radius_to, j) == 0.0:
+        first = int_at(joint_first, j)
+        n = int_at(joint_around, j)
+        area = lanes_sum3(ring_fan(first, n, vec3_seen(ring_middle, j), lane, lanes, x))
         if lane == 0:
-            ring_area[j] = area
+            put_vec3(ring_area, j, area)
 
 
 @wp.func
@@ -145,9 +178,9 @@ def move_joint(
     hand_stiffness: wp.array[float],
     radius_from: wp.array[float],
     radius_to: wp.array[float],
-    contact_force: wp.array2d[wp.vec3],
-    corner_force: wp.array2d[wp.vec3],
-    lift: wp.array2d[wp.vec3],
+    contact_force: wp.array2d[float],
+    corner_force: wp.array2d[float],
+    lift: wp.array2d[float],
     pressure: wp.array[float],
     strut_force: wp.array[wp.vec3],
     x_next: wp.array[wp.vec3],
@@ -165,34 +198,34 @@ def move_joint(
     Places in m, vector areas in m2, speeds in m/s, loads in N. Every lane has its own vertices; `x_next`
     keeps them where it has several.
     """
-    first = joint_first[j]
-    n = joint_around[j]
-    parts = joint_parts[j]
-    mode = hand[j]
+    first = int_at(joint_first, j)
+    n = int_at(joint_around, j)
+    parts = int_at(joint_parts, j)
+    mode = int_at(hand, j)
     closed = float(0.0)
-    if parts == 1 and radius_to[j] > 0.0:
-        closed = radius_from[j] + fraction * (radius_to[j] - radius_from[j])
-    start = hand_from[j]
-    goal = start + fraction * (hand_to[j] - start)
-    wanted = (hand_to[j] - start) / frame_seconds
+    if parts == 1 and float_at(radius_to, j) > 0.0:
+        closed = float_at(radius_from, j) + fraction * (float_at(radius_to, j) - float_at(radius_from, j))
+    start = vec3_at(hand_from, j)
+    goal = start + fraction * (vec3_at(hand_to, j) - start)
+    wanted = (vec3_at(hand_to, j) - start) / frame_seconds
     # All places are taken from where the middle was: sums of small numbers lose nothing.
-    home = ring_middle[j]
-    area = ring_area[j]
+    home = vec3_at(ring_middle, j)
+    area = vec3_seen(ring_area, j)
     axes = ring_axes[j]
-    beside = joint_beside[j]
+    beside = vec2i_at(joint_beside, j)
     side = beside[0]
-    inside = pressure[side]
-    outside = pressure[beside[1]]
-    heavy = joint_mass[j]
-    grip = hand_force[j]
-    stiffness = hand_stiffness[j]
-    free = hand_free[j]
+    inside = float_seen(pressure, side)
+    outside = float_seen(pressure, beside[1])
+    heavy = float_at(joint_mass, j)
+    grip = float_at(hand_force, j)
+    stiffness = float_at(hand_stiffness, j)
+    free = vec3_at(hand_free, j)
     # The sine of the angle between two corners.
-    sine = corner[first + 1][1]
+    sine = vec2_at(corner, first + 1)[1]
     force = wp.vec3(0.0)
     for k in range(lane, joint_struts.shape[1], lanes):
-        strut = joint_struts[j, k]
-        pull = strut_force[wp.max(wp.abs(strut) - 1, 0)]
+        strut = int_in(joint_struts, j, k)
+        pull = vec3_seen(strut_force, wp.max(wp.abs(strut) - 1, 0))
         force += wp.where(strut == 0, wp.vec3(0.0), wp.where(strut > 0, pull, -pull))
     p = wp.vec3(0.0)
     s = wp.vec3(0.0)
@@ -209,13 +242,13 @@ def move_joint(
             i, side, inside, outside, corners, quad_segment, contact_force, corner_force, lift
         )
         if parts == 1:
-            chord = x[first + (k + 1) % n] - x[first + (k + n - 1) % n]
-            f += (inside - outside) * fan_gradient(x[i] - home, chord, area, 1.0 / float(n))
+            chord = vec3_at(x, first + (k + 1) % n) - vec3_at(x, first + (k + n - 1) % n)
+            f += (inside - outside) * fan_gradient(vec3_at(x, i) - home, chord, area, 1.0 / float(n))
         p, s = step_of_vertex(i, f, vertex_balloon, vertex_along, mass, weight, gravity, drag, dt, spin, x, v)
-        x_next[i] = p
-        v[i] = s
+        put_vec3(x_next, i, p)
+        put_vec3(v, i, s)
         d = p - home
-        at = corner[i]
+        at = vec2_at(corner, i)
         c += d
         w += s
         a += at[0] * d
@@ -223,9 +256,10 @@ def move_joint(
         va += at[0] * s
         vb += at[1] * s
         own += wp.cross(d, s)
-    c = lanes_sum3(c) / float(n)
-    w = lanes_sum3(w) / float(n)
-    force = lanes_sum3(force)
+    sums = lanes_sum_all(force, c, w, a, b, va, vb, own)
+    force = sums[0]
+    c = sums[1] / float(n)
+    w = sums[2] / float(n)
     away = goal - home - c
     load = wp.vec3(0.0)
     if mode == LEAD:
@@ -241,12 +275,10 @@ def move_joint(
     # A ring that parts nothing is never closed: hands only need its middle.
     if parts == 1:
         if mode != CLASP:
-            a = lanes_sum3(a)
-            b = lanes_sum3(b)
-            axes = nearest_axes(a, b)
+            axes = nearest_axes(sums[3], sums[4])
             if closed > 0.0:
-                own = lanes_sum3(own) - float(n) * wp.cross(c, w)
-                turn = closing_spin(n, closed, dt, axes, a, b, lanes_sum3(va), lanes_sum3(vb), own)
+                own = sums[7] - float(n) * wp.cross(c, w)
+                turn = closing_spin(n, closed, dt, axes, sums[3], sums[4], sums[5], sums[6], own)
         if closed > 0.0:
             normal = wp.cross(axes * wp.vec2(1.0, 0.0), axes * wp.vec2(0.0, 1.0))
             area = (0.5 * float(n) * sine * closed * closed) * normal
@@ -254,22 +286,22 @@ def move_joint(
     for k in range(lane, n, lanes):
         i = first + k
         if lanes < n:
-            p = x_next[i]
-            s = v[i]
+            p = vec3_at(x_next, i)
+            s = vec3_at(v, i)
         d = p - home
         s += kick
         if closed > 0.0:
-            arm = axes * (closed * corner[i])
+            arm = axes * (closed * vec2_at(corner, i))
             s += (c + arm - d) / dt - wp.cross(turn, arm)
             d = c + arm
-        x[i] = home + (d + shift)
-        v[i] = s
+        put_vec3(x, i, home + (d + shift))
+        put_vec3(v, i, s)
     if lane == 0:
-        ring_middle[j] = home + (c + shift)
-        ring_speed[j] = w + kick
-        hand_load[j] = load
+        put_vec3(ring_middle, j, home + (c + shift))
+        put_vec3(ring_speed, j, w + kick)
+        put_vec3(hand_load, j, load)
         ring_axes[j] = axes
-        ring_area[j] = area
+        put_vec3(ring_area, j, area)
 
 
 @wp.kernel
@@ -288,24 +320,24 @@ def measure_rings(
     """
     j, lane = wp.tid()
     lanes = wp.block_dim()
-    first = joint_first[j]
-    n = joint_around[j]
+    first = int_at(joint_first, j)
+    n = int_at(joint_around, j)
     c = wp.vec3(0.0)
     for k in range(lane, n, lanes):
-        c += x[first + k]
+        c += vec3_seen(x, first + k)
     c = lanes_sum3(c) / float(n)
     a = wp.vec3(0.0)
     b = wp.vec3(0.0)
     for k in range(lane, n, lanes):
-        a += corner[first + k][0] * (x[first + k] - c)
-        b += corner[first + k][1] * (x[first + k] - c)
+        a += vec2_at(corner, first + k)[0] * (vec3_seen(x, first + k) - c)
+        b += vec2_at(corner, first + k)[1] * (vec3_seen(x, first + k) - c)
     axes = nearest_axes(lanes_sum3(a), lanes_sum3(b))
     area = lanes_sum3(ring_fan(first, n, c, lane, lanes, x))
     if lane == 0:
-        ring_middle[j] = c
-        ring_area[j] = area
+        put_vec3(ring_middle, j, c)
+        put_vec3(ring_area, j, area)
         ring_axes[j] = axes
-        ring_speed[j] = wp.vec3(0.0)
+        put_vec3(ring_speed, j, wp.vec3(0.0))
 
 
 @wp.func
@@ -341,35 +373,37 @@ def weld_joint_to_others(
     """Keep the neck of a joint beside the others of its weld, each pair at least its gap (m) and at most its
     reach (m) apart; write how far it moves (m).
     """
-    g = joint_weld[j] - 1
-    first = joint_first[j]
-    n = joint_around[j]
-    mode = hand[j]
-    mine = joint_mass[j]
-    here = ring_middle[j]
+    g = int_at(joint_weld, j) - 1
+    first = int_at(joint_first, j)
+    n = int_at(joint_around, j)
+    mode = int_at(hand, j)
+    mine = float_at(joint_mass, j)
+    here = vec3_at(ring_middle, j)
     if g >= 0 and held(mode) == 0:
-        size = weld_size[g]
-        gap = weld_gap[g]
-        reach = weld_reach[g]
+        size = int_at(weld_size, g)
+        gap = float_at(weld_gap, g)
+        reach = float_at(weld_reach, g)
         shift = wp.vec3(0.0)
         for m in range(lane, size, lanes):
-            other = weld_joint[g, m]
-            mass = joint_mass[other]
-            share = wp.where(held(hand[other]) == 1, 1.0, mass / (mine + mass))
-            shift += pair_shift(here, ring_middle[other], wp.where(other == j, 0.0, share), gap, reach)
+            other = int_in(weld_joint, g, m)
+            mass = float_at(joint_mass, other)
+            share = wp.where(held(int_at(hand, other)) == 1, 1.0, mass / (mine + mass))
+            shift += pair_shift(
+                here, vec3_at(ring_middle, other), wp.where(other == j, 0.0, share), gap, reach
+            )
         shift = lanes_sum3(shift) / wp.max(float(size - 1), 1.0)
         for m in range(lane, n, lanes):
-            x[first + m] = x[first + m] + shift
-            v[first + m] = v[first + m] + shift / dt
+            put_vec3(x, first + m, vec3_at(x, first + m) + shift)
+            put_vec3(v, first + m, vec3_at(v, first + m) + shift / dt)
         if lane == 0:
-            weld_shift[j] = shift
+            put_vec3(weld_shift, j, shift)
 
 
 @wp.func
 def shift_middle(j: int, weld_shift: wp.array[wp.vec3], ring_middle: wp.array[wp.vec3]):
     """Move the middle (m) of a ring as its weld has moved the ring."""
-    ring_middle[j] = ring_middle[j] + weld_shift[j]
-    weld_shift[j] = wp.vec3(0.0)
+    put_vec3(ring_middle, j, vec3_at(ring_middle, j) + vec3_at(weld_shift, j))
+    put_vec3(weld_shift, j, wp.vec3(0.0))
 
 
 @wp.func
@@ -385,19 +419,21 @@ def load_strut(
     strut_force: wp.array[wp.vec3],
 ):
     """Write the force (N) on the first end of a strut; beyond its yield force it gives way for good."""
-    ends = strut_joint[s]
+    ends = vec2i_at(strut_joint, s)
     pull = wp.vec3(0.0)
     if ends[0] >= 0:
-        d = ring_middle[ends[1]] - ring_middle[ends[0]]
+        d = vec3_seen(ring_middle, ends[1]) - vec3_seen(ring_middle, ends[0])
         now = wp.length(d)
         along = d / wp.max(now, 1.0e-6)
-        tension = strut_stiffness[s] * (now - strut_length[s])
-        if tension > strut_yield[s]:
-            strut_length[s] = now - strut_yield[s] / strut_stiffness[s]
-            tension = strut_yield[s]
-        elif tension < -strut_yield[s]:
-            strut_length[s] = now + strut_yield[s] / strut_stiffness[s]
-            tension = -strut_yield[s]
-        tension += strut_damping[s] * wp.dot(ring_speed[ends[1]] - ring_speed[ends[0]], along)
+        tension = float_at(strut_stiffness, s) * (now - float_at(strut_length, s))
+        if tension > float_at(strut_yield, s):
+            put_float(strut_length, s, now - float_at(strut_yield, s) / float_at(strut_stiffness, s))
+            tension = float_at(strut_yield, s)
+        elif tension < -float_at(strut_yield, s):
+            put_float(strut_length, s, now + float_at(strut_yield, s) / float_at(strut_stiffness, s))
+            tension = -float_at(strut_yield, s)
+        tension += float_at(strut_damping, s) * wp.dot(
+            vec3_seen(ring_speed, ends[1]) - vec3_seen(ring_speed, ends[0]), along
+        )
         pull = tension * along
-    strut_force[s] = pull
+    put_vec3(strut_force, s, pull)

@@ -2,22 +2,14 @@
 other. On the CPU every lane is alone.
 """
 
-from collections.abc import Callable
-from typing import TypeVar, cast
-
 import warp as wp
 
-Stub = TypeVar("Stub")
+from balloon_usd.solver.kernels.native import native
 
 WARP = 32
 """Lanes of a warp."""
 FEW = 8
 """Lanes that sum what is too little for a warp."""
-
-
-def _native(snippet: str) -> Callable[[Stub], Stub]:
-    """Return the decorator that gives a stub its code, with the stub's own type."""
-    return cast("Callable[[Stub], Stub]", wp.func_native(snippet))
 
 
 _OVER_LANES = """
@@ -32,7 +24,7 @@ return value;
 """
 
 
-@_native(
+@native(
     _OVER_LANES.format(lanes=WARP, type="float", add="total += __shfl_xor_sync(0xffffffffu, total, step);"),
 )
 def lanes_sum(value: float) -> float:
@@ -40,17 +32,15 @@ def lanes_sum(value: float) -> float:
     return value
 
 
-@_native(
-    _OVER_LANES.format(
-        lanes=FEW, type="float", add="total += __shfl_xor_sync(0xffu << (threadIdx.x & 24), total, step);"
-    ),
+@native(
+    _OVER_LANES.format(lanes=FEW, type="float", add="total += __shfl_xor_sync(0xffffffffu, total, step);"),
 )
 def few_sum(value: float) -> float:
     """Return the sum over a few lanes, in a fixed order."""
     return value
 
 
-@_native(
+@native(
     _OVER_LANES.format(
         lanes=WARP,
         type="wp::vec_t<3, float>",
@@ -62,7 +52,33 @@ def lanes_sum3(value: wp.vec3) -> wp.vec3:
     return value
 
 
-@_native(
+Vectors = wp.types.matrix(shape=(8, 3), dtype=float)
+"""Eight vectors, as rows."""
+
+
+@native(
+    """
+wp::mat_t<8, 3, float> total;
+const wp::vec_t<3, float>* values[] = {&a, &b, &c, &d, &e, &f, &g, &h};
+for (int row = 0; row < 8; ++row)
+    for (int k = 0; k < 3; ++k) total.data[row][k] = values[row]->c[k];
+#if defined(__CUDA_ARCH__)
+for (int step = 16; step > 0; step >>= 1)
+    for (int row = 0; row < 8; ++row)
+        for (int k = 0; k < 3; ++k)
+            total.data[row][k] += __shfl_xor_sync(0xffffffffu, total.data[row][k], step);
+#endif
+return total;
+"""
+)
+def lanes_sum_all(
+    a: wp.vec3, b: wp.vec3, c: wp.vec3, d: wp.vec3, e: wp.vec3, f: wp.vec3, g: wp.vec3, h: wp.vec3
+) -> Vectors:
+    """Return the sums of eight vectors over the lanes of a warp, in a fixed order: in the time of one."""
+    return Vectors(*a, *b, *c, *d, *e, *f, *g, *h)
+
+
+@native(
     _OVER_LANES.format(
         lanes=WARP,
         type="wp::vec_t<3, float>",
@@ -75,7 +91,7 @@ def lanes_max3(value: wp.vec3) -> wp.vec3:
     return value
 
 
-@_native("""
+@native("""
 #if defined(__CUDA_ARCH__)
 return (int)__ballot_sync(0xffffffffu, yes);
 #else
@@ -87,25 +103,7 @@ def lanes_that(yes: int) -> int:
     return yes
 
 
-@_native("""
-#if defined(__CUDA_ARCH__)
-return 0;
-#else
-return 1;
-#endif
-""")
-def lane_is_alone() -> int:
-    """Return 1 on the CPU: what does not run there is not even compiled."""
-    return 1
-
-
-@_native("__builtin_assume(index >= 0); return index;")
-def counted(index: int) -> int:
-    """Return an index of which compilers may know that it is not negative, so counts from no array's end."""
-    return index
-
-
-@_native("""
+@native("""
 #if defined(__CUDA_ARCH__)
 return __ffs(bits) - 1;
 #else
@@ -117,7 +115,7 @@ def lowest(bits: int) -> int:
     return bits
 
 
-@_native(
+@native(
     _OVER_LANES.format(
         lanes=WARP, type="float", add="total = fminf(total, __shfl_xor_sync(0xffffffffu, total, step));"
     ),
@@ -127,7 +125,7 @@ def lanes_least(value: float) -> float:
     return value
 
 
-@_native(
+@native(
     _OVER_LANES.format(
         lanes=WARP, type="int", add="total = max(total, __shfl_xor_sync(0xffffffffu, total, step));"
     ),
@@ -137,7 +135,13 @@ def lanes_most(value: int) -> int:
     return value
 
 
-@_native("""
+@native("return WP_TILE_BLOCK_DIM;")
+def block_lanes() -> int:
+    """Return how many lanes a block has: known when the kernel is compiled, as that of Warp is not."""
+    return 1
+
+
+@native("""
 #if defined(__CUDA_ARCH__)
 __syncwarp();
 #endif
@@ -147,7 +151,7 @@ def lanes_meet():
     ...
 
 
-@_native("""
+@native("""
 #if defined(__CUDA_ARCH__)
 __syncthreads();
 #endif
@@ -157,7 +161,7 @@ def block_meets():
     ...
 
 
-@_native("""
+@native("""
 #if defined(__CUDA_ARCH__)
 __syncthreads();
 if (blocks > 1) {
@@ -166,7 +170,7 @@ if (blocks > 1) {
         asm volatile("red.release.gpu.global.add.s32 [%0], 1;" :: "l"(gate) : "memory");
         int come = 0;
         do {
-            asm volatile("ld.acquire.gpu.global.s32 %0, [%1];" : "=r"(come) : "l"(gate) : "memory");
+            asm volatile("ld.relaxed.gpu.global.s32 %0, [%1];" : "=r"(come) : "l"(gate) : "memory");
         } while (come < goal);
     }
     __syncthreads();
@@ -174,7 +178,7 @@ if (blocks > 1) {
 #endif
 """)
 def blocks_meet(gates: wp.array[int], sculpture: int, blocks: int, goal: int, lane: int):
-    """Let all blocks of a sculpture see what the others wrote.
+    """Let all blocks of a sculpture see what the others wrote, where they read it as `seen`.
 
     `goal`: what its gate counts when all have come, `blocks` more than at the last meeting.
     """

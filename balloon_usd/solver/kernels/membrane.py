@@ -2,6 +2,8 @@
 
 import warp as wp
 
+from balloon_usd.solver.kernels.at import float_at, int_at, mat22_at, put_float, vec3_at, vec4_at, vec4i_at
+from balloon_usd.solver.kernels.planes import put
 from balloon_usd.solver.kernels.rubber import (
     LEAST_ENERGY,
     Knot,
@@ -10,6 +12,7 @@ from balloon_usd.solver.kernels.rubber import (
     membrane_law,
     softening_factor,
 )
+from balloon_usd.solver.kernels.seen import vec3_seen
 
 MIN_STRETCH = wp.constant(0.05)
 """Smallest stretch that enters a rubber law (1): a collapsed quad must not divide by zero."""
@@ -173,19 +176,20 @@ def wall_of_quad(
     origin: wp.vec3,
     softening_rate: wp.array[float],
     peak_energy: wp.array[float],
-    corner_force: wp.array2d[wp.vec3],
-    lift: wp.array2d[wp.vec3],
+    corner_force: wp.array2d[float],
+    lift: wp.array2d[float],
 ):
     """Write the force (N) of the wall on the four corners of a quad and what gas will push on (m2), and
     return the volume (m3) between the quad and an origin.
     """
-    c = quads[q]
-    law = laws[quad_law[q]]
-    x0 = x[c[0]]
-    x1 = x[c[1]]
-    x2 = x[c[2]]
-    x3 = x[c[3]]
-    b = to_rest[q]
+    c = vec4i_at(quads, q)
+    mine = int_at(quad_law, q)
+    law = laws[mine]
+    x0 = vec3_seen(x, c[0])
+    x1 = vec3_seen(x, c[1])
+    x2 = vec3_seen(x, c[2])
+    x3 = vec3_seen(x, c[3])
+    b = mat22_at(to_rest, q)
     large2, small2 = stretches_of_quad(x0, x1, x2, x3, b)
     t = wp.vec3(0.0)
     if large2 > 1.0:
@@ -193,10 +197,10 @@ def wall_of_quad(
     f0, f1, f2, f3, reached = forces_of_quad(
         law,
         b,
-        hourglass[q],
-        rubber_volume[q],
-        softening_rate[quad_law[q]],
-        peak_energy[q],
+        vec4_at(hourglass, q),
+        float_at(rubber_volume, q),
+        float_at(softening_rate, mine),
+        float_at(peak_energy, q),
         large2,
         small2,
         t,
@@ -204,30 +208,30 @@ def wall_of_quad(
         x1,
         x2,
         x3,
-        v[c[0]],
-        v[c[1]],
-        v[c[2]],
-        v[c[3]],
+        vec3_seen(v, c[0]),
+        vec3_seen(v, c[1]),
+        vec3_seen(v, c[2]),
+        vec3_seen(v, c[3]),
     )
-    peak_energy[q] = reached
-    corner_force[q, 0] = f0
-    corner_force[q, 1] = f1
-    corner_force[q, 2] = f2
-    corner_force[q, 3] = f3
+    put_float(peak_energy, q, reached)
+    put(corner_force, q, 0, f0)
+    put(corner_force, q, 1, f1)
+    put(corner_force, q, 2, f2)
+    put(corner_force, q, 3, f3)
     l0, l1, l2, l3, volume = lifts_of_quad(x0, x1, x2, x3, origin)
-    lift[q, 0] = l0
-    lift[q, 1] = l1
-    lift[q, 2] = l2
-    lift[q, 3] = l3
+    put(lift, q, 0, l0)
+    put(lift, q, 1, l1)
+    put(lift, q, 2, l2)
+    put(lift, q, 3, l3)
     return volume
 
 
 @wp.func
 def stretch_of_quad(q: int, quads: wp.array[wp.vec4i], to_rest: wp.array[wp.mat22], x: wp.array[wp.vec3]):
     """Return the largest principal stretch of a quad's mean deformation."""
-    c = quads[q]
-    b = to_rest[q]
-    hoop, axial = edges_of_quad(x[c[0]], x[c[1]], x[c[2]], x[c[3]])
+    c = vec4i_at(quads, q)
+    b = mat22_at(to_rest, q)
+    hoop, axial = edges_of_quad(vec3_at(x, c[0]), vec3_at(x, c[1]), vec3_at(x, c[2]), vec3_at(x, c[3]))
     f1, f2 = gradient_of_quad(hoop, axial, b)
     large2, _ = squared_stretches(f1, f2)
     return wp.sqrt(large2)
@@ -247,10 +251,10 @@ def vertex_stretch(
     count = float(0.0)
     row = int(i)
     while row >= 0:
-        slots = corners[row]
+        slots = vec4i_at(corners, row)
         for k in range(4):
             if slots[k] >= 0:
                 total += stretch_of_quad(slots[k] // 4, quads, to_rest, x)
                 count += 1.0
         row = -2 - slots[3]
-    stretch[i] = total / wp.max(count, 1.0)
+    put_float(stretch, i, total / wp.max(count, 1.0))

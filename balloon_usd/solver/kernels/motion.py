@@ -2,7 +2,9 @@
 
 import warp as wp
 
-from balloon_usd.solver.kernels.lanes import counted
+from balloon_usd.solver.kernels.at import float_at, int_at, put_vec3, vec4i_at
+from balloon_usd.solver.kernels.planes import seen_in
+from balloon_usd.solver.kernels.seen import float_seen, vec3_seen
 
 
 @wp.struct
@@ -34,8 +36,8 @@ def force_of_further_quads(
     last: int,
     inside: float,
     corners: wp.array[wp.vec4i],
-    corner_force: wp.array2d[wp.vec3],
-    lift: wp.array2d[wp.vec3],
+    corner_force: wp.array2d[float],
+    lift: wp.array2d[float],
 ):
     """Return the force (N) of the further quads at a vertex, with the gauge pressure (Pa) behind them.
 
@@ -44,12 +46,12 @@ def force_of_further_quads(
     f = wp.vec3(0.0)
     more = -2 - last
     while more >= 0:
-        slots = corners[more]
+        slots = vec4i_at(corners, more)
         for k in range(4):
             if slots[k] >= 0:
                 q = slots[k] >> 2
                 corner = slots[k] & 3
-                f += corner_force[q, corner] + inside * lift[q, corner]
+                f += seen_in(corner_force, q, corner) + inside * seen_in(lift, q, corner)
         more = -2 - slots[3]
     return f
 
@@ -62,23 +64,23 @@ def force_on_vertex(
     beyond: float,
     corners: wp.array[wp.vec4i],
     quad_segment: wp.array[int],
-    contact_force: wp.array2d[wp.vec3],
-    corner_force: wp.array2d[wp.vec3],
-    lift: wp.array2d[wp.vec3],
+    contact_force: wp.array2d[float],
+    corner_force: wp.array2d[float],
+    lift: wp.array2d[float],
 ):
     """Return the force (N) of wall, gas and other walls on a vertex.
 
     `inside`, `beyond`: gauge pressures (Pa) in the segment `side` and in the other that it may border on.
     """
-    slots = corners[counted(i)]
-    f = contact_force[i, 0] + contact_force[i, 1]
+    slots = vec4i_at(corners, i)
+    f = seen_in(contact_force, i, 0) + seen_in(contact_force, i, 1)
     # No load waits for a decision: where there is no quad, one is read and left out.
     for k in range(4):
         slot = wp.max(slots[k], 0)
         q = slot >> 2
         corner = slot & 3
-        p = wp.where(quad_segment[q] == side, inside, beyond)
-        g = corner_force[q, corner] + p * lift[q, corner]
+        p = wp.where(int_at(quad_segment, q) == side, inside, beyond)
+        g = seen_in(corner_force, q, corner) + p * seen_in(lift, q, corner)
         f += wp.where(slots[k] >= 0, g, wp.vec3(0.0))
     return f
 
@@ -101,12 +103,14 @@ def step_of_vertex(
     """Return where a force (N) moves a vertex (m) and its speed there (m/s), by symplectic Euler
     (Kosaka 2008, eqs. 3.22 and 3.23).
     """
-    b = counted(vertex_balloon[counted(i)])
+    b = int_at(vertex_balloon, i)
     turn = spin[b]
-    along = vertex_along[i]
-    pull = wp.vec3(0.0, 0.0, -gravity[b] * weight[i])
-    speed = (v[i] + (f + pull) * (dt / mass[i])) * wp.max(1.0 - drag[b] * dt, 0.0)
-    p = x[i] + speed * dt
+    along = float_at(vertex_along, i)
+    pull = wp.vec3(0.0, 0.0, -float_at(gravity, b) * float_at(weight, i))
+    speed = (vec3_seen(v, i) + (f + pull) * (dt / float_at(mass, i))) * wp.max(
+        1.0 - float_at(drag, b) * dt, 0.0
+    )
+    p = vec3_seen(x, i) + speed * dt
     rate = turn.back_rate
     axis = turn.back_axis
     drift = turn.back_drift
@@ -136,20 +140,20 @@ def move_vertex(
     drag: wp.array[float],
     dt: float,
     spin: wp.array[Spin],
-    contact_force: wp.array2d[wp.vec3],
-    corner_force: wp.array2d[wp.vec3],
-    lift: wp.array2d[wp.vec3],
+    contact_force: wp.array2d[float],
+    corner_force: wp.array2d[float],
+    lift: wp.array2d[float],
     pressure: wp.array[float],
     x: wp.array[wp.vec3],
     v: wp.array[wp.vec3],
 ):
     """Move a vertex (m) that belongs to no ring by the forces on it, and write its speed (m/s)."""
-    home = vertex_segment[i]
-    inside = pressure[home]
+    home = int_at(vertex_segment, i)
+    inside = float_seen(pressure, home)
     f = force_on_vertex(i, home, inside, inside, corners, quad_segment, contact_force, corner_force, lift)
-    last = corners[i][3]
+    last = vec4i_at(corners, i)[3]
     if last < -1:
         f += force_of_further_quads(last, inside, corners, corner_force, lift)
     p, speed = step_of_vertex(i, f, vertex_balloon, vertex_along, mass, weight, gravity, drag, dt, spin, x, v)
-    x[i] = p
-    v[i] = speed
+    put_vec3(x, i, p)
+    put_vec3(v, i, speed)

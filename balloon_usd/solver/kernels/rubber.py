@@ -2,7 +2,7 @@
 
 import warp as wp
 
-from balloon_usd.solver.kernels.lanes import counted
+from balloon_usd.solver.kernels.native import native
 
 Knot = wp.types.matrix(shape=(2, 4), dtype=float)
 """Cubic from a knot to the next, of stress and of energy: factors of the powers of the share of the way."""
@@ -53,6 +53,12 @@ ERF_6 = wp.constant(0.0000430638)
 """Abramowitz & Stegun 7.1.28: erf to 3e-7, without an exponential."""
 
 
+@native("return curves.data[i];")
+def knot_at(curves: wp.array[Knot], i: int) -> Knot:
+    """Return a cubic, as others in `at`."""
+    return curves[i]
+
+
 @wp.func
 def on_curve(law: Law, curves: wp.array[Knot], squared: float):
     """Return the Ogden sums of mu stretch^alpha (Pa) and mu / alpha (stretch^alpha - 1) (J/m3) at a squared
@@ -63,7 +69,7 @@ def on_curve(law: Law, curves: wp.array[Knot], squared: float):
     bits = wp.cast(squared, wp.int32)
     t = float(bits & ((1 << law.step_bits) - 1)) * law.step_share
     knot = wp.clamp(law.zero_knot + (bits >> law.step_bits), law.first_knot, law.last_knot)
-    c = curves[counted(knot)]
+    c = knot_at(curves, knot)
     return wp.vec2(
         ((c[0, 3] * t + c[0, 2]) * t + c[0, 1]) * t + c[0, 0],
         ((c[1, 3] * t + c[1, 2]) * t + c[1, 1]) * t + c[1, 0],

@@ -4,11 +4,14 @@ other, in place of a launch for each law.
 
 import warp as wp
 
+from balloon_usd.solver.kernels.at import int_at, int_in, put_float
 from balloon_usd.solver.kernels.contact import Touch, press_quad_back, press_wall
 from balloon_usd.solver.kernels.fingers import Finger, press_finger
 from balloon_usd.solver.kernels.gas import Air, advance_gas, volume_of_fans
 from balloon_usd.solver.kernels.joints import (
     Axes,
+    block_of_joint,
+    joints_of_block,
     load_strut,
     measure_open_ring,
     move_joint,
@@ -18,16 +21,17 @@ from balloon_usd.solver.kernels.joints import (
 from balloon_usd.solver.kernels.lanes import (
     FEW,
     WARP,
+    block_lanes,
     block_meets,
     blocks_meet,
-    counted,
     few_sum,
-    lane_is_alone,
     lanes_sum,
+    lowest,
 )
 from balloon_usd.solver.kernels.membrane import wall_of_quad
 from balloon_usd.solver.kernels.motion import Spin, move_vertex
 from balloon_usd.solver.kernels.rubber import Knot, Law
+from balloon_usd.solver.kernels.seen import float_seen, vec3_seen
 from balloon_usd.solver.kernels.side_by_side import walls_abreast
 
 # A product and a sum in one instruction: a tenth less time on a CPU.
@@ -42,6 +46,7 @@ FEW_LANES = wp.constant(FEW)
 @wp.kernel
 def advance_sculptures(
     crew: int,
+    joint_blocks: int,
     substeps: int,
     begin: int,
     end: int,
@@ -80,6 +85,7 @@ def advance_sculptures(
     joint_beside: wp.array[wp.vec2i],
     joint_struts: wp.array2d[int],
     strut_joint: wp.array[wp.vec2i],
+    joint_leader: wp.array[int],
     joint_weld: wp.array[int],
     weld_joint: wp.array2d[int],
     weld_size: wp.array[int],
@@ -135,11 +141,11 @@ def advance_sculptures(
     hit_count: wp.array[int],
     v: wp.array[wp.vec3],
     slip: wp.array2d[wp.vec3],
-    contact_force: wp.array2d[wp.vec3],
-    contact_place: wp.array2d[wp.vec2],
+    contact_force: wp.array2d[float],
+    contact_place: wp.array[wp.vec2],
     hits: wp.array2d[int],
-    corner_force: wp.array2d[wp.vec3],
-    lift: wp.array2d[wp.vec3],
+    corner_force: wp.array2d[float],
+    lift: wp.array2d[float],
     ring_speed: wp.array[wp.vec3],
     strut_length: wp.array[float],
     strut_force: wp.array[wp.vec3],
@@ -153,37 +159,41 @@ def advance_sculptures(
 ):
     """Advance every sculpture from substep `begin` to `end` of its frame.
 
-    `crew`: blocks of one sculpture, all of which must run at once. `walls`: 1 where walls can touch;
-    `pressing`: 1 where a finger presses. `gates`: zeros, at which its blocks meet.
+    `crew`: blocks of one sculpture, all of which must run at once; the first `joint_blocks` move joints.
+    `walls`: 1 where walls can touch; `pressing`: 1 where a finger presses. `gates`: zeros, at which its
+    blocks meet.
     """
     tile, lane = wp.tid()
     w = tile // crew
     block = tile % crew
-    lanes = crew * wp.block_dim()
-    me = block * wp.block_dim() + lane
+    block_size = block_lanes()
+    lanes = crew * block_size
+    me = block * block_size + lane
     # Lanes that share a joint, a chunk or a segment: a warp; on the CPU one.
-    gang = wp.min(ALL, wp.block_dim())
+    gang = wp.min(ALL, block_size)
     one = lane % gang
-    few = wp.min(FEW_LANES, wp.block_dim())
+    few = wp.min(FEW_LANES, block_size)
     warps = lanes // gang
     warp = me // gang
+    block_warps = block_size // gang
+    block_warp = lane // gang
     # The first block sees to the gas; where there are others, these see to the rest meanwhile.
-    others = wp.max(lanes - wp.block_dim(), wp.min(lanes, wp.block_dim()))
-    other = wp.where(crew > 1, me - wp.block_dim(), me)
+    others = wp.max(lanes - block_size, wp.min(lanes, block_size))
+    other = wp.where(crew > 1, me - block_size, me)
     # Read once: whatever is read after a meeting comes from far away.
-    balloon_begin = world_balloon[w]
-    balloon_end = world_balloon[w + 1]
-    vertex_begin = world_vertex[w]
-    vertex_end = world_vertex[w + 1]
-    segment_begin = world_segment[w]
-    segment_end = world_segment[w + 1]
-    joint_begin = world_joint[w]
-    joint_end = world_joint[w + 1]
-    chunk_begin = world_chunk[w]
-    chunk_end = world_chunk[w + 1]
-    quad_begin = world_quad[w]
-    quad_end = world_quad[w + 1]
-    welds = world_welds[w]
+    balloon_begin = int_at(world_balloon, w)
+    balloon_end = int_at(world_balloon, w + 1)
+    vertex_begin = int_at(world_vertex, w)
+    vertex_end = int_at(world_vertex, w + 1)
+    segment_begin = int_at(world_segment, w)
+    segment_end = int_at(world_segment, w + 1)
+    joint_begin = int_at(world_joint, w)
+    joint_end = int_at(world_joint, w + 1)
+    chunk_begin = int_at(world_chunk, w)
+    chunk_end = int_at(world_chunk, w + 1)
+    quad_begin = int_at(world_quad, w)
+    quad_end = int_at(world_quad, w + 1)
+    welds = int_at(world_welds, w)
     goal = int(0)
     for k in range(begin, end):
         fraction = float(k + 1) / float(substeps)
@@ -192,7 +202,8 @@ def advance_sculptures(
                 press_finger(i, vertex_balloon, mass, fingers, finger_share, dt, fraction, x, v)
             goal += crew
             blocks_meet(gates, w, crew, goal, lane)
-        if lane_is_alone() == 1:
+        # On a CPU: elsewhere it is not even compiled.
+        if block_size == 1:
             walls_abreast(
                 chunk_begin,
                 chunk_end,
@@ -216,7 +227,7 @@ def advance_sculptures(
         else:
             for c in range(chunk_begin + warp, chunk_end, warps):
                 share = float(0.0)
-                for q in range(chunk_quad[c] + one, chunk_quad[c + 1], gang):
+                for q in range(int_at(chunk_quad, c) + one, int_at(chunk_quad, c + 1), gang):
                     share += wall_of_quad(
                         q,
                         quads,
@@ -228,7 +239,7 @@ def advance_sculptures(
                         curves,
                         x,
                         v,
-                        x[chunk_origin[c]],
+                        vec3_seen(x, int_at(chunk_origin, c)),
                         softening_rate,
                         peak_energy,
                         corner_force,
@@ -236,7 +247,7 @@ def advance_sculptures(
                     )
                 share = lanes_sum(share)
                 if one == 0:
-                    chunk_share[c] = share
+                    put_float(chunk_share, c, share)
         for j in range(joint_begin + warps - 1 - warp, joint_end, warps):
             measure_open_ring(
                 j,
@@ -253,7 +264,7 @@ def advance_sculptures(
         if walls == 1:
             for i in range(vertex_begin + lanes - 1 - me, vertex_end, lanes):
                 press_wall(
-                    counted(i),
+                    i,
                     quads,
                     mass,
                     touch,
@@ -273,16 +284,27 @@ def advance_sculptures(
         goal += crew
         blocks_meet(gates, w, crew, goal, lane)
         if block == 0:
-            for s in range(segment_begin + lane // few, segment_end, wp.block_dim() // few):
+            for first in range(segment_begin, segment_end, block_size // few):
+                s = first + lane // few
                 total = float(0.0)
-                for c in range(segment_chunk[s] + lane % few, segment_chunk[s + 1], few):
-                    total += chunk_share[c]
-                fans = volume_of_fans(s, start_joint, end_joint, ring_middle, ring_area, x[segment_origin[s]])
+                fans = float(0.0)
+                if s < segment_end:
+                    for c in range(int_at(segment_chunk, s) + lane % few, int_at(segment_chunk, s + 1), few):
+                        total += float_seen(chunk_share, c)
+                    fans = volume_of_fans(
+                        s,
+                        start_joint,
+                        end_joint,
+                        ring_middle,
+                        ring_area,
+                        vec3_seen(x, int_at(segment_origin, s)),
+                    )
+                # All lanes of the warp are here.
                 total = few_sum(total)
-                if lane % few == 0:
-                    volume[s] = total + fans
+                if s < segment_end and lane % few == 0:
+                    put_float(volume, s, total + fans)
             block_meets()
-            for b in range(balloon_begin + warp, balloon_end, wp.block_dim() // gang):
+            for b in range(balloon_begin + block_warp, balloon_end, block_warps):
                 advance_gas(
                     b,
                     one,
@@ -311,13 +333,11 @@ def advance_sculptures(
         if other >= 0:
             if walls == 1:
                 for q in range(quad_begin + other, quad_end, others):
-                    press_quad_back(
-                        counted(q), quads, hit_count, hits, contact_force, contact_place, x, corner_force
-                    )
+                    press_quad_back(q, quads, hit_count, hits, contact_force, contact_place, x, corner_force)
             slots = joint_struts.shape[1]
             # From the other end: those that press no wall back.
             for at in range(joint_begin * slots + others - 1 - other, joint_end * slots, others):
-                strut = joint_struts[at // slots, at % slots]
+                strut = int_in(joint_struts, at // slots, at % slots)
                 if strut > 0:
                     load_strut(
                         strut - 1,
@@ -332,56 +352,62 @@ def advance_sculptures(
                     )
         goal += crew
         blocks_meet(gates, w, crew, goal, lane)
-        for j in range(joint_begin + warp, joint_end, warps):
-            move_joint(
-                j,
-                one,
-                gang,
-                corners,
-                vertex_balloon,
-                quad_segment,
-                vertex_along,
-                joint_first,
-                joint_around,
-                joint_parts,
-                joint_beside,
-                joint_struts,
-                corner,
-                mass,
-                weight,
-                joint_mass,
-                gravity,
-                drag,
-                dt,
-                frame_seconds,
-                fraction,
-                spin,
-                hand,
-                hand_from,
-                hand_to,
-                hand_free,
-                hand_force,
-                hand_stiffness,
-                radius_from,
-                radius_to,
-                contact_force,
-                corner_force,
-                lift,
-                pressure,
-                strut_force,
-                x_next,
-                x,
-                v,
-                ring_middle,
-                ring_area,
-                ring_axes,
-                ring_speed,
-                hand_load,
-            )
+        rank = int(0)
+        for base in range(joint_begin, joint_end, gang):
+            mine = joints_of_block(base + one, joint_begin, joint_end, block, joint_blocks, joint_leader)
+            while mine != 0:
+                if rank % block_warps == block_warp:
+                    move_joint(
+                        base + lowest(mine),
+                        one,
+                        gang,
+                        corners,
+                        vertex_balloon,
+                        quad_segment,
+                        vertex_along,
+                        joint_first,
+                        joint_around,
+                        joint_parts,
+                        joint_beside,
+                        joint_struts,
+                        corner,
+                        mass,
+                        weight,
+                        joint_mass,
+                        gravity,
+                        drag,
+                        dt,
+                        frame_seconds,
+                        fraction,
+                        spin,
+                        hand,
+                        hand_from,
+                        hand_to,
+                        hand_free,
+                        hand_force,
+                        hand_stiffness,
+                        radius_from,
+                        radius_to,
+                        contact_force,
+                        corner_force,
+                        lift,
+                        pressure,
+                        strut_force,
+                        x_next,
+                        x,
+                        v,
+                        ring_middle,
+                        ring_area,
+                        ring_axes,
+                        ring_speed,
+                        hand_load,
+                    )
+                mine &= mine - 1
+                rank += 1
         for i in range(vertex_begin + lanes - 1 - me, vertex_end, lanes):
-            if vertex_joint[counted(i)] < 0:
+            if int_at(vertex_joint, i) < 0:
                 move_vertex(
-                    counted(i),
+                    i,
                     corners,
                     vertex_balloon,
                     vertex_segment,
@@ -400,30 +426,38 @@ def advance_sculptures(
                     x,
                     v,
                 )
+        if welds > 0:
+            # All joints of a weld are one block's.
+            block_meets()
+            rank = int(0)
+            for base in range(joint_begin, joint_end, gang):
+                mine = joints_of_block(base + one, joint_begin, joint_end, block, joint_blocks, joint_leader)
+                while mine != 0:
+                    if rank % block_warps == block_warp:
+                        weld_joint_to_others(
+                            base + lowest(mine),
+                            one,
+                            gang,
+                            joint_weld,
+                            weld_joint,
+                            weld_size,
+                            weld_reach,
+                            weld_gap,
+                            joint_first,
+                            joint_around,
+                            joint_mass,
+                            hand,
+                            dt,
+                            ring_middle,
+                            x,
+                            v,
+                            weld_shift,
+                        )
+                    mine &= mine - 1
+                    rank += 1
+            block_meets()
+            for j in range(joint_begin + lane, joint_end, block_size):
+                if block_of_joint(j, joint_begin, joint_blocks, joint_leader) == block:
+                    shift_middle(j, weld_shift, ring_middle)
         goal += crew
         blocks_meet(gates, w, crew, goal, lane)
-        if welds > 0:
-            for j in range(joint_begin + warp, joint_end, warps):
-                weld_joint_to_others(
-                    j,
-                    one,
-                    gang,
-                    joint_weld,
-                    weld_joint,
-                    weld_size,
-                    weld_reach,
-                    weld_gap,
-                    joint_first,
-                    joint_around,
-                    joint_mass,
-                    hand,
-                    dt,
-                    ring_middle,
-                    x,
-                    v,
-                    weld_shift,
-                )
-            goal += crew
-            blocks_meet(gates, w, crew, goal, lane)
-            for j in range(joint_begin + me, joint_end, lanes):
-                shift_middle(j, weld_shift, ring_middle)

@@ -7,12 +7,21 @@ coordinate. So the quads of a chunk are laid in rows first, and what comes of th
 
 import warp as wp
 
-from balloon_usd.solver.kernels.lanes import counted
+from balloon_usd.solver.kernels.at import (
+    float_at,
+    int_at,
+    mat22_at,
+    put_float,
+    vec3_at,
+    vec4_at,
+    vec4i_at,
+)
 from balloon_usd.solver.kernels.membrane import (
     forces_of_quad,
     lifts_of_quad,
     stretches_of_quad,
 )
+from balloon_usd.solver.kernels.planes import put
 from balloon_usd.solver.kernels.rubber import Knot, Law, followed_stretches, membrane_law
 
 ABREAST = 16
@@ -46,8 +55,8 @@ def walls_abreast(
     v: wp.array[wp.vec3],
     softening_rate: wp.array[float],
     peak_energy: wp.array[float],
-    corner_force: wp.array2d[wp.vec3],
-    lift: wp.array2d[wp.vec3],
+    corner_force: wp.array2d[float],
+    lift: wp.array2d[float],
     chunk_share: wp.array[float],
 ):
     """Write what `wall_of_quad` does for the quads of chunks, each of one rubber, and the volume (m3) between
@@ -59,32 +68,33 @@ def walls_abreast(
     # Counted by hand: compilers do not see through Warp's ranges.
     chunk = int(begin)
     while chunk < end:
-        first = chunk_quad[chunk]
-        last = chunk_quad[chunk + 1]
-        law = laws[quad_law[first]]
-        softening = softening_rate[quad_law[first]]
-        origin = x[chunk_origin[chunk]]
+        first = int_at(chunk_quad, chunk)
+        last = int_at(chunk_quad, chunk + 1)
+        mine = int_at(quad_law, first)
+        law = laws[mine]
+        softening = float_at(softening_rate, mine)
+        origin = vec3_at(x, int_at(chunk_origin, chunk))
         total = float(0.0)
         while first < last:
             k = int(0)
             while k < ROW:
                 # The last quad stands for those that a row lacks.
-                q = counted(wp.min(first + k, last - 1))
-                c = quads[q]
-                g[0:3, k] = x[counted(c[0])]
-                g[3:6, k] = x[counted(c[1])]
-                g[6:9, k] = x[counted(c[2])]
-                g[9:12, k] = x[counted(c[3])]
-                g[12:15, k] = v[counted(c[0])]
-                g[15:18, k] = v[counted(c[1])]
-                g[18:21, k] = v[counted(c[2])]
-                g[21:24, k] = v[counted(c[3])]
-                b = to_rest[q]
+                q = wp.min(first + k, last - 1)
+                c = vec4i_at(quads, q)
+                g[0:3, k] = vec3_at(x, c[0])
+                g[3:6, k] = vec3_at(x, c[1])
+                g[6:9, k] = vec3_at(x, c[2])
+                g[9:12, k] = vec3_at(x, c[3])
+                g[12:15, k] = vec3_at(v, c[0])
+                g[15:18, k] = vec3_at(v, c[1])
+                g[18:21, k] = vec3_at(v, c[2])
+                g[21:24, k] = vec3_at(v, c[3])
+                b = mat22_at(to_rest, q)
                 g[24:26, k] = b[0]
                 g[26:28, k] = b[1]
-                g[28:32, k] = hourglass[q]
-                g[32, k] = rubber_volume[q]
-                g[33, k] = peak_energy[q]
+                g[28:32, k] = vec4_at(hourglass, q)
+                g[32, k] = float_at(rubber_volume, q)
+                g[33, k] = float_at(peak_energy, q)
                 k += 1
             k = int(0)
             while k < ROW:
@@ -141,18 +151,18 @@ def walls_abreast(
                 k += 1
             k = int(0)
             while k < wp.min(ROW, last - first):
-                done = counted(first + k)
-                corner_force[done, 0] = r[0:3, k]
-                corner_force[done, 1] = r[3:6, k]
-                corner_force[done, 2] = r[6:9, k]
-                corner_force[done, 3] = r[9:12, k]
-                lift[done, 0] = r[12:15, k]
-                lift[done, 1] = r[15:18, k]
-                lift[done, 2] = r[18:21, k]
-                lift[done, 3] = r[21:24, k]
+                done = first + k
+                put(corner_force, done, 0, r[0:3, k])
+                put(corner_force, done, 1, r[3:6, k])
+                put(corner_force, done, 2, r[6:9, k])
+                put(corner_force, done, 3, r[9:12, k])
+                put(lift, done, 0, r[12:15, k])
+                put(lift, done, 1, r[15:18, k])
+                put(lift, done, 2, r[18:21, k])
+                put(lift, done, 3, r[21:24, k])
                 total += r[24, k]
-                peak_energy[done] = r[25, k]
+                put_float(peak_energy, done, r[25, k])
                 k += 1
             first += ROW
-        chunk_share[chunk] = total
+        put_float(chunk_share, chunk, total)
         chunk += 1

@@ -2,12 +2,21 @@
 
 import warp as wp
 
+from balloon_usd.solver.kernels.at import int_at, int_in, put_float, vec3_at, vec4i_at
+from balloon_usd.solver.kernels.planes import seen_in
+
 
 @wp.func
 def pressing_on(q: int, quads: wp.array[wp.vec4i], x: wp.array[wp.vec3], f: wp.vec3):
     """Return the part of a contact force (N) that is normal to the quad that is touched."""
-    c = quads[q]
-    return wp.max(wp.dot(f, wp.normalize(wp.cross(x[c[2]] - x[c[0]], x[c[3]] - x[c[1]]))), 0.0)
+    c = vec4i_at(quads, q)
+    return wp.max(
+        wp.dot(
+            f,
+            wp.normalize(wp.cross(vec3_at(x, c[2]) - vec3_at(x, c[0]), vec3_at(x, c[3]) - vec3_at(x, c[1]))),
+        ),
+        0.0,
+    )
 
 
 @wp.func
@@ -16,18 +25,18 @@ def load_of_vertex(
     quads: wp.array[wp.vec4i],
     corners: wp.array[wp.vec4i],
     target: wp.array2d[int],
-    contact_force: wp.array2d[wp.vec3],
+    contact_force: wp.array2d[float],
     x: wp.array[wp.vec3],
 ):
     """Return the force (N) that presses on each of the quads round a vertex, by the walls that it touches."""
     load = float(0.0)
     for k in range(2):
-        if target[i, k] >= 0:
-            load += pressing_on(target[i, k], quads, x, contact_force[i, k])
+        if int_in(target, i, k) >= 0:
+            load += pressing_on(int_in(target, i, k), quads, x, seen_in(contact_force, i, k))
     beside = float(0.0)
     row = int(i)
     while row >= 0:
-        slots = corners[row]
+        slots = vec4i_at(corners, row)
         for k in range(4):
             if slots[k] >= 0:
                 beside += 1.0
@@ -44,7 +53,7 @@ def wall_loads(
     target: wp.array2d[int],
     hit_count: wp.array[int],
     hits: wp.array2d[int],
-    contact_force: wp.array2d[wp.vec3],
+    contact_force: wp.array2d[float],
     x: wp.array[wp.vec3],
     wall_load: wp.array[float],
 ):
@@ -54,13 +63,13 @@ def wall_loads(
     """
     s, lane = wp.tid()
     total = float(0.0)
-    for q in range(segment_quad[s] + lane, segment_quad_end[s], wp.block_dim()):
-        for k in range(hit_count[q]):
-            hit = hits[q, k]
-            total += pressing_on(q, quads, x, contact_force[hit // 2, hit % 2])
-        c = quads[q]
+    for q in range(int_at(segment_quad, s) + lane, int_at(segment_quad_end, s), wp.block_dim()):
+        for k in range(int_at(hit_count, q)):
+            hit = int_in(hits, q, k)
+            total += pressing_on(q, quads, x, seen_in(contact_force, hit // 2, hit % 2))
+        c = vec4i_at(quads, q)
         for k in range(4):
             total += load_of_vertex(c[k], quads, corners, target, contact_force, x)
     sums = wp.tile_sum(wp.tile(total))
     if lane == 0:
-        wall_load[s] = sums[0]
+        put_float(wall_load, s, sums[0])

@@ -13,14 +13,17 @@ import warp as wp
 
 from balloon_usd.solver.kernels.lanes import WARP
 from balloon_usd.solver.kernels.sculpture import advance_sculptures
+from balloon_usd.solver.kernels.seen import ALONE
 
 if TYPE_CHECKING:
     from balloon_usd.solver.latex.scene import LatexScene
     from balloon_usd.solver.launch import Launcher
 
 
-LANES = 256
-"""Most lanes of a block."""
+LANES = 128
+"""Lanes of a block that shares its sculpture with others: few, so that each has much of its processor."""
+BESIDE = 2
+"""Blocks that one processor can run at a time."""
 
 
 class Crew:
@@ -40,15 +43,16 @@ class Crew:
         ):
             scene.put({f"world_{name}": scene.by_world(starts)})
         # While some look after the quads of a chunk, others see to the vertices that touch something.
-        vertices, chunks = scene.world_vertex.numpy(), scene.world_chunk.numpy()
-        need = int((np.diff(vertices) + WARP * np.diff(chunks)).max())
+        vertices, chunks = np.diff(scene.world_vertex.numpy()), np.diff(scene.world_chunk.numpy())
+        need = int((vertices + WARP * chunks).max())
         device = wp.get_device(scene.device)
         at_once = device.sm_count // worlds if device.is_cuda else 1
-        # Where there is room, more blocks of fewer lanes: each has more of its processor.
-        self.lanes = LANES // 2 if need <= LANES * at_once else LANES
-        self.blocks = max(1, min(-(-need // self.lanes), at_once))
-        crowded = worlds > device.sm_count if device.is_cuda else False
-        self._kernel = _quick_kernel(crowded=crowded) if device.is_cuda else advance_sculptures
+        if need > LANES * at_once and device.is_cuda:
+            at_once = BESIDE * device.sm_count // worlds
+        self.blocks = max(1, min(-(-need // LANES), at_once))
+        self.lanes = LANES if self.blocks > 1 else ALONE
+        self._most_vertices = int(vertices.max())
+        self._kernel = _quick_kernel(self.lanes) if device.is_cuda else advance_sculptures
         scene.zeros("gates", worlds, int)
 
     def advance(
@@ -62,6 +66,7 @@ class Crew:
             worlds * self.blocks,
             lanes=self.lanes,
             crew=self.blocks,
+            joint_blocks=self._blocks_without_vertices() or self.blocks,
             substeps=substeps,
             begin=begin,
             end=end,
@@ -69,14 +74,17 @@ class Crew:
             pressing=int(fingers),
         )
 
+    def _blocks_without_vertices(self) -> int:
+        """Return how many blocks of a sculpture need not move any vertex but those of joints."""
+        return max(0, self.blocks - -(-self._most_vertices // self.lanes))
+
 
 @cache
-def _quick_kernel(*, crowded: bool) -> Any:
+def _quick_kernel(lanes: int) -> Any:
     """Return the kernel with approximate divisions and roots: half of the code of exact ones is for numbers
     that cannot occur, and a GPU has to fetch it all in every substep.
 
-    `crowded`: there are more sculptures than processors, so two at a time share the registers of each.
+    `lanes`: of a block; those beside each other share the registers of a processor.
     """
-    bounds = (LANES, 2) if crowded else None
-    make = wp.kernel(module="unique", module_options={"fast_math": True}, launch_bounds=bounds)
+    make = wp.kernel(module="unique", module_options={"fast_math": True}, launch_bounds=(lanes, BESIDE))
     return make(advance_sculptures.func)

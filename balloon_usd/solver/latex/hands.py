@@ -123,21 +123,18 @@ class LatexHands(Hands):
         blowing[self._joint_body[necks[: len(self._joint_body)]]] = 1
         return blowing
 
-    def upload(self) -> None:
-        """Send the goals of the coming frame to the device."""
-        super().upload()
+    def _goals(self) -> dict[str, NDArray[Any]]:
         first, last = self.chambers()
-        for name, values in (
-            ("blowing", self._blowing()),
-            ("chamber_first", first.astype(np.int32)),
-            ("chamber_last", last.astype(np.int32)),
-            ("open_from", self.passage),
-            ("open_to", self.passage_goal),
-            ("pump_flow", self.pump_flow),
-            ("pump_limit", self.pump_limit),
-            ("pump_goal", self.pump_goal),
-        ):
-            self._send(name, values)
+        return super()._goals() | {
+            "blowing": self._blowing(),
+            "chamber_first": first,
+            "chamber_last": last,
+            "open_from": self.passage,
+            "open_to": self.passage_goal,
+            "pump_flow": self.pump_flow,
+            "pump_limit": self.pump_limit,
+            "pump_goal": self.pump_goal,
+        }
 
     def arrived(self) -> None:
         """Make this frame's goals the next frame's starts."""

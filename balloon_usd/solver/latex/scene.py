@@ -101,8 +101,8 @@ def _state_arrays(scene: LatexScene, strut_count: int) -> None:
     scene.zeros("wall_load", segments, float)
     for name in ("amount", "flow"):
         scene.zeros(name, segments, wp.float64)
-    scene.zeros("corner_force", (quads, 4), wp.vec3)
-    scene.zeros("lift", (quads, 4), wp.vec3)
+    scene.zeros("corner_force", (4 * 3, quads), float)
+    scene.zeros("lift", (4 * 3, quads), float)
     for name in ("chamber_first", "chamber_last"):
         a[name] = wp.array(np.arange(segments), dtype=int, device=scene.device)
     for name in ("open_from", "open_to"):

@@ -1,0 +1,59 @@
+"""Small arrays of a device that are sent to it together: each copy by itself takes as long as many."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import warp as wp
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from numpy.typing import NDArray
+
+    from balloon_usd.solver.scene import Scene
+
+ALIGNMENT = 16
+"""Bytes, by a multiple of which every array begins."""
+
+
+class Parcel:
+    """Arrays of a scene that lie together on the device and, for filling, on the host."""
+
+    def __init__(self, scene: Scene, names: Iterable[str]) -> None:
+        """Move arrays of a scene together, with what they hold."""
+        device = wp.get_device(scene.device)
+        before = {name: scene.arrays[name] for name in names}
+        sizes = [-(-a.size * wp.types.type_size_in_bytes(a.dtype) // ALIGNMENT) for a in before.values()]
+        starts = ALIGNMENT * np.cumsum([0, *sizes])
+        total = int(starts[-1])
+        self._away = wp.zeros(total, dtype=wp.uint8, device=device)
+        self._here = wp.zeros(total, dtype=wp.uint8, device="cpu", pinned=device.is_cuda)
+        self._views: dict[str, NDArray[Any]] = {}
+        room = self._here.numpy()
+        for (name, array), start in zip(before.items(), starts[:-1].tolist(), strict=True):
+            held = array.numpy()
+            view = np.ndarray(held.shape, held.dtype, buffer=room, offset=start)
+            view[...] = held
+            self._views[name] = view
+            scene.arrays[name] = wp.array(
+                ptr=self._away.ptr + start, shape=array.shape, dtype=array.dtype, device=device
+            )
+        self._sent = wp.Event(device) if device.is_cuda else None
+        self._changed = True
+        self.send({})
+
+    def send(self, values: Mapping[str, NDArray[Any]]) -> None:
+        """Send arrays by their names, if any has changed; where the device is a GPU, without waiting."""
+        if self._sent is not None:
+            wp.synchronize_event(self._sent)
+        for name, new in values.items():
+            if not np.array_equal(self._views[name], new):
+                self._views[name][...] = new
+                self._changed = True
+        if self._changed:
+            wp.copy(self._away, self._here)
+            if self._sent is not None:
+                wp.record_event(self._sent)
+        self._changed = False
