@@ -56,6 +56,48 @@ def stretches_of_quad(x0: wp.vec3, x1: wp.vec3, x2: wp.vec3, x3: wp.vec3, b: wp.
 
 
 @wp.func
+def resistance_to_bow(
+    slow: float,
+    h: wp.vec4,
+    hoop: wp.vec3,
+    axial: wp.vec3,
+    hoop_rate: wp.vec3,
+    axial_rate: wp.vec3,
+    x0: wp.vec3,
+    x1: wp.vec3,
+    x2: wp.vec3,
+    x3: wp.vec3,
+    v0: wp.vec3,
+    v1: wp.vec3,
+    v2: wp.vec3,
+    v3: wp.vec3,
+):
+    """Return the resistance of a quad, with a damping of `slow` (s), to the hourglass, the one deformation
+    that the mean gradient does not see, and what damping adds to the pulls (N) of its edges.
+
+    What is damped are its products with hoop, axial and normal, the changes seen from the quad itself: a
+    turning quad feels no torque.
+    """
+    bow = h[0] * x0 + h[1] * x1 + h[2] * x2 + h[3] * x3
+    bow_rate = h[0] * v0 + h[1] * v1 + h[2] * v2 + h[3] * v3
+    normal = wp.cross(hoop, axial)
+    normal_rate = wp.cross(hoop_rate, axial) + wp.cross(hoop, axial_rate)
+    hoop2 = wp.length_sq(hoop)
+    axial2 = wp.length_sq(axial)
+    bent = x0 - x1 + x2 - x3
+    bent2 = wp.length_sq(bent) + TINY
+    slow1 = slow * (wp.dot(bow_rate, hoop) + wp.dot(bow, hoop_rate)) / wp.max(hoop2, bent2)
+    slow2 = slow * (wp.dot(bow_rate, axial) + wp.dot(bow, axial_rate)) / wp.max(axial2, bent2)
+    most2 = wp.max(wp.length_sq(normal), bent2 * wp.max(hoop2, axial2))
+    slow3 = slow * (wp.dot(bow_rate, normal) + wp.dot(bow, normal_rate)) / (most2 + TINY * TINY)
+    return (
+        -(bow + slow1 * hoop + slow2 * axial + slow3 * normal),
+        0.5 * (slow1 * bow + slow3 * wp.cross(axial, bow)),
+        0.5 * (slow2 * bow + slow3 * wp.cross(bow, hoop)),
+    )
+
+
+@wp.func
 def forces_of_quad(
     law: Law,
     b: wp.mat22,
@@ -113,25 +155,11 @@ def forces_of_quad(
     pull_hoop = 0.5 * (p1 * b[0, 0] + p2 * b[0, 1])
     pull_axial = 0.5 * (p1 * b[1, 0] + p2 * b[1, 1])
 
-    # Hourglass: the one deformation that the mean gradient does not see. What is damped are its products
-    # with hoop, axial and normal, the changes seen from the quad itself: a turning quad feels no torque.
-    bow = h[0] * x0 + h[1] * x1 + h[2] * x2 + h[3] * x3
-    bow_rate = h[0] * v0 + h[1] * v1 + h[2] * v2 + h[3] * v3
-    normal = wp.cross(hoop, axial)
-    normal_rate = wp.cross(hoop_rate, axial) + wp.cross(hoop, axial_rate)
-    hoop2 = wp.length_sq(hoop)
-    axial2 = wp.length_sq(axial)
-    bent = x0 - x1 + x2 - x3
-    bent2 = wp.length_sq(bent) + TINY
-    slow = law.hourglass_damping
-    slow1 = slow * (wp.dot(bow_rate, hoop) + wp.dot(bow, hoop_rate)) / wp.max(hoop2, bent2)
-    slow2 = slow * (wp.dot(bow_rate, axial) + wp.dot(bow, axial_rate)) / wp.max(axial2, bent2)
-    most2 = wp.max(wp.length_sq(normal), bent2 * wp.max(hoop2, axial2))
-    slow3 = slow * (wp.dot(bow_rate, normal) + wp.dot(bow, normal_rate)) / (most2 + TINY * TINY)
-    resist = -(bow + slow1 * hoop + slow2 * axial + slow3 * normal)
-    pull_hoop += 0.5 * (slow1 * bow + slow3 * wp.cross(axial, bow))
-    pull_axial += 0.5 * (slow2 * bow + slow3 * wp.cross(bow, hoop))
-
+    resist, more_hoop, more_axial = resistance_to_bow(
+        law.hourglass_damping, h, hoop, axial, hoop_rate, axial_rate, x0, x1, x2, x3, v0, v1, v2, v3
+    )
+    pull_hoop += more_hoop
+    pull_axial += more_axial
     return (
         pull_hoop + pull_axial + h[0] * resist,
         -pull_hoop + pull_axial + h[1] * resist,

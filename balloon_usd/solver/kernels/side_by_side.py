@@ -2,7 +2,8 @@
 lie in a row.
 
 Compilers make such instructions of loops without decisions whose numbers lie in rows, one row for each
-coordinate. So the quads of a chunk are laid in rows first, and what comes of them is taken from rows last.
+coordinate. So quads are laid in rows first, and what comes of them is taken from rows last. All is in one
+function: rows handed to another would be copied.
 """
 
 import warp as wp
