@@ -182,9 +182,13 @@ def distance_beside(
     """Return the distance (m) of a point from a quad, or FAR where the point lies more than `most` (m) beside
     it.
     """
-    c = quads[q]
-    s = patch_shares(nearest_on_patch(x[c[0]], x[c[1]], x[c[2]], x[c[3]], p))
-    gap = p - (s[0] * x[c[0]] + s[1] * x[c[1]] + s[2] * x[c[2]] + s[3] * x[c[3]])
+    c = vec4i_at(quads, q)
+    x0 = vec3_at(x, c[0])
+    x1 = vec3_at(x, c[1])
+    x2 = vec3_at(x, c[2])
+    x3 = vec3_at(x, c[3])
+    s = patch_shares(nearest_on_patch(x0, x1, x2, x3, p))
+    gap = p - (s[0] * x0 + s[1] * x1 + s[2] * x2 + s[3] * x3)
     distance = float(FAR)
     if wp.length(gap - wp.dot(gap, face) * face) < most:
         distance = wp.length(gap)
@@ -203,8 +207,8 @@ def may_meet(
     quad_balloon: wp.array[int],
 ):
     """Return whether a quad may ever touch a vertex, given its balloon, bubble and place."""
-    elsewhere = quad_balloon[q] != mine or wp.max(wp.abs(quad_place[q] - place)) > apart
-    return elsewhere or (home >= 0 and quad_segment[q] != home)
+    elsewhere = int_at(quad_balloon, q) != mine or wp.max(wp.abs(vec3_at(quad_place, q) - place)) > apart
+    return elsewhere or (home >= 0 and int_at(quad_segment, q) != home)
 
 
 @wp.kernel
@@ -270,11 +274,11 @@ def distance_of_wall(
     """
     distance = float(FAR)
     if may_meet(q, mine, home, place, apart, quad_segment, quad_place, quad_balloon):
-        a = quad_area[q]
+        a = vec3_at(quad_area, q)
         size = wp.length(a)
         face = a / wp.max(size, 1.0e-12)
         height = wp.dot(d, face)
-        limit = wp.min(depth, DEPTH_LIMIT * ring_radius[quad_ring[q]])
+        limit = wp.min(depth, DEPTH_LIMIT * float_at(ring_radius, int_at(quad_ring, q)))
         if wp.dot(face, n) < FACING and height > -limit and height < touch.offset + touch.margin:
             distance = distance_beside(q, face, SIDE_SLIP * wp.sqrt(size), p, quads, x)
     return distance
@@ -350,8 +354,8 @@ def find_walls(
         while chunks != 0:
             chunk = begin + lowest(chunks)
             chunks &= chunks - 1
-            first = chunk_quad[chunk]
-            end = chunk_quad[chunk + 1]
+            first = int_at(chunk_quad, chunk)
+            end = int_at(chunk_quad, chunk + 1)
             # Its own at one end of them are left out.
             if own[0] <= first:
                 first = wp.max(first, own[1])
@@ -382,13 +386,13 @@ def find_walls(
                         ring_radius,
                     )
                     if distance < near[0]:
-                        if nearest[0] >= 0 and quad_segment[nearest[0]] != quad_segment[q]:
+                        if nearest[0] >= 0 and int_at(quad_segment, nearest[0]) != int_at(quad_segment, q):
                             near = wp.vec2(distance, near[0])
                             nearest = wp.vec2i(q, nearest[0])
                         else:
                             near = wp.vec2(distance, near[1])
                             nearest = wp.vec2i(q, nearest[1])
-                    elif distance < near[1] and quad_segment[nearest[0]] != quad_segment[q]:
+                    elif distance < near[1] and int_at(quad_segment, nearest[0]) != int_at(quad_segment, q):
                         near = wp.vec2(near[0], distance)
                         nearest = wp.vec2i(nearest[0], q)
                 q += lanes
