@@ -41,19 +41,14 @@ class Parcel:
                 ptr=self._away.ptr + start, shape=array.shape, dtype=array.dtype, device=device
             )
         self._sent = wp.Event(device) if device.is_cuda else None
-        self._changed = True
         self.send({})
 
     def send(self, values: Mapping[str, NDArray[Any]]) -> None:
-        """Send arrays by their names, if any has changed; where the device is a GPU, without waiting."""
+        """Send all, after these arrays have changed; where the device is a GPU, without waiting."""
         if self._sent is not None:
             wp.synchronize_event(self._sent)
         for name, new in values.items():
-            if not np.array_equal(self._views[name], new):
-                self._views[name][...] = new
-                self._changed = True
-        if self._changed:
-            wp.copy(self._away, self._here)
-            if self._sent is not None:
-                wp.record_event(self._sent)
-        self._changed = False
+            self._views[name][...] = new
+        wp.copy(self._away, self._here)
+        if self._sent is not None:
+            wp.record_event(self._sent)

@@ -4,7 +4,7 @@ import warp as wp
 
 from balloon_usd.solver.kernels.at import float_at, int_at, put_float, vec3_at, vec4i_at
 from balloon_usd.solver.kernels.lanes import lanes_meet
-from balloon_usd.solver.kernels.seen import vec3_seen
+from balloon_usd.solver.kernels.seen import float_seen, vec3_seen
 
 
 @wp.func
@@ -32,6 +32,18 @@ def volume_of_fans(
     begins = wp.dot(vec3_seen(ring_middle, first) - o, vec3_seen(ring_area, first))
     ends = wp.dot(vec3_seen(ring_middle, last) - o, vec3_seen(ring_area, last))
     return (wp.where(end >= 0, ends, 0.0) - wp.where(start >= 0, begins, 0.0)) / 3.0
+
+
+@wp.func
+def shares_of_chunks(c: int, apart: int, end: int, chunk_share: wp.array[float]):
+    """Return the volume (m3) at four chunks, so many apart and those below an end: none waits for another."""
+    # No load waits for a decision: where there is no chunk, one is read and left out.
+    a = float_seen(chunk_share, c)
+    b = float_seen(chunk_share, wp.min(c + apart, end - 1))
+    d = float_seen(chunk_share, wp.min(c + 2 * apart, end - 1))
+    e = float_seen(chunk_share, wp.min(c + 3 * apart, end - 1))
+    total = a + wp.where(c + apart < end, b, 0.0)
+    return total + (wp.where(c + 2 * apart < end, d, 0.0) + wp.where(c + 3 * apart < end, e, 0.0))
 
 
 @wp.kernel

@@ -74,9 +74,10 @@ def force_on_vertex(
     """
     slots = vec4i_at(corners, i)
     f = seen_in(contact_force, i, 0) + seen_in(contact_force, i, 1)
-    # No load waits for a decision: where there is no quad, one is read and left out.
+    # No load waits for a decision: where there is no quad, another of the vertex is read and left out.
+    any_slot = wp.max(wp.max(slots[0], slots[1]), wp.max(slots[2], slots[3]))
     for k in range(4):
-        slot = wp.max(slots[k], 0)
+        slot = wp.where(slots[k] >= 0, slots[k], any_slot)
         q = slot >> 2
         corner = slot & 3
         p = wp.where(int_at(quad_segment, q) == side, inside, beyond)

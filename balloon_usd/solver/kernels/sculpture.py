@@ -7,7 +7,7 @@ import warp as wp
 from balloon_usd.solver.kernels.at import int_at, int_in, put_float
 from balloon_usd.solver.kernels.contact import Touch, press_quad_back, press_wall
 from balloon_usd.solver.kernels.fingers import Finger, press_finger
-from balloon_usd.solver.kernels.gas import Air, advance_gas, volume_of_fans
+from balloon_usd.solver.kernels.gas import Air, advance_gas, shares_of_chunks, volume_of_fans
 from balloon_usd.solver.kernels.joints import (
     Axes,
     block_of_joint,
@@ -31,7 +31,7 @@ from balloon_usd.solver.kernels.lanes import (
 from balloon_usd.solver.kernels.membrane import wall_of_quad
 from balloon_usd.solver.kernels.motion import Spin, move_vertex
 from balloon_usd.solver.kernels.rubber import Knot, Law
-from balloon_usd.solver.kernels.seen import float_seen, vec3_seen
+from balloon_usd.solver.kernels.seen import vec3_seen
 from balloon_usd.solver.kernels.side_by_side import walls_abreast
 
 # A product and a sum in one instruction: a tenth less time on a CPU.
@@ -289,8 +289,9 @@ def advance_sculptures(
                 total = float(0.0)
                 fans = float(0.0)
                 if s < segment_end:
-                    for c in range(int_at(segment_chunk, s) + lane % few, int_at(segment_chunk, s + 1), few):
-                        total += float_seen(chunk_share, c)
+                    last = int_at(segment_chunk, s + 1)
+                    for c in range(int_at(segment_chunk, s) + lane % few, last, 4 * few):
+                        total += shares_of_chunks(c, few, last, chunk_share)
                     fans = volume_of_fans(
                         s,
                         start_joint,

@@ -43,6 +43,10 @@ class LatexHands(Hands):
         self.softening = scene.softening_rate.numpy().copy()
         self.amount, self.volume = scene.amount.numpy().copy(), scene.volume.numpy().copy()
         """Gas of every segment, mol, and its volume, m3."""
+        self._passages = b"", b""
+        """How wide all necks are at both ends of the frame, as last looked at."""
+        self._necks: dict[str, NDArray[Any]] = {}
+        """What follows from that."""
         self._beyond: dict[tuple[int, float], slice | NDArray[np.int64]] = {}
         """Vertices of a balloon beyond a place."""
         self.upload()
@@ -124,17 +128,22 @@ class LatexHands(Hands):
         return blowing
 
     def _goals(self) -> dict[str, NDArray[Any]]:
-        first, last = self.chambers()
-        return super()._goals() | {
-            "blowing": self._blowing(),
-            "chamber_first": first,
-            "chamber_last": last,
-            "open_from": self.passage,
-            "open_to": self.passage_goal,
-            "pump_flow": self.pump_flow,
-            "pump_limit": self.pump_limit,
-            "pump_goal": self.pump_goal,
-        }
+        passages = self.passage.tobytes(), self.passage_goal.tobytes()
+        if passages != self._passages:
+            self._passages = passages
+            first, last = self.chambers()
+            self._necks = {"blowing": self._blowing(), "chamber_first": first, "chamber_last": last}
+        return (
+            super()._goals()
+            | self._necks
+            | {
+                "open_from": self.passage,
+                "open_to": self.passage_goal,
+                "pump_flow": self.pump_flow,
+                "pump_limit": self.pump_limit,
+                "pump_goal": self.pump_goal,
+            }
+        )
 
     def arrived(self) -> None:
         """Make this frame's goals the next frame's starts."""

@@ -113,11 +113,7 @@ class LatexModel:
 
     def _fetch(self) -> None:
         """Start to fetch the present state, from which frames are made."""
-        self.stepper.stretch()
-        if self.hands.touching.any():
-            self.stepper.load()
-        self._mirror.turn()
-        self._mirror.copy()
+        self.stepper.look(self._mirror, contact=bool(self.hands.touching.any()))
 
     def look(self) -> None:
         """Wait for the state that was reached last; frames are made of it until the next look."""

@@ -15,6 +15,7 @@ from balloon_usd.solver.wall_search import WallSearch
 
 if TYPE_CHECKING:
     from balloon_usd.solver.latex.scene import LatexScene
+    from balloon_usd.solver.mirror import Mirror
 
 SEARCH_SECONDS = 1.0 / 120.0
 """Time between two searches for facing walls, s."""
@@ -53,13 +54,19 @@ class Stepper:
         """Advance by one frame, with or without walls that can touch and fingers that press."""
         self._launcher.replay((contact, fingers), lambda: self._frame(contact=contact, fingers=fingers))
 
-    def stretch(self) -> None:
-        """Write the largest principal stretch of every vertex."""
-        self._launch(vertex_stretch, len(self.scene.x))
+    def look(self, mirror: Mirror, *, contact: bool) -> None:
+        """Start copying what frames are made of; where walls can touch, with the loads on them."""
+        mirror.turn()
+        self._launcher.replay(("look", mirror.side, contact), lambda: self._look(mirror, contact=contact))
 
-    def load(self) -> None:
-        """Write the force with which other walls press on every segment."""
-        self._launcher.launch_tiled(wall_loads, len(self.scene.segment_quad))
+    def _look(self, mirror: Mirror, *, contact: bool) -> None:
+        """Write the largest principal stretch of every vertex and the force with which other walls press on
+        every segment, and copy.
+        """
+        self._launch(vertex_stretch, len(self.scene.x))
+        if contact:
+            self._launcher.launch_tiled(wall_loads, len(self.scene.segment_quad))
+        mirror.copy()
 
     def _frame(self, *, contact: bool, fingers: bool) -> None:
         stride = self._search_every if contact else self.substeps
