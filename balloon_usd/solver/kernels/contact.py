@@ -4,12 +4,8 @@ import warp as wp
 
 from balloon_usd.solver.kernels.at import float_at, int_at, int_in, vec2_at, vec3_at, vec4i_at
 from balloon_usd.solver.kernels.lanes import (
-    lanes_least,
     lanes_max3,
-    lanes_most,
     lanes_sum,
-    lanes_that,
-    lowest,
 )
 from balloon_usd.solver.kernels.planes import put, seen_in
 from balloon_usd.solver.kernels.seen import vec2_seen, vec3_seen
@@ -317,11 +313,8 @@ def find_walls(
     hit_count: wp.array[int],
     hits: wp.array2d[int],
 ):
-    """Choose for every vertex the nearest facing quads, of different bubbles, and enter it in their lists; a
-    warp of lanes each on a GPU.
-    """
-    i, lane = wp.tid()
-    lanes = wp.block_dim()
+    """Choose for every vertex the nearest facing quads, of different bubbles, and enter it in their lists."""
+    i = wp.tid()
     p = x[i]
     n = normal[i]
     mine = vertex_balloon[i]
@@ -332,28 +325,18 @@ def find_walls(
     own = vertex_own[i]
     depth = DEPTH_LIMIT * ring_radius[vertex_ring[i]]
     reach = REACH * wp.sqrt(area[i]) + touch.offset + touch.margin
-    # What this lane has found.
     near = wp.vec2(reach, reach)
     nearest = wp.vec2i(-1, -1)
     world = balloon_world[mine]
     last = world_chunk[world + 1]
     if touching[mine] == 0:
         last = 0
-    begin = world_chunk[world]
-    while begin < last:
-        mine_too = int(0)
-        if begin + lane < last:
-            low = vec3_at(chunk_low, begin + lane)
-            high = vec3_at(chunk_high, begin + lane)
-            # Most are far away along the balloon already.
-            if low[0] - p[0] < reach and p[0] - high[0] < reach:
-                off = wp.max(wp.max(low - p, p - high), wp.vec3(0.0))
-                if wp.dot(off, off) < reach * reach:
-                    mine_too = 1
-        chunks = lanes_that(mine_too)
-        while chunks != 0:
-            chunk = begin + lowest(chunks)
-            chunks &= chunks - 1
+    chunk = world_chunk[world]
+    while chunk < last:
+        low = vec3_at(chunk_low, chunk)
+        high = vec3_at(chunk_high, chunk)
+        off = wp.max(wp.max(low - p, p - high), wp.vec3(0.0))
+        if wp.dot(off, off) < reach * reach:
             first = int_at(chunk_quad, chunk)
             end = int_at(chunk_quad, chunk + 1)
             # Its own at one end of them are left out.
@@ -361,7 +344,7 @@ def find_walls(
                 first = wp.max(first, own[1])
             if own[1] >= end:
                 end = wp.min(end, own[0])
-            q = first + lane
+            q = first
             while q < end:
                 d = p - vec3_at(quad_middle, q)
                 if wp.dot(d, d) < reach * reach:
@@ -395,39 +378,27 @@ def find_walls(
                     elif distance < near[1] and int_at(quad_segment, nearest[0]) != int_at(quad_segment, q):
                         near = wp.vec2(near[0], distance)
                         nearest = wp.vec2i(nearest[0], q)
-                q += lanes
-        begin += lanes
-    # The nearest of all lanes, and the nearest of another bubble than that.
-    found = wp.vec2i(-1, -1)
-    least = lanes_least(near[0])
-    found[0] = lanes_most(wp.where(near[0] == least, nearest[0], -1))
-    if found[0] >= 0:
-        second = int(0)
-        if nearest[0] >= 0 and quad_segment[nearest[0]] == quad_segment[found[0]]:
-            second = 1
-        least = lanes_least(near[second])
-        found[1] = lanes_most(wp.where(near[second] == least, nearest[second], -1))
-    if lane > 0:
-        return
+                q += 1
+        chunk += 1
     before0 = target[i, 0]
     before1 = target[i, 1]
     slip0 = slip[i, 0]
     slip1 = slip[i, 1]
     for k in range(2):
         kept = wp.vec3(0.0)
-        if found[k] >= 0:
-            if before0 >= 0 and quad_segment[before0] == quad_segment[found[k]]:
+        if nearest[k] >= 0:
+            if before0 >= 0 and quad_segment[before0] == quad_segment[nearest[k]]:
                 kept = slip0
-            elif before1 >= 0 and quad_segment[before1] == quad_segment[found[k]]:
+            elif before1 >= 0 and quad_segment[before1] == quad_segment[nearest[k]]:
                 kept = slip1
-            c = quads[found[k]]
+            c = quads[nearest[k]]
             contact_place[2 * i + k] = nearest_on_patch(x[c[0]], x[c[1]], x[c[2]], x[c[3]], p)
-            slot = wp.atomic_add(hit_count, found[k], 1)
+            slot = wp.atomic_add(hit_count, nearest[k], 1)
             if slot < MOST_HITS:
-                hits[found[k], slot] = 2 * i + k
+                hits[nearest[k], slot] = 2 * i + k
         else:
             put(contact_force, i, k, wp.vec3(0.0))
-        target[i, k] = found[k]
+        target[i, k] = nearest[k]
         slip[i, k] = kept
 
 
