@@ -27,6 +27,7 @@ class Mirror:
         self._sides = [self._empty() for _ in range(SIDES)]
         self.side = 0
         """The copy that was filled last, or is being filled."""
+        self._copied = wp.Event(self._device) if self._device.is_cuda else None
 
     def _empty(self) -> dict[str, Any]:
         pinned = self._device.is_cuda
@@ -44,12 +45,17 @@ class Mirror:
         for name, source in self._sources.items():
             wp.copy(self._sides[self.side][name], source)
 
+    def begun(self) -> None:
+        """Take note that copying has begun: it ends when all that the device was told before is done."""
+        if self._copied is not None:
+            wp.record_event(self._copied)
+
     def arrays(self) -> dict[str, NDArray[Any]]:
         """Wait for the copies and return them; after two turns they change."""
         self.wait()
         return {name: copy.numpy() for name, copy in self._sides[self.side].items()}
 
     def wait(self) -> None:
-        """Wait until nothing is being copied any more."""
-        if self._device.is_cuda:
-            wp.synchronize_stream(self._device)
+        """Wait until nothing is being copied any more, whatever the device was told since."""
+        if self._copied is not None:
+            wp.synchronize_event(self._copied)

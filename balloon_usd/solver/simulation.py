@@ -40,6 +40,8 @@ each needs besides its sculptures does not add up.
 
 MODELS = {"latex": "LatexModel", "kosaka": "KosakaModel"}
 """Physical models by the names that recipes give them."""
+MANY = 128
+"""Sculptures from which on a GPU has enough to do with half of them."""
 
 
 class Simulation:
@@ -58,6 +60,8 @@ class Simulation:
         ]
         on_gpu = wp.get_device(device).is_cuda
         self._threads = 1 if on_gpu or model not in THREADED else min(usable_cores(), len(self.plans))
+        # While a GPU advances one half of many, the host sees to the other.
+        halves = 2 if on_gpu and model in THREADED and len(self.plans) >= MANY else 1
         self._batches = [
             Batch(
                 maker,
@@ -69,7 +73,7 @@ class Simulation:
                 # On a CPU it would only make the first frame come later.
                 ahead=on_gpu,
             )
-            for run in _runs(len(self.plans), self._threads)
+            for run in _runs(len(self.plans), max(self._threads, halves))
         ]
 
     @property
@@ -92,8 +96,9 @@ class Simulation:
             return
         runs = [batch.frames() for batch in self._batches]
         with ThreadPoolExecutor(self._threads) as threads:
+            ask = map if self._threads == 1 else threads.map
             while True:
-                found = list(threads.map(lambda run: next(run, None), runs))
+                found = list(ask(lambda run: next(run, None), runs))
                 if all(outcomes is None for outcomes in found):
                     return
                 pairs = zip(self._batches, found, strict=True)

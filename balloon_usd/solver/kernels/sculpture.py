@@ -4,10 +4,18 @@ other, in place of a launch for each law.
 
 import warp as wp
 
-from balloon_usd.solver.kernels.at import int_at, int_in, put_float
+from balloon_usd.solver.kernels.at import int_at, int_in, put_float, put_vec3, vec3_at
 from balloon_usd.solver.kernels.contact import Touch, press_quad_back, press_wall
 from balloon_usd.solver.kernels.fingers import Finger, press_finger
 from balloon_usd.solver.kernels.gas import Air, advance_gas, shares_of_chunks, volume_of_fans
+from balloon_usd.solver.kernels.home import (
+    FORCE_BYTES,
+    PLACE_BYTES,
+    at_home,
+    planes_here,
+    take_room,
+    vectors_here,
+)
 from balloon_usd.solver.kernels.joints import (
     Axes,
     block_of_joint,
@@ -40,6 +48,8 @@ wp.set_module_options(
 )
 
 ALL = wp.constant(WARP)
+PLACE = wp.constant(PLACE_BYTES)
+FORCE = wp.constant(FORCE_BYTES)
 FEW_LANES = wp.constant(FEW)
 
 
@@ -194,12 +204,24 @@ def advance_sculptures(
     quad_begin = int_at(world_quad, w)
     quad_end = int_at(world_quad, w + 1)
     welds = int_at(world_welds, w)
+    take_room()
+    faces = quad_end - quad_begin
+    places = PLACE * (vertex_end - vertex_begin)
+    x_here = vectors_here(x, vertex_begin, 0)
+    v_here = vectors_here(v, vertex_begin, places)
+    force_here = planes_here(corner_force, quad_begin, faces, 2 * places)
+    lift_here = planes_here(lift, quad_begin, faces, 2 * places + FORCE * faces)
+    if at_home() == 1:
+        for i in range(vertex_begin + lane, vertex_end, block_size):
+            put_vec3(x_here, i, vec3_at(x, i))
+            put_vec3(v_here, i, vec3_at(v, i))
+        block_meets()
     goal = int(0)
     for k in range(begin, end):
         fraction = float(k + 1) / float(substeps)
         if pressing == 1:
             for i in range(vertex_begin + me, vertex_end, lanes):
-                press_finger(i, vertex_balloon, mass, fingers, finger_share, dt, fraction, x, v)
+                press_finger(i, vertex_balloon, mass, fingers, finger_share, dt, fraction, x_here, v_here)
             goal += crew
             blocks_meet(gates, w, crew, goal, lane)
         # On a CPU: elsewhere it is not even compiled.
@@ -216,12 +238,12 @@ def advance_sculptures(
                 rubber_volume,
                 laws,
                 curves,
-                x,
-                v,
+                x_here,
+                v_here,
                 softening_rate,
                 peak_energy,
-                corner_force,
-                lift,
+                force_here,
+                lift_here,
                 chunk_share,
             )
         else:
@@ -237,13 +259,13 @@ def advance_sculptures(
                         rubber_volume,
                         laws,
                         curves,
-                        x,
-                        v,
-                        vec3_seen(x, int_at(chunk_origin, c)),
+                        x_here,
+                        v_here,
+                        vec3_seen(x_here, int_at(chunk_origin, c)),
                         softening_rate,
                         peak_energy,
-                        corner_force,
-                        lift,
+                        force_here,
+                        lift_here,
                     )
                 share = lanes_sum(share)
                 if one == 0:
@@ -257,7 +279,7 @@ def advance_sculptures(
                 joint_around,
                 joint_parts,
                 radius_to,
-                x,
+                x_here,
                 ring_middle,
                 ring_area,
             )
@@ -275,8 +297,8 @@ def advance_sculptures(
                     quad_area,
                     target,
                     hit_count,
-                    x,
-                    v,
+                    x_here,
+                    v_here,
                     slip,
                     contact_force,
                     contact_place,
@@ -298,7 +320,7 @@ def advance_sculptures(
                         end_joint,
                         ring_middle,
                         ring_area,
-                        vec3_seen(x, int_at(segment_origin, s)),
+                        vec3_seen(x_here, int_at(segment_origin, s)),
                     )
                 # All lanes of the warp are here.
                 total = few_sum(total)
@@ -334,7 +356,9 @@ def advance_sculptures(
         if other >= 0:
             if walls == 1:
                 for q in range(quad_begin + other, quad_end, others):
-                    press_quad_back(q, quads, hit_count, hits, contact_force, contact_place, x, corner_force)
+                    press_quad_back(
+                        q, quads, hit_count, hits, contact_force, contact_place, x_here, force_here
+                    )
             slots = joint_struts.shape[1]
             # From the other end: those that press no wall back.
             for at in range(joint_begin * slots + others - 1 - other, joint_end * slots, others):
@@ -390,13 +414,13 @@ def advance_sculptures(
                         radius_from,
                         radius_to,
                         contact_force,
-                        corner_force,
-                        lift,
+                        force_here,
+                        lift_here,
                         pressure,
                         strut_force,
                         x_next,
-                        x,
-                        v,
+                        x_here,
+                        v_here,
                         ring_middle,
                         ring_area,
                         ring_axes,
@@ -421,11 +445,11 @@ def advance_sculptures(
                     dt,
                     spin,
                     contact_force,
-                    corner_force,
-                    lift,
+                    force_here,
+                    lift_here,
                     pressure,
-                    x,
-                    v,
+                    x_here,
+                    v_here,
                 )
         if welds > 0:
             # All joints of a weld are one block's.
@@ -450,8 +474,8 @@ def advance_sculptures(
                             hand,
                             dt,
                             ring_middle,
-                            x,
-                            v,
+                            x_here,
+                            v_here,
                             weld_shift,
                         )
                     mine &= mine - 1
@@ -462,3 +486,7 @@ def advance_sculptures(
                     shift_middle(j, weld_shift, ring_middle)
         goal += crew
         blocks_meet(gates, w, crew, goal, lane)
+    if at_home() == 1:
+        for i in range(vertex_begin + lane, vertex_end, block_size):
+            put_vec3(x, i, vec3_at(x_here, i))
+            put_vec3(v, i, vec3_at(v_here, i))

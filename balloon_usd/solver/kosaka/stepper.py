@@ -89,6 +89,7 @@ class KosakaStepper:
         """Start copying what frames are made of."""
         self._mirror.turn()
         self._launcher.replay(("look", self._mirror.side), self._look)
+        self._mirror.begun()
 
     def _look(self) -> None:
         """Write the stretch of every vertex and the volumes (m3) and pressures (Pa) of all segments, and

@@ -58,6 +58,7 @@ class Stepper:
         """Start copying what frames are made of; where walls can touch, with the loads on them."""
         mirror.turn()
         self._launcher.replay(("look", mirror.side, contact), lambda: self._look(mirror, contact=contact))
+        mirror.begun()
 
     def _look(self, mirror: Mirror, *, contact: bool) -> None:
         """Write the largest principal stretch of every vertex and the force with which other walls press on
