@@ -39,12 +39,9 @@ class Launcher:
         for kernel in kernels:
             wp.load_module(kernel.module, device=self.scene.device, block_dim=lanes)
 
-    def launch(
-        self, kernel: Any, dim: int | tuple[int, ...], *, lanes: int = LAUNCH_BLOCK, **changing: Any
-    ) -> None:
-        """Launch a kernel over `dim` threads, on a GPU in blocks of so many `lanes`."""
-        inputs = self._inputs(kernel, changing)
-        wp.launch(kernel, dim=dim, inputs=inputs, block_dim=lanes, device=self.scene.device)
+    def launch(self, kernel: Any, dim: int | tuple[int, ...], **changing: Any) -> None:
+        """Launch a kernel over `dim` threads."""
+        wp.launch(kernel, dim=dim, inputs=self._inputs(kernel, changing), device=self.scene.device)
 
     def launch_tiled(self, kernel: Any, blocks: int, *, lanes: int = VOLUME_BLOCK, **changing: Any) -> None:
         """Launch a kernel over blocks of threads that work together: so many `lanes` on a GPU, one on the

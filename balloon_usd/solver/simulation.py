@@ -61,7 +61,9 @@ class Simulation:
         on_gpu = wp.get_device(device).is_cuda
         self._threads = 1 if on_gpu or model not in THREADED else min(usable_cores(), len(self.plans))
         # While a GPU advances one half of many, the host sees to the other.
-        halves = 2 if on_gpu and model in THREADED and len(self.plans) >= MANY else 1
+        states = 2 if on_gpu and model in THREADED and len(self.plans) >= MANY else 1
+        if self._threads > 1:
+            states = min(len(self.plans), STATES_PER_THREAD * self._threads)
         self._batches = [
             Batch(
                 maker,
@@ -73,7 +75,7 @@ class Simulation:
                 # On a CPU it would only make the first frame come later.
                 ahead=on_gpu,
             )
-            for run in _runs(len(self.plans), max(self._threads, halves))
+            for run in _runs(len(self.plans), states)
         ]
 
     @property
@@ -125,9 +127,8 @@ def usable_cores() -> int:
     return len(affinity(0)) if affinity else os.cpu_count() or 1
 
 
-def _runs(count: int, threads: int) -> list[range]:
-    """Share out so many plans: one flat state for a GPU, else one a plan as long as they are few."""
-    states = 1 if threads == 1 else min(count, STATES_PER_THREAD * threads)
+def _runs(count: int, states: int) -> list[range]:
+    """Share out so many plans among so many flat states."""
     bounds = [count * k // states for k in range(states + 1)]
     return [range(a, b) for a, b in pairwise(bounds)]
 

@@ -38,6 +38,5 @@ class WallSearch:
         s, launcher = self._launcher.scene, self._launcher
         launcher.launch(vertex_surface, len(s.x))
         launcher.launch_tiled(ring_radii, len(s.ring_first), lanes=WARP, x=x)
-        # Small blocks: those of one sculpture then share out many processors.
-        launcher.launch(find_walls, len(s.x), lanes=WARP, x=x)
+        launcher.launch_tiled(find_walls, len(s.x), lanes=WARP, x=x)
         launcher.launch(order_hits, len(s.quads))

@@ -4,8 +4,12 @@ import warp as wp
 
 from balloon_usd.solver.kernels.at import float_at, int_at, int_in, vec2_at, vec3_at, vec4i_at
 from balloon_usd.solver.kernels.lanes import (
+    lanes_least,
     lanes_max3,
+    lanes_most,
     lanes_sum,
+    lanes_that,
+    lowest,
 )
 from balloon_usd.solver.kernels.planes import put, seen_in
 from balloon_usd.solver.kernels.seen import vec2_seen, vec3_seen
@@ -280,6 +284,65 @@ def distance_of_wall(
     return distance
 
 
+@wp.func
+def weigh_wall(
+    q: int,
+    near: wp.vec2,
+    nearest: wp.vec2i,
+    mine: int,
+    home: int,
+    place: wp.vec3,
+    apart: float,
+    depth: float,
+    n: wp.vec3,
+    p: wp.vec3,
+    touch: Touch,
+    quads: wp.array[wp.vec4i],
+    quad_segment: wp.array[int],
+    quad_ring: wp.array[int],
+    quad_place: wp.array[wp.vec3],
+    quad_balloon: wp.array[int],
+    x: wp.array[wp.vec3],
+    quad_middle: wp.array[wp.vec3],
+    quad_area: wp.array[wp.vec3],
+    ring_radius: wp.array[float],
+):
+    """Return the distances (m) of the two nearest quads of different bubbles, and these, after one more."""
+    d = p - vec3_at(quad_middle, q)
+    distance = distance_of_wall(
+        q,
+        d,
+        mine,
+        home,
+        place,
+        apart,
+        depth,
+        n,
+        p,
+        touch,
+        quads,
+        quad_segment,
+        quad_ring,
+        quad_place,
+        quad_balloon,
+        x,
+        quad_area,
+        ring_radius,
+    )
+    other = nearest[0] >= 0 and int_at(quad_segment, wp.max(nearest[0], 0)) != int_at(quad_segment, q)
+    if distance < near[0]:
+        if other:
+            near = wp.vec2(distance, near[0])
+            nearest = wp.vec2i(q, nearest[0])
+        else:
+            near = wp.vec2(distance, near[1])
+            nearest = wp.vec2i(q, nearest[1])
+    elif distance < near[1] and other:
+        near = wp.vec2(near[0], distance)
+        nearest = wp.vec2i(nearest[0], q)
+    return near, nearest
+
+
 @wp.kernel
 def find_walls(
     world_chunk: wp.array[int],
@@ -313,8 +376,11 @@ def find_walls(
     hit_count: wp.array[int],
     hits: wp.array2d[int],
 ):
-    """Choose for every vertex the nearest facing quads, of different bubbles, and enter it in their lists."""
-    i = wp.tid()
+    """Choose for every vertex the nearest facing quads, of different bubbles, and enter it in their lists; a
+    warp of lanes each on a GPU.
+    """
+    i, lane = wp.tid()
+    lanes = wp.block_dim()
     p = x[i]
     n = normal[i]
     mine = vertex_balloon[i]
@@ -325,18 +391,30 @@ def find_walls(
     own = vertex_own[i]
     depth = DEPTH_LIMIT * ring_radius[vertex_ring[i]]
     reach = REACH * wp.sqrt(area[i]) + touch.offset + touch.margin
+    # What this lane has found.
     near = wp.vec2(reach, reach)
     nearest = wp.vec2i(-1, -1)
+    candidate = int(0)
+    waiting = int(0)
     world = balloon_world[mine]
     last = world_chunk[world + 1]
     if touching[mine] == 0:
         last = 0
-    chunk = world_chunk[world]
-    while chunk < last:
-        low = vec3_at(chunk_low, chunk)
-        high = vec3_at(chunk_high, chunk)
-        off = wp.max(wp.max(low - p, p - high), wp.vec3(0.0))
-        if wp.dot(off, off) < reach * reach:
+    begin = world_chunk[world]
+    while begin < last:
+        mine_too = int(0)
+        if begin + lane < last:
+            low = vec3_at(chunk_low, begin + lane)
+            high = vec3_at(chunk_high, begin + lane)
+            # Most are far away along the balloon already.
+            if low[0] - p[0] < reach and p[0] - high[0] < reach:
+                off = wp.max(wp.max(low - p, p - high), wp.vec3(0.0))
+                if wp.dot(off, off) < reach * reach:
+                    mine_too = 1
+        chunks = lanes_that(mine_too)
+        while chunks != 0:
+            chunk = begin + lowest(chunks)
+            chunks &= chunks - 1
             first = int_at(chunk_quad, chunk)
             end = int_at(chunk_quad, chunk + 1)
             # Its own at one end of them are left out.
@@ -344,61 +422,97 @@ def find_walls(
                 first = wp.max(first, own[1])
             if own[1] >= end:
                 end = wp.min(end, own[0])
-            q = first
-            while q < end:
-                d = p - vec3_at(quad_middle, q)
-                if wp.dot(d, d) < reach * reach:
-                    distance = distance_of_wall(
-                        q,
-                        d,
-                        mine,
-                        home,
-                        place,
-                        apart,
-                        depth,
-                        n,
-                        p,
-                        touch,
-                        quads,
-                        quad_segment,
-                        quad_ring,
-                        quad_place,
-                        quad_balloon,
-                        x,
-                        quad_area,
-                        ring_radius,
-                    )
-                    if distance < near[0]:
-                        if nearest[0] >= 0 and int_at(quad_segment, nearest[0]) != int_at(quad_segment, q):
-                            near = wp.vec2(distance, near[0])
-                            nearest = wp.vec2i(q, nearest[0])
-                        else:
-                            near = wp.vec2(distance, near[1])
-                            nearest = wp.vec2i(q, nearest[1])
-                    elif distance < near[1] and int_at(quad_segment, nearest[0]) != int_at(quad_segment, q):
-                        near = wp.vec2(near[0], distance)
-                        nearest = wp.vec2i(nearest[0], q)
-                q += 1
-        chunk += 1
+            for q in range(first, end, lanes):
+                close = int(0)
+                if q + lane < end:
+                    d = p - vec3_at(quad_middle, q + lane)
+                    close = wp.where(wp.dot(d, d) < reach * reach, 1, 0)
+                some = lanes_that(close)
+                # Each lane takes one of those that are close: to weigh takes long, and few are.
+                while some != 0:
+                    if lane == waiting:
+                        candidate = q + lowest(some)
+                    some &= some - 1
+                    waiting += 1
+                    if waiting == lanes:
+                        near, nearest = weigh_wall(
+                            candidate,
+                            near,
+                            nearest,
+                            mine,
+                            home,
+                            place,
+                            apart,
+                            depth,
+                            n,
+                            p,
+                            touch,
+                            quads,
+                            quad_segment,
+                            quad_ring,
+                            quad_place,
+                            quad_balloon,
+                            x,
+                            quad_middle,
+                            quad_area,
+                            ring_radius,
+                        )
+                        waiting = 0
+        begin += lanes
+    if lane < waiting:
+        near, nearest = weigh_wall(
+            candidate,
+            near,
+            nearest,
+            mine,
+            home,
+            place,
+            apart,
+            depth,
+            n,
+            p,
+            touch,
+            quads,
+            quad_segment,
+            quad_ring,
+            quad_place,
+            quad_balloon,
+            x,
+            quad_middle,
+            quad_area,
+            ring_radius,
+        )
+    # The nearest of all lanes, and the nearest of another bubble than that.
+    found = wp.vec2i(-1, -1)
+    least = lanes_least(near[0])
+    found[0] = lanes_most(wp.where(near[0] == least, nearest[0], -1))
+    if found[0] >= 0:
+        second = int(0)
+        if nearest[0] >= 0 and quad_segment[nearest[0]] == quad_segment[found[0]]:
+            second = 1
+        least = lanes_least(near[second])
+        found[1] = lanes_most(wp.where(near[second] == least, nearest[second], -1))
+    if lane > 0:
+        return
     before0 = target[i, 0]
     before1 = target[i, 1]
     slip0 = slip[i, 0]
     slip1 = slip[i, 1]
     for k in range(2):
         kept = wp.vec3(0.0)
-        if nearest[k] >= 0:
-            if before0 >= 0 and quad_segment[before0] == quad_segment[nearest[k]]:
+        if found[k] >= 0:
+            if before0 >= 0 and quad_segment[before0] == quad_segment[found[k]]:
                 kept = slip0
-            elif before1 >= 0 and quad_segment[before1] == quad_segment[nearest[k]]:
+            elif before1 >= 0 and quad_segment[before1] == quad_segment[found[k]]:
                 kept = slip1
-            c = quads[nearest[k]]
+            c = quads[found[k]]
             contact_place[2 * i + k] = nearest_on_patch(x[c[0]], x[c[1]], x[c[2]], x[c[3]], p)
-            slot = wp.atomic_add(hit_count, nearest[k], 1)
+            slot = wp.atomic_add(hit_count, found[k], 1)
             if slot < MOST_HITS:
-                hits[nearest[k], slot] = 2 * i + k
+                hits[found[k], slot] = 2 * i + k
         else:
             put(contact_force, i, k, wp.vec3(0.0))
-        target[i, k] = nearest[k]
+        target[i, k] = found[k]
         slip[i, k] = kept
 
 

@@ -115,6 +115,26 @@ def lowest(bits: int) -> int:
     return bits
 
 
+@native(
+    _OVER_LANES.format(
+        lanes=WARP, type="float", add="total = fminf(total, __shfl_xor_sync(0xffffffffu, total, step));"
+    ),
+)
+def lanes_least(value: float) -> float:
+    """Return the smallest value over the lanes of a warp."""
+    return value
+
+
+@native(
+    _OVER_LANES.format(
+        lanes=WARP, type="int", add="total = max(total, __shfl_xor_sync(0xffffffffu, total, step));"
+    ),
+)
+def lanes_most(value: int) -> int:
+    """Return the largest value over the lanes of a warp."""
+    return value
+
+
 @native("return WP_TILE_BLOCK_DIM;")
 def block_lanes() -> int:
     """Return how many lanes a block has: known when the kernel is compiled, as that of Warp is not."""
