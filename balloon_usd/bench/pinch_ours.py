@@ -7,12 +7,14 @@ import time
 from typing import TYPE_CHECKING
 
 import numpy as np
+import warp as wp
 
 from balloon_usd.balloon.rubber import rubber_named
 from balloon_usd.bench.pinch_task import FPS, GAUGE, PINCHED, RADIUS, PinchRun
 from balloon_usd.bench.pinch_wall import blown_up, rest_points, wall_thickness
 from balloon_usd.solver.body import RingSpec
 from balloon_usd.solver.kernels.gas import OPEN_PASSAGE
+from balloon_usd.solver.kernels.motion import Spin
 from balloon_usd.solver.latex.body import LatexBody
 from balloon_usd.solver.latex.hands import LatexHands
 from balloon_usd.solver.latex.scene import build_scene
@@ -48,8 +50,8 @@ class PinchedTube:
         self.hands = LatexHands(self.scene)
         self.hands.touch([0])
         self._whole = np.full(len(self.neck), RADIUS)
-        last = self.neck[-1]
-        self._beyond = float(body.along[task.mesh.ring_start[last : last + 2]].mean())
+        middle = task.middle
+        self._beyond = float(body.along[task.mesh.ring_start[middle : middle + 2]].mean())
 
     def advance(self) -> None:
         """Advance by one frame."""
@@ -67,7 +69,7 @@ class PinchedTube:
         arms = np.linalg.norm(rings - rings.mean(axis=1, keepdims=True), axis=2)
         self._whole = arms.mean(axis=1)
         self.hands.radius[:] = self._whole
-        self.hands.grip(len(self.neck) // 2, self.scene.ring_middle.numpy())
+        self.hands.clasp(len(self.neck) // 2, self.scene.ring_middle.numpy())
 
     def act(self, frame: int) -> None:
         """Do what the task says for a frame, and advance."""
@@ -75,10 +77,17 @@ class PinchedTube:
             self.hands.squeeze(joint, float(self._whole[joint]) * self.task.pinch_at(frame), OPEN_PASSAGE)
         angle = self.task.turn_at(frame) - self.task.turn_at(frame - 1)
         if angle > 0.0:
-            self.hands.places = self.scene.x.numpy()
-            middle = self.scene.ring_middle.numpy()[len(self.neck) // 2]
-            self.hands.turn(0, middle, self._beyond, angle * FPS)
+            self._turn(0.5 * angle * FPS)
         self.advance()
+
+    def _turn(self, rate: float) -> None:
+        """Turn both ends at a rate (rad/s) in this frame, against each other."""
+        spin = Spin()
+        spin.point = wp.vec3(*self.scene.ring_middle.numpy()[len(self.neck) // 2])
+        spin.beyond = self._beyond
+        spin.axis, spin.back_axis = wp.vec3(1.0, 0.0, 0.0), wp.vec3(-1.0, 0.0, 0.0)
+        spin.rate = spin.back_rate = rate
+        self.hands.spin(0, spin)
 
 
 def tube_body(task: PinchTask) -> LatexBody:
@@ -104,6 +113,7 @@ def tube_body(task: PinchTask) -> LatexBody:
         vented=(),
         inlet=0,
         neck_radius=PINCHED * RADIUS,
+        packs=True,
     )
 
 

@@ -74,7 +74,7 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     type=click.Choice(PINCHES),
     default=PINCHES[0],
     show_default=True,
-    help="What thins that tube: the width of fingers, or one ring of vertices, which walls pass through.",
+    help="What thins that tube: the width of fingers, or one ring of vertices.",
 )
 @device_option
 def bench(

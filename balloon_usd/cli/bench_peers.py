@@ -72,6 +72,6 @@ def _print_row(name: str, task: PinchTask, run: PinchRun, *, promised: bool) -> 
         f"{name:>14}{run.substeps:>11}{run.wall_ms:>11.2f}{run.cpu_ms:>11.2f}{shape.volume_ratio:>11.4f}"
         f"{1e3 * shape.neck:>11.2f}{shape.turns:>11.2f}{shape.crossings:>11}"
     )
-    if promised and task.vertices == int(VERTICES[0]) and task.width > 0.0:
+    if promised and task.vertices == int(VERTICES[0]):
         row += f"  {PINCH.beside(run.cpu_ms)}; {CROSSINGS.beside(shape.crossings)}"
     click.echo(row)

@@ -86,7 +86,7 @@ def ring_arrays(scene: Scene, host: Arrays) -> None:
         vertex_joint[f - before : f + n] = j
     host["vertex_joint"] = vertex_joint
     corner = np.zeros((v[-1], 2), dtype=np.float32)
-    for f, n in zip(first, around, strict=True):
+    for f, n in zip(host["ring_first"], host["ring_around"], strict=True):
         turn = 2.0 * np.pi * np.arange(n) / n
         corner[f : f + n] = np.stack([np.cos(turn), np.sin(turn)], axis=1)
     host["corner"] = corner

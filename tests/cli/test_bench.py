@@ -104,12 +104,13 @@ def test_a_peer_that_is_not_installed_is_told_in_one_line_with_the_remedy(cli, m
     assert result.stderr == "newton and blender are not installed: pip install 'balloon-usd[peers]'\n"
 
 
-def test_one_ring_can_be_pinched_instead_and_nothing_is_promised_of_it(cli):
+def test_one_ring_can_be_pinched_instead_and_the_same_is_promised_of_it(cli):
     result = cli("bench", "--peer", "none", "--pinch", "one ring", "--device", "cpu")
     rows = rows_of(result)
     assert result.stdout.startswith("pinch by one ring and one turn, 1602 vertices")
     assert [row[0] for row in rows] == ["balloon_usd", "twice"]
-    assert "kept" not in result.stdout
+    assert [row[-1] for row in rows] == ["kept", "0"]
+    assert rows[1][-2] == "1.00"
 
 
 def test_stages_are_written_checked_and_compared(cli):

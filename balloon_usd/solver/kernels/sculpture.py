@@ -6,6 +6,7 @@ import warp as wp
 
 from balloon_usd.solver.kernels.at import int_at, int_in, put_float, put_vec3, vec3_at
 from balloon_usd.solver.kernels.contact import Touch, press_quad_back, press_wall
+from balloon_usd.solver.kernels.core import press_core, yield_to_core
 from balloon_usd.solver.kernels.fingers import Finger, press_finger
 from balloon_usd.solver.kernels.gas import Air, advance_gas, shares_of_chunks, volume_of_fans
 from balloon_usd.solver.kernels.home import (
@@ -69,6 +70,7 @@ def advance_sculptures(
     world_joint: wp.array[int],
     world_welds: wp.array[int],
     world_chunk: wp.array[int],
+    world_core: wp.array[int],
     chunk_origin: wp.array[int],
     segment_chunk: wp.array[int],
     quads: wp.array[wp.vec4i],
@@ -99,6 +101,12 @@ def advance_sculptures(
     joint_weld: wp.array[int],
     weld_joint: wp.array2d[int],
     weld_size: wp.array[int],
+    ring_first: wp.array[int],
+    ring_around: wp.array[int],
+    core_ring: wp.array[int],
+    core_next: wp.array[int],
+    core_radius: wp.array[float],
+    core_row: wp.array[float],
     to_rest: wp.array[wp.mat22],
     hourglass: wp.array[wp.vec4],
     rubber_volume: wp.array[float],
@@ -147,6 +155,7 @@ def advance_sculptures(
     pressure: wp.array[float],
     area: wp.array[float],
     quad_area: wp.array[wp.vec3],
+    ring_radius: wp.array[float],
     target: wp.array2d[int],
     hit_count: wp.array[int],
     v: wp.array[wp.vec3],
@@ -154,6 +163,9 @@ def advance_sculptures(
     contact_force: wp.array2d[float],
     contact_place: wp.array[wp.vec2],
     hits: wp.array2d[int],
+    core_order: wp.array[wp.vec3],
+    core_push: wp.array[wp.vec3],
+    core_thrust: wp.array[wp.vec3],
     corner_force: wp.array2d[float],
     lift: wp.array2d[float],
     ring_speed: wp.array[wp.vec3],
@@ -203,6 +215,8 @@ def advance_sculptures(
     chunk_end = int_at(world_chunk, w + 1)
     quad_begin = int_at(world_quad, w)
     quad_end = int_at(world_quad, w + 1)
+    core_begin = int_at(world_core, w)
+    core_end = wp.where(walls == 1, int_at(world_core, w + 1), core_begin)
     welds = int_at(world_welds, w)
     take_room()
     faces = quad_end - quad_begin
@@ -303,6 +317,26 @@ def advance_sculptures(
                     contact_force,
                     contact_place,
                 )
+        for m in range(core_begin + warp, core_end, warps):
+            press_core(
+                m,
+                one,
+                gang,
+                ring_first,
+                ring_around,
+                corner,
+                core_ring,
+                core_next,
+                core_radius,
+                core_row,
+                mass,
+                dt,
+                ring_radius,
+                x,
+                core_order,
+                core_push,
+                core_thrust,
+            )
         goal += crew
         blocks_meet(gates, w, crew, goal, lane)
         if block == 0:
@@ -375,6 +409,24 @@ def advance_sculptures(
                         strut_length,
                         strut_force,
                     )
+        for m in range(core_begin + warp, core_end, warps):
+            yield_to_core(
+                m,
+                one,
+                gang,
+                ring_first,
+                ring_around,
+                core_ring,
+                core_next,
+                core_radius,
+                mass,
+                dt,
+                ring_radius,
+                core_order,
+                core_push,
+                core_thrust,
+                v,
+            )
         goal += crew
         blocks_meet(gates, w, crew, goal, lane)
         rank = int(0)

@@ -41,6 +41,10 @@ class LatexBody(Body):
     """Chamber that the pump blows into."""
     gap: float = math.inf
     """Distance of walls that lie close to each other at the start, m: little gas between them is stiff."""
+    packs: bool = False
+    """Whether the inside of its wall meets itself where it is wound up, and packs. Not where a maker twists:
+    turns of a joint are counted there and not wound.
+    """
 
 
 LIP_THICKNESS = 5.0

@@ -13,6 +13,7 @@ from balloon_usd.solver.kernels.gas import Air
 from balloon_usd.solver.kernels.joints import Axes
 from balloon_usd.solver.kernels.motion import Spin
 from balloon_usd.solver.kernels.rubber import Knot, Law
+from balloon_usd.solver.latex.cores import core_arrays
 from balloon_usd.solver.latex.device_law import device_laws
 from balloon_usd.solver.latex.membrane_data import membrane_data
 from balloon_usd.solver.scene import Scene, lay_meshes
@@ -71,6 +72,7 @@ def build_scene(
     host = {"quad_law": scene.quad_balloon.numpy()}
     _gas_arrays(scene, host)
     scene.put(host)
+    _core_arrays(scene)
     _state_arrays(scene, strut_count)
     scene.air.atmosphere = settings.atmosphere
     scene.air.molar_energy = wp.float64(GAS_CONSTANT * ROOM_TEMPERATURE)
@@ -86,6 +88,15 @@ def _gas_arrays(scene: LatexScene, host: Arrays) -> None:
     host["balloon_segment_end"] = scene.segment_start[1:].astype(np.int32)
     host["inlet"] = (scene.segment_start[:-1] + [b.inlet for b in scene.bodies]).astype(np.int32)
     host["start_gauge"] = np.concatenate([b.gauge for b in scene.bodies]).astype(np.float32)
+
+
+def _core_arrays(scene: LatexScene) -> None:
+    """Cores of the balloons that pack, and the forces of these."""
+    scene.put(core_arrays(scene))
+    pushed = int(scene.vertex_start[-1]) if any(b.packs for b in scene.bodies) else 1
+    for name in ("core_order", "core_push"):
+        scene.zeros(name, pushed, wp.vec3)
+    scene.zeros("core_thrust", len(scene.core_ring), wp.vec3)
 
 
 def _state_arrays(scene: LatexScene, strut_count: int) -> None:
