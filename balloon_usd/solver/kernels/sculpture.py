@@ -332,7 +332,7 @@ def advance_sculptures(
                 mass,
                 dt,
                 ring_radius,
-                x,
+                x_here,
                 core_order,
                 core_push,
                 core_thrust,
@@ -425,7 +425,7 @@ def advance_sculptures(
                 core_order,
                 core_push,
                 core_thrust,
-                v,
+                v_here,
             )
         goal += crew
         blocks_meet(gates, w, crew, goal, lane)
