@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -34,10 +33,6 @@ class _Gathering:
 
     corners: list[int]
     """Joints of the chain, from its first to the held one."""
-    cheeks: list[tuple[int, int, NDArray[np.float64], float]]
-    """Rings inside its bubbles: joint, side, how far (3,) it was off the middle of the side, and how far it
-    shall be in the end.
-    """
     before: list[int]
     """Joints of what is already made."""
     began: NDArray[np.float64]
@@ -47,6 +42,14 @@ class _Gathering:
     chain: ClosingChain
     off: NDArray[np.float64]
     """How far the corners were off a straight chain."""
+    cheeks: NDArray[np.int64]
+    """Rings inside its bubbles, (C,)."""
+    sides: NDArray[np.int64]
+    """The side of the chain that each is on."""
+    straight: NDArray[np.float64]
+    """How far each was off the middle of its side, (C, 3)."""
+    bulge: NDArray[np.float64]
+    """How far each shall be off it in the end, (C, 1)."""
 
 
 class Maker(ABC):
@@ -150,17 +153,13 @@ class Maker(ABC):
         self.hands.goal[g.corners] = pose
         if g.before:
             self.hands.goal[g.before] = g.places_before + (pose[0] - g.began[0])
-        if not g.cheeks:
+        if len(g.cheeks) == 0:
             return
-        centre = pose.mean(axis=0)
-        for joint, side, straight, bulge in g.cheeks:
-            middle_of_side = 0.5 * (pose[side] + pose[side + 1])
-            out = middle_of_side - centre
-            across = pose[side + 1] - pose[side]
-            across = across / max(_length(across), 1e-9)
-            out = out - across * float(out @ across)
-            out = out / max(_length(out), 1e-9)
-            self.hands.goal[joint] = middle_of_side + (1.0 - progress) * straight + progress * bulge * out
+        first, second = pose[g.sides], pose[g.sides + 1]
+        middles, across = 0.5 * (first + second), _unit(second - first)
+        out = middles - pose.mean(axis=0)
+        out = _unit(out - across * (out * across).sum(axis=1)[:, None])
+        self.hands.goal[g.cheeks] = middles + (1.0 - progress) * g.straight + progress * g.bulge * out
 
     def _begin_gathering(self, move: Gather, middle: Floats) -> _Gathering:
         """Take hold of the corners of a chain and of what is beside it."""
@@ -177,12 +176,10 @@ class Maker(ABC):
         sides = np.maximum(np.linalg.norm(np.diff(began, axis=0), axis=1), 1e-3)
         chain = ClosingChain(sides, ALONG, np.array(move.point), 2.0 * float(self.hands.neck[held]))
         off = began - began[-1] - chain.pose(0.0)
-        bulged = [self._bulged_radius(ring) for ring, _ in move.cheeks]
-        found = []
-        for (joint, side), bulge in zip(cheeks, bulged, strict=True):
-            straight = middle[joint].astype(np.float64) - 0.5 * (began[side] + began[side + 1])
-            found.append((joint, side, straight, bulge))
-        return _Gathering(corners, found, before, began, swung, chain, off)
+        joints, sides = np.array(cheeks, dtype=np.int64).reshape(-1, 2).T
+        straight = middle[joints].astype(np.float64) - 0.5 * (began[sides] + began[sides + 1])
+        bulge = np.array([self._bulged_radius(ring) for ring, _ in move.cheeks])[:, None]
+        return _Gathering(corners, before, began, swung, chain, off, joints, sides, straight, bulge)
 
     def _worked(self, ring: int) -> list[int]:
         """Joints on the knot's side of a ring."""
@@ -290,5 +287,7 @@ class Maker(ABC):
         raise KeyError(bubble)
 
 
-def _length(vector: NDArray[np.float64]) -> float:
-    return math.sqrt(vector.dot(vector))
+def _unit(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return vectors (N, 3) at length 1."""
+    lengths: NDArray[np.float64] = np.sqrt((vectors * vectors).sum(axis=1))
+    return vectors / np.maximum(lengths, 1e-9)[:, None]
