@@ -6,7 +6,7 @@ import warp as wp
 
 from balloon_usd.solver.kernels.at import int_at, int_in, put_float, put_vec3, vec3_at
 from balloon_usd.solver.kernels.contact import Touch, press_quad_back, press_wall
-from balloon_usd.solver.kernels.core import press_core, yield_to_core
+from balloon_usd.solver.kernels.core import cores_may_pack, press_core, yield_to_core
 from balloon_usd.solver.kernels.fingers import Finger, press_finger
 from balloon_usd.solver.kernels.gas import Air, advance_gas, shares_of_chunks, volume_of_fans
 from balloon_usd.solver.kernels.home import (
@@ -317,26 +317,27 @@ def advance_sculptures(
                     contact_force,
                     contact_place,
                 )
-        for m in range(core_begin + warp, core_end, warps):
-            press_core(
-                m,
-                one,
-                gang,
-                ring_first,
-                ring_around,
-                corner,
-                core_ring,
-                core_next,
-                core_radius,
-                core_row,
-                mass,
-                dt,
-                ring_radius,
-                x_here,
-                core_order,
-                core_push,
-                core_thrust,
-            )
+        if cores_may_pack() == 1:
+            for m in range(core_begin + warp, core_end, warps):
+                press_core(
+                    m,
+                    one,
+                    gang,
+                    ring_first,
+                    ring_around,
+                    corner,
+                    core_ring,
+                    core_next,
+                    core_radius,
+                    core_row,
+                    mass,
+                    dt,
+                    ring_radius,
+                    x_here,
+                    core_order,
+                    core_push,
+                    core_thrust,
+                )
         goal += crew
         blocks_meet(gates, w, crew, goal, lane)
         if block == 0:
@@ -409,24 +410,25 @@ def advance_sculptures(
                         strut_length,
                         strut_force,
                     )
-        for m in range(core_begin + warp, core_end, warps):
-            yield_to_core(
-                m,
-                one,
-                gang,
-                ring_first,
-                ring_around,
-                core_ring,
-                core_next,
-                core_radius,
-                mass,
-                dt,
-                ring_radius,
-                core_order,
-                core_push,
-                core_thrust,
-                v_here,
-            )
+        if cores_may_pack() == 1:
+            for m in range(core_begin + warp, core_end, warps):
+                yield_to_core(
+                    m,
+                    one,
+                    gang,
+                    ring_first,
+                    ring_around,
+                    core_ring,
+                    core_next,
+                    core_radius,
+                    mass,
+                    dt,
+                    ring_radius,
+                    core_order,
+                    core_push,
+                    core_thrust,
+                    v_here,
+                )
         goal += crew
         blocks_meet(gates, w, crew, goal, lane)
         rank = int(0)
