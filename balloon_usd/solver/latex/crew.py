@@ -21,8 +21,10 @@ if TYPE_CHECKING:
     from balloon_usd.solver.launch import Launcher
 
 
-LANES = 128
-"""Lanes of a block that shares its sculpture with others: few, so that each has much of its processor."""
+LANES = 160
+"""Lanes of a block that shares its sculpture with others: few, so that each has much of its processor, and as
+many as let the blocks of a figure in full detail have one each.
+"""
 
 
 class Crew:
