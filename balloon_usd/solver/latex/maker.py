@@ -55,8 +55,8 @@ class LatexMaker(Maker):
         self.struts = struts
         self.torsion = Torsion(plan, scene, hands, self._ring, self.body)
         self._fronts: dict[str, tuple[int, float]] = {}
-        """Ring that leads the tail of every balloon, and the work (J) of the gas in each metre of unstressed
-        tube that the front passes.
+        """Ring that leads the tail of every balloon, and how far (m) the front drives it in a frame by a flow of
+        one mol/s.
         """
         self.inflated = -1
         """Frame at whose end the last balloon has its gas."""
@@ -141,8 +141,8 @@ class LatexMaker(Maker):
 
     def _lead_tail(self, balloon: str, flow: float, fresh: bool, middle: Floats) -> None:
         """Keep the flat tail straight and as fast as the front that a flow of gas (mol/s) drives along."""
-        strip = self.plan.strips[balloon]
         if fresh:
+            strip = self.plan.strips[balloon]
             tip = self._ring[self.plan.table.guides(strip.bubbles[-1].name)[-1]]
             self.hands.lead(tip, middle)
             self.hands.stiffness[tip] = TAIL_STIFFNESS
@@ -150,14 +150,14 @@ class LatexMaker(Maker):
                 strip.size, strip.rubber
             )
             pressure = self.scene.settings.atmosphere + self.plan.budgets[balloon].pressure
-            self._fronts[balloon] = tip, pressure * gained
-        tip, work = self._fronts[balloon]
-        state = maxwell_state(strip.rubber)
-        rest_speed = flow * float(self.scene.air.molar_energy) / work
-        axial = float((middle[tip] - self.hands.goal[tip]) @ FORWARD)
-        self.hands.start[tip] = self.hands.goal[tip] + FORWARD * axial
-        step = rest_speed * (state.bulged.b - state.thin.b) / self.plan.recipe.fps
-        self.hands.goal[tip] = self.hands.start[tip] + FORWARD * step
+            state = maxwell_state(strip.rubber)
+            longer = float(self.scene.air.molar_energy) * (state.bulged.b - state.thin.b)
+            self._fronts[balloon] = tip, longer / (pressure * gained * self.plan.recipe.fps)
+        tip, step = self._fronts[balloon]
+        goal = self.hands.goal[tip]
+        start = goal + FORWARD * (middle[tip] - goal).dot(FORWARD)
+        self.hands.start[tip] = start
+        self.hands.goal[tip] = start + FORWARD * (flow * step)
         if flow == 0.0:
             self.hands.free[tip] = ALONG
 
