@@ -55,8 +55,8 @@ class LatexMaker(Maker):
         self.struts = struts
         self.torsion = Torsion(plan, scene, hands, self._ring, self.body)
         self._fronts: dict[str, tuple[int, float]] = {}
-        """Ring that leads the tail of every balloon, and how far (m) the front drives it in a frame by a flow of
-        one mol/s.
+        """Ring that leads the tail of every balloon, and how far (m) a flow of one mol/s drives it in a frame
+        along with the front.
         """
         self.inflated = -1
         """Frame at whose end the last balloon has its gas."""
