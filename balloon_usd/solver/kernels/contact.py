@@ -567,6 +567,12 @@ def press_wall(
             x1 = vec3_seen(x, c[1])
             x2 = vec3_seen(x, c[2])
             x3 = vec3_seen(x, c[3])
+            # Read before it is known whether they are needed: then nothing waits for them.
+            speed = vec3_seen(v, i)
+            v0 = vec3_seen(v, c[0])
+            v1 = vec3_seen(v, c[1])
+            v2 = vec3_seen(v, c[2])
+            v3 = vec3_seen(v, c[3])
             # It slides little in a substep: one step from where it was is enough.
             place = nearer_on_patch(x0, x1, x2, x3, p, vec2_at(contact_place, 2 * i + k))
             s = patch_shares(place)
@@ -590,12 +596,7 @@ def press_wall(
                 stiffness = wp.min(
                     touch.pressure * float_at(area, i) / touch.offset, STABLE * lightest / (dt * dt * crowd)
                 )
-                going = vec3_seen(v, i) - (
-                    s[0] * vec3_seen(v, c[0])
-                    + s[1] * vec3_seen(v, c[1])
-                    + s[2] * vec3_seen(v, c[2])
-                    + s[3] * vec3_seen(v, c[3])
-                )
+                going = speed - (s[0] * v0 + s[1] * v1 + s[2] * v2 + s[3] * v3)
                 approach = wp.dot(going, face)
                 near = wp.min(overlap / touch.offset, 1.0)
                 damping = NORMAL_DAMPING * lightest / (dt * crowd)
