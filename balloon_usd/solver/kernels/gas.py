@@ -38,11 +38,11 @@ def volume_of_fans(
 def shares_of_chunks(c: int, apart: int, end: int, chunk_share: wp.array[float]):
     """Return the volume (m3) at four chunks, so many apart and those below an end: none waits for another."""
     # No load waits for a decision: where there is no chunk, one is read and left out.
-    a = float_seen(chunk_share, c)
+    a = float_seen(chunk_share, wp.min(c, end - 1))
     b = float_seen(chunk_share, wp.min(c + apart, end - 1))
     d = float_seen(chunk_share, wp.min(c + 2 * apart, end - 1))
     e = float_seen(chunk_share, wp.min(c + 3 * apart, end - 1))
-    total = a + wp.where(c + apart < end, b, 0.0)
+    total = wp.where(c < end, a, 0.0) + wp.where(c + apart < end, b, 0.0)
     return total + (wp.where(c + 2 * apart < end, d, 0.0) + wp.where(c + 3 * apart < end, e, 0.0))
 
 

@@ -222,11 +222,10 @@ def move_joint(
     free = vec3_at(hand_free, j)
     # The sine of the angle between two corners.
     sine = vec2_at(corner, first + 1)[1]
-    force = wp.vec3(0.0)
-    for k in range(lane, joint_struts.shape[1], lanes):
-        strut = int_in(joint_struts, j, k)
-        pull = vec3_seen(strut_force, wp.max(wp.abs(strut) - 1, 0))
-        force += wp.where(strut == 0, wp.vec3(0.0), wp.where(strut > 0, pull, -pull))
+    # Read now, needed last: nothing waits for it then.
+    slots = joint_struts.shape[1]
+    strut = wp.where(lane < slots, int_in(joint_struts, j, wp.min(lane, slots - 1)), 0)
+    pull = vec3_seen(strut_force, wp.max(wp.abs(strut) - 1, 0))
     p = wp.vec3(0.0)
     s = wp.vec3(0.0)
     c = wp.vec3(0.0)
@@ -256,6 +255,11 @@ def move_joint(
         va += at[0] * s
         vb += at[1] * s
         own += wp.cross(d, s)
+    force = wp.where(strut == 0, wp.vec3(0.0), wp.where(strut > 0, pull, -pull))
+    for k in range(lane + lanes, slots, lanes):
+        strut = int_in(joint_struts, j, k)
+        pull = vec3_seen(strut_force, wp.max(wp.abs(strut) - 1, 0))
+        force += wp.where(strut == 0, wp.vec3(0.0), wp.where(strut > 0, pull, -pull))
     sums = lanes_sum_all(force, c, w, a, b, va, vb, own)
     force = sums[0]
     c = sums[1] / float(n)

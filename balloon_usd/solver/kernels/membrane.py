@@ -217,6 +217,11 @@ def wall_of_quad(
     x1 = vec3_seen(x, c[1])
     x2 = vec3_seen(x, c[2])
     x3 = vec3_seen(x, c[3])
+    # Read with the places: nothing waits for them then.
+    v0 = vec3_seen(v, c[0])
+    v1 = vec3_seen(v, c[1])
+    v2 = vec3_seen(v, c[2])
+    v3 = vec3_seen(v, c[3])
     b = mat22_at(to_rest, q)
     large2, small2 = stretches_of_quad(x0, x1, x2, x3, b)
     t = wp.vec3(0.0)
@@ -236,10 +241,10 @@ def wall_of_quad(
         x1,
         x2,
         x3,
-        vec3_seen(v, c[0]),
-        vec3_seen(v, c[1]),
-        vec3_seen(v, c[2]),
-        vec3_seen(v, c[3]),
+        v0,
+        v1,
+        v2,
+        v3,
     )
     put_float(peak_energy, q, reached)
     put(corner_force, q, 0, f0)

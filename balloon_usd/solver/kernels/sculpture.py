@@ -346,9 +346,10 @@ def advance_sculptures(
                 total = float(0.0)
                 fans = float(0.0)
                 if s < segment_end:
+                    chunk = int_at(segment_chunk, s) + lane % few
                     last = int_at(segment_chunk, s + 1)
-                    for c in range(int_at(segment_chunk, s) + lane % few, last, 4 * few):
-                        total += shares_of_chunks(c, few, last, chunk_share)
+                    # The first four with the fans: most segments have no more.
+                    total = shares_of_chunks(chunk, few, last, chunk_share)
                     fans = volume_of_fans(
                         s,
                         start_joint,
@@ -357,6 +358,8 @@ def advance_sculptures(
                         ring_area,
                         vec3_seen(x_here, int_at(segment_origin, s)),
                     )
+                    for c in range(chunk + 4 * few, last, 4 * few):
+                        total += shares_of_chunks(c, few, last, chunk_share)
                 # All lanes of the warp are here.
                 total = few_sum(total)
                 if s < segment_end and lane % few == 0:
