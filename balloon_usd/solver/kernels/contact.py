@@ -482,6 +482,11 @@ def find_walls(
             quad_area,
             ring_radius,
         )
+    # Most vertices touch nothing, and did not before.
+    before0 = int_in(target, i, 0)
+    before1 = int_in(target, i, 1)
+    if lanes_that(wp.where(nearest[0] >= 0, 1, 0)) == 0 and before0 < 0 and before1 < 0:
+        return
     # The nearest of all lanes, and the nearest of another bubble than that.
     found = wp.vec2i(-1, -1)
     least = lanes_least(near[0])
@@ -494,8 +499,6 @@ def find_walls(
         found[1] = lanes_most(wp.where(near[second] == least, nearest[second], -1))
     if lane > 0:
         return
-    before0 = target[i, 0]
-    before1 = target[i, 1]
     slip0 = slip[i, 0]
     slip1 = slip[i, 1]
     for k in range(2):
