@@ -9,6 +9,9 @@ import warp as wp
 from balloon_usd.plan import plan
 from balloon_usd.recipe import Recipe
 from balloon_usd.solver.flatten import chunks_of
+from balloon_usd.solver.kernels.home import NEAR
+from balloon_usd.solver.kernels.sculpture import advance_sculptures
+from balloon_usd.solver.latex.quick_kernel import quick_kernel, room_inside
 from balloon_usd.solver.simulation import simulate_many
 
 HEAD = """
@@ -34,13 +37,22 @@ def head():
     return plan(Recipe.parse(HEAD))
 
 
-def performed(device, *, copies=1, blocks=None):
-    """The last frame of a head, made by so many blocks."""
+def performed(device, *, copies=1, blocks=None, at_home=False):
+    """The last frame of a head, made by so many blocks or by one with the head inside its processor."""
     simulation = simulate_many([head()] * copies, device=device)
+    crew = simulation.model.stepper._crew
     if blocks:
-        simulation.model.stepper._crew.blocks = blocks
+        crew.blocks = blocks
+    if at_home:
+        crew.blocks, crew.lanes = 1, NEAR
+        crew._kernel = kernel_on(wp.get_device(device), NEAR)
     *_, last = simulation.frames()
     return last[0]
+
+
+def kernel_on(device, lanes):
+    """The kernel for blocks of so many lanes; on a CPU there is but one."""
+    return quick_kernel(lanes, room_inside(device), cores=False) if device.is_cuda else advance_sculptures
 
 
 def test_segments_are_cut_into_chunks_that_do_not_cross_their_borders():
@@ -53,3 +65,15 @@ def test_segments_are_cut_into_chunks_that_do_not_cross_their_borders():
 def test_neither_the_size_of_a_crew_nor_its_company_changes_a_bit(device):
     alone, one, batch = performed(device), performed(device, blocks=1), performed(device, copies=3)
     assert alone.points[0].tobytes() == one.points[0].tobytes() == batch.points[0].tobytes()
+
+
+@pytest.mark.parametrize("device", DEVICES)
+def test_a_sculpture_at_home_in_a_processor_has_the_bits_of_any(device):
+    assert performed(device, at_home=True).points[0].tobytes() == performed(device).points[0].tobytes()
+
+
+@pytest.mark.parametrize("device", DEVICES)
+def test_halves_that_take_turns_have_the_bits_of_a_whole(device, monkeypatch):
+    whole = performed(device, copies=3)
+    monkeypatch.setattr("balloon_usd.solver.simulation.MANY", 2)
+    assert performed(device, copies=3).points[0].tobytes() == whole.points[0].tobytes()

@@ -1,0 +1,69 @@
+"""Kernels that read and write arrays as the solver's do, for tests."""
+
+import warp as wp
+
+from balloon_usd.solver.kernels.at import (
+    float_at,
+    int_at,
+    int_in,
+    mat22_at,
+    put_float,
+    put_vec3,
+    vec2_at,
+    vec2i_at,
+    vec3_at,
+    vec4_at,
+    vec4i_at,
+)
+from balloon_usd.solver.kernels.planes import put, seen_in
+from balloon_usd.solver.kernels.seen import float_seen, vec2_seen, vec3_seen
+
+
+@wp.kernel
+def compare_readings(
+    whole: wp.array[int],
+    table: wp.array2d[int],
+    pairs: wp.array[wp.vec2i],
+    fours: wp.array[wp.vec4i],
+    number: wp.array[float],
+    two: wp.array[wp.vec2],
+    three: wp.array[wp.vec3],
+    four: wp.array[wp.vec4],
+    matrix: wp.array[wp.mat22],
+    same: wp.array[int],
+):
+    """Count which ways of reading an element give what Warp's own gives."""
+    i = wp.tid()
+    count = 0
+    count += wp.where(int_at(whole, i) == whole[i], 1, 0)
+    count += wp.where(int_in(table, i, 1) == table[i, 1], 1, 0)
+    count += wp.where(vec2i_at(pairs, i) == pairs[i], 1, 0)
+    count += wp.where(vec4i_at(fours, i) == fours[i], 1, 0)
+    count += wp.where(float_at(number, i) == number[i], 1, 0)
+    count += wp.where(vec2_at(two, i) == two[i], 1, 0)
+    count += wp.where(vec3_at(three, i) == three[i], 1, 0)
+    count += wp.where(vec4_at(four, i) == four[i], 1, 0)
+    count += wp.where(mat22_at(matrix, i) == matrix[i], 1, 0)
+    count += wp.where(float_seen(number, i) == number[i], 1, 0)
+    count += wp.where(vec2_seen(two, i) == two[i], 1, 0)
+    count += wp.where(vec3_seen(three, i) == three[i], 1, 0)
+    same[i] = count
+
+
+@wp.kernel
+def double(number: wp.array[float], three: wp.array[wp.vec3]):
+    """Double every element."""
+    i = wp.tid()
+    put_float(number, i, 2.0 * float_at(number, i))
+    put_vec3(three, i, 2.0 * vec3_at(three, i))
+
+
+@wp.kernel
+def through_planes(given: wp.array2d[wp.vec3], planes: wp.array2d[float], found: wp.array2d[wp.vec3]):
+    """Put all vectors of every item into planes and read them again, the last one first."""
+    item = wp.tid()
+    for k in range(given.shape[1]):
+        put(planes, item, k, given[item, k])
+    for k in range(given.shape[1]):
+        last = given.shape[1] - 1 - k
+        found[item, last] = seen_in(planes, item, last)
