@@ -11,6 +11,7 @@ from balloon_usd.recipe import Recipe
 from balloon_usd.solver.flatten import chunks_of
 from balloon_usd.solver.kernels.home import NEAR
 from balloon_usd.solver.kernels.sculpture import advance_sculptures
+from balloon_usd.solver.kernels.seen import ALONE
 from balloon_usd.solver.latex.quick_kernel import quick_kernel, room_inside
 from balloon_usd.solver.simulation import simulate_many
 
@@ -37,15 +38,15 @@ def head():
     return plan(Recipe.parse(HEAD))
 
 
-def performed(device, *, copies=1, blocks=None, at_home=False):
-    """The last frame of a head, made by so many blocks or by one with the head inside its processor."""
+def performed(device, *, copies=1, blocks=None, alone=None):
+    """The last frame of a head, made by so many blocks, or alone by one of so many lanes."""
     simulation = simulate_many([head()] * copies, device=device)
     crew = simulation.model.stepper._crew
     if blocks:
         crew.blocks = blocks
-    if at_home:
-        crew.blocks, crew.lanes = 1, NEAR
-        crew._kernel = kernel_on(wp.get_device(device), NEAR)
+    if alone:
+        crew.blocks, crew.lanes = 1, alone
+        crew._kernel = kernel_on(wp.get_device(device), alone)
     *_, last = simulation.frames()
     return last[0]
 
@@ -68,8 +69,9 @@ def test_neither_the_size_of_a_crew_nor_its_company_changes_a_bit(device):
 
 
 @pytest.mark.parametrize("device", DEVICES)
-def test_a_sculpture_at_home_in_a_processor_has_the_bits_of_any(device):
-    assert performed(device, at_home=True).points[0].tobytes() == performed(device).points[0].tobytes()
+@pytest.mark.parametrize("lanes", [ALONE, NEAR])
+def test_a_block_alone_gives_the_same_bits_at_home_in_its_processor_or_not(device, lanes):
+    assert performed(device, alone=lanes).points[0].tobytes() == performed(device).points[0].tobytes()
 
 
 @pytest.mark.parametrize("device", DEVICES)
