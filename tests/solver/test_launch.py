@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import subprocess
 import sys
 
@@ -60,6 +61,31 @@ def test_no_kernel_is_compiled_after_the_first_frame(model, used):
     early = set(used)
     assert all(found is not None for (found,) in frames)
     assert used == early
+
+
+def test_nothing_that_threads_replay_needs_the_memory_for_tiles_that_they_share(monkeypatch):
+    recorded, replay = set(), Launcher.replay
+
+    def spied_replay(self, key, record):
+        def spied_record():
+            with monkeypatch.context() as recording:
+                for name in ("launch", "launch_tiled"):
+                    real = getattr(Launcher, name)
+
+                    def spied(self, kernel, count, real=real, **more):
+                        recorded.add(kernel)
+                        real(self, kernel, count, **more)
+
+                    recording.setattr(Launcher, name, spied)
+                record()
+
+        replay(self, key, spied_record)
+
+    monkeypatch.setattr(Launcher, "replay", spied_replay)
+    frames = simulate_many([plan(Recipe.parse(PRESSED.format(model="latex")))], device="cpu").frames()
+    assert all(found is not None for (found,) in frames)
+    assert {"advance_sculptures", "find_walls", "wall_loads"} <= {kernel.key for kernel in recorded}
+    assert not [kernel.key for kernel in recorded if "wp.tile" in inspect.getsource(kernel.func)]
 
 
 @pytest.mark.parametrize(("model", "other"), [("latex", "kosaka"), ("kosaka", "latex")])

@@ -3,6 +3,7 @@
 import warp as wp
 
 from balloon_usd.solver.kernels.at import int_at, int_in, put_float, vec3_at, vec4i_at
+from balloon_usd.solver.kernels.lanes import lanes_sum
 from balloon_usd.solver.kernels.planes import seen_in
 
 
@@ -57,7 +58,8 @@ def wall_loads(
     x: wp.array[wp.vec3],
     wall_load: wp.array[float],
 ):
-    """Write the sum of all normal contact forces (N) on the wall of every segment, in a fixed order.
+    """Write the sum of all normal contact forces (N) on the wall of every segment, in a fixed order; a warp
+    of lanes each on a GPU.
 
     A wall is pressed where its vertices touch another wall, and where vertices of another touch it.
     """
@@ -70,6 +72,6 @@ def wall_loads(
         c = vec4i_at(quads, q)
         for k in range(4):
             total += load_of_vertex(c[k], quads, corners, target, contact_force, x)
-    sums = wp.tile_sum(wp.tile(total))
+    total = lanes_sum(total)
     if lane == 0:
-        put_float(wall_load, s, sums[0])
+        put_float(wall_load, s, total)

@@ -10,7 +10,7 @@ from balloon_usd.solver.kernels.lanes import WARP
 from balloon_usd.solver.kernels.membrane import vertex_stretch
 from balloon_usd.solver.kernels.wall_load import wall_loads
 from balloon_usd.solver.latex.crew import Crew
-from balloon_usd.solver.launch import VOLUME_BLOCK, Launcher
+from balloon_usd.solver.launch import Launcher
 from balloon_usd.solver.wall_search import WallSearch
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ class Stepper:
         self._launcher = Launcher(scene, values)
         self._launch = self._launcher.launch
         self._search = WallSearch(self._launcher)
-        self._launcher.load(wall_loads, lanes=VOLUME_BLOCK)
+        self._launcher.load(wall_loads, lanes=WARP)
         self._crew = Crew(scene)
         self._start()
 
@@ -66,7 +66,7 @@ class Stepper:
         """
         self._launch(vertex_stretch, len(self.scene.x))
         if contact:
-            self._launcher.launch_tiled(wall_loads, len(self.scene.segment_quad))
+            self._launcher.launch_tiled(wall_loads, len(self.scene.segment_quad), lanes=WARP)
         mirror.copy()
 
     def _frame(self, *, contact: bool, fingers: bool) -> None:
