@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import errno
-from typing import Any
+import os
+import sys
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -20,21 +23,41 @@ from balloon_usd.cli.preview import preview
 from balloon_usd.cli.run import run
 from balloon_usd.cli.schema import schema
 
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
 
 class Commands(click.Group):
     """A group whose commands end without a traceback when interrupted, or when nobody hears them."""
 
+    def make_context(self, *args: Any, **kwargs: Any) -> click.Context:
+        """Read the words of the command line; some, as `--help`, are answered at once."""
+        with _heard():
+            return super().make_context(*args, **kwargs)
+
     def invoke(self, ctx: click.Context) -> Any:
         """Run the command; Ctrl-C ends it with its own exit code."""
         try:
-            return super().invoke(ctx)
+            with _heard():
+                return super().invoke(ctx)
         except KeyboardInterrupt as error:
             raise Failure("interrupted, nothing half-written is left", ExitCode.INTERRUPTED) from error
-        except OSError as error:
-            # What is said goes to a stream without a name; a closed pipe is no mistake, and click knows it.
-            if error.errno != errno.ENOSPC or error.filename is not None:
-                raise
-            raise Failure(f"nothing more can be said: {error.strerror}", ExitCode.BAD_INPUT) from error
+
+
+@contextmanager
+def _heard() -> Iterator[None]:
+    """Tell in one line when the disk behind the output is full."""
+    try:
+        yield
+    except OSError as error:
+        # What is said goes to a stream without a name; a closed pipe is no mistake, and click knows it.
+        if error.errno != errno.ENOSPC or error.filename is not None:
+            raise
+        # What waits in the buffer goes nowhere: Python would try once more as it ends.
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, sys.stdout.fileno())
+        os.close(nowhere)
+        raise Failure(f"nothing more can be said: {error.strerror}", ExitCode.BAD_INPUT) from error
 
 
 @click.group(cls=Commands, epilog=EXIT_CODES_HELP, context_settings={"help_option_names": ["-h", "--help"]})

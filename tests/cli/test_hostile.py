@@ -133,9 +133,10 @@ def test_json_is_one_document_whatever_cannot_be_read(cli, dog):
 
 
 @pytest.mark.parametrize(
-    "words", [("check", "--no-nvidia"), ("check", "--no-nvidia", "--json"), ("diff", "DOG")]
+    "words", [("check", "--no-nvidia"), ("check", "--no-nvidia", "--json"), ("diff", "DOG"), ("--help",)]
 )
-def test_a_full_disk_behind_the_output_is_told_and_is_no_finding(words, dog):
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+def test_a_full_disk_behind_the_output_is_told_and_is_no_finding(words, unbuffered, dog):
     words = [str(dog) if word == "DOG" else word for word in words]
     with Path("/dev/full").open("w") as full:
         process = subprocess.run(
@@ -144,6 +145,7 @@ def test_a_full_disk_behind_the_output_is_told_and_is_no_finding(words, dog):
             stderr=subprocess.PIPE,
             text=True,
             check=False,
+            env={**os.environ, "PYTHONUNBUFFERED": unbuffered},
         )
     assert process.returncode == 2
     assert process.stderr == "nothing more can be said: No space left on device\n"
