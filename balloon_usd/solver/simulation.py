@@ -60,10 +60,6 @@ class Simulation:
         ]
         on_gpu = wp.get_device(device).is_cuda
         self._threads = 1 if on_gpu or model not in THREADED else min(usable_cores(), len(self.plans))
-        # While a GPU advances one half of many, the host sees to the other.
-        states = 2 if on_gpu and model in THREADED and len(self.plans) >= MANY else 1
-        if self._threads > 1:
-            states = min(len(self.plans), STATES_PER_THREAD * self._threads)
         self._batches = [
             Batch(
                 maker,
@@ -75,8 +71,18 @@ class Simulation:
                 # On a CPU it would only make the first frame come later.
                 ahead=on_gpu,
             )
-            for run in _runs(len(self.plans), states)
+            for run in _runs(len(self.plans), self._states(model, on_gpu=on_gpu))
         ]
+
+    def _states(self, model: str, *, on_gpu: bool) -> int:
+        """Return among how many flat states the plans are shared out."""
+        count = len(self.plans)
+        if model not in THREADED:
+            return 1
+        if on_gpu:
+            # While it advances one half of many, the host sees to the other.
+            return 2 if count >= MANY else 1
+        return 1 if self._threads == 1 else min(count, STATES_PER_THREAD * self._threads)
 
     @property
     def model(self) -> Model:

@@ -147,6 +147,14 @@ def measure_open_ring(
 
 
 @wp.func
+def pull_on_end(strut: int, pull: wp.vec3):
+    """Return the force (N) of a strut on a joint, given that on the strut's first end; 0 is no strut, and the
+    second end has its number negative.
+    """
+    return wp.where(strut == 0, wp.vec3(0.0), wp.where(strut > 0, pull, -pull))
+
+
+@wp.func
 def move_joint(
     j: int,
     lane: int,
@@ -255,11 +263,11 @@ def move_joint(
         va += at[0] * s
         vb += at[1] * s
         own += wp.cross(d, s)
-    force = wp.where(strut == 0, wp.vec3(0.0), wp.where(strut > 0, pull, -pull))
+    force = pull_on_end(strut, pull)
     for k in range(lane + lanes, slots, lanes):
         strut = int_in(joint_struts, j, k)
         pull = vec3_seen(strut_force, wp.max(wp.abs(strut) - 1, 0))
-        force += wp.where(strut == 0, wp.vec3(0.0), wp.where(strut > 0, pull, -pull))
+        force += pull_on_end(strut, pull)
     sums = lanes_sum_all(force, c, w, a, b, va, vb, own)
     force = sums[0]
     c = sums[1] / float(n)

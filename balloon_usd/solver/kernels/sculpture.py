@@ -202,7 +202,7 @@ def advance_sculptures(
     # The first block sees to the gas; where there are others, these see to the rest meanwhile.
     others = wp.max(lanes - block_size, wp.min(lanes, block_size))
     other = wp.where(crew > 1, me - block_size, me)
-    # Read once: whatever is read after a meeting comes from far away.
+    # What is the same in every substep is read once.
     balloon_begin = int_at(world_balloon, w)
     balloon_end = int_at(world_balloon, w + 1)
     vertex_begin = int_at(world_vertex, w)
