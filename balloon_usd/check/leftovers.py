@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from balloon_usd.stage.lock import is_held
+from balloon_usd.files.lock import is_held
 from balloon_usd.stage.properties import Finding
 from balloon_usd.stage.workspace import LOCK, SUFFIX
 

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import os
 import re
-import sys
-import tempfile
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
@@ -15,9 +12,6 @@ from balloon_usd.cli.failure import ExitCode, Failure
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
-
-DRIVER_MISSING = b"Could not find or load the NVIDIA CUDA driver"
-"""Warp prints this on every computer without a CUDA device, where it is no news."""
 
 
 def device_name(text: str) -> str:
@@ -29,6 +23,23 @@ def device_name(text: str) -> str:
     if not re.fullmatch(r"auto|cpu|cuda(:\d{1,3})?", text, re.ASCII):
         raise click.BadParameter(f'"{text}" is no device, expected auto, cpu, cuda or cuda:N')
     return text
+
+
+def devices_named(text: str) -> tuple[str, ...]:
+    """Read auto, cpu, all, or CUDA devices with commas between them.
+
+    Raises:
+        click.BadParameter: it is none of these, or a device is named twice.
+    """
+    names = tuple(text.split(","))
+    if text in {"auto", "cpu", "all", "cuda"}:
+        return names
+    if not all(re.fullmatch(r"cuda:\d{1,3}", name, re.ASCII) for name in names):
+        expected = "auto, cpu, cuda or cuda:N, several with commas, or all"
+        raise click.BadParameter(f'"{text}" is no device, expected {expected}')
+    if len(set(names)) < len(names):
+        raise click.BadParameter(f'"{text}" names a device twice')
+    return names
 
 
 device_option = click.option(
@@ -49,15 +60,11 @@ def start_device(name: str) -> str:
         Failure: there is no such device; the message lists those that there are. Or the folder for compiled
             kernels cannot be made.
     """
-    import warp as wp  # noqa: PLC0415
-
-    from balloon_usd.solver.device import device_named  # noqa: PLC0415
+    from balloon_usd.solver.device import device_named, start_warp  # noqa: PLC0415
     from balloon_usd.solver.errors import DeviceUnavailable  # noqa: PLC0415
 
-    wp.config.log_level = wp.LOG_WARNING
     try:
-        with _without_driver_warning():
-            wp.get_devices()
+        start_warp()
     except OSError as error:
         raise _no_cache(error) from error
     try:
@@ -88,20 +95,3 @@ def _no_cache(error: OSError) -> Failure:
     place = f"{error.filename}: " if error.filename else ""
     text = f"{place}compiled kernels cannot be kept here ({error.strerror or error})"
     return Failure(f"{text}, set WARP_CACHE_PATH to a folder that can be written", ExitCode.BAD_INPUT)
-
-
-@contextmanager
-def _without_driver_warning() -> Iterator[None]:
-    """Hold back what native code writes to the error stream, and pass on all but the missing driver."""
-    sys.stderr.flush()
-    kept = os.dup(2)
-    with tempfile.TemporaryFile() as held:
-        os.dup2(held.fileno(), 2)
-        try:
-            yield
-        finally:
-            os.dup2(kept, 2)
-            os.close(kept)
-            held.seek(0)
-            told = [line for line in held if DRIVER_MISSING not in line]
-            os.write(2, b"".join(told))

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, cast
 
 import click
 
+from balloon_usd.batch.order import FrameRange
 from balloon_usd.cli.failure import EXIT_CODES_HELP, ExitCode, Failure
-from balloon_usd.cli.frame_range import FrameRange, moments
+from balloon_usd.cli.frame_range import moments
 from balloon_usd.cli.output import require_writable
 from balloon_usd.cli.stage_path import stage_file, stage_path
 

@@ -15,6 +15,7 @@ class ExitCode(IntEnum):
     BAD_INPUT = 2
     SIMULATION_FAILED = 3
     INTERRUPTED = 130
+    TERMINATED = 143
 
 
 EXIT_CODES_HELP = """\b
@@ -24,6 +25,7 @@ Exit codes:
   2    bad input: recipe, stage, option, device or output folder
   3    the simulation failed; no stage of that sculpture is left
   130  interrupted
+  143  terminated (SIGTERM)
 """
 
 

@@ -3,35 +3,13 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 
 import click
 
+from balloon_usd.batch.order import FrameRange
+
 MOST_FRAMES = 999_999_999
 """Frames that can be asked for."""
-
-
-@dataclass(frozen=True)
-class FrameRange:
-    """Time codes from `first` to `last`, both included; None leaves an end open."""
-
-    first: int | None = None
-    last: int | None = None
-
-    def within(self, count: int) -> range:
-        """Return the time codes of the range in an animation of `count` frames.
-
-        Raises:
-            ValueError: none of them is in the animation.
-        """
-        codes = range(self.first or 1, min(self.last or count, count) + 1)
-        if not codes:
-            raise ValueError(f"--frames {self}: the animation has frames 1 to {count}")
-        return codes
-
-    def __str__(self) -> str:
-        """Format as on the command line."""
-        return f"{self.first or ''}:{self.last or ''}"
 
 
 def frame_range(text: str) -> FrameRange:

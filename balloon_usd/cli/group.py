@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import errno
 import os
+import signal
 import sys
+import threading
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
@@ -38,10 +40,35 @@ class Commands(click.Group):
     def invoke(self, ctx: click.Context) -> Any:
         """Run the command; Ctrl-C ends it with its own exit code."""
         try:
-            with _heard():
+            with _heard(), _terminable():
                 return super().invoke(ctx)
         except KeyboardInterrupt as error:
             raise Failure("interrupted, nothing half-written is left", ExitCode.INTERRUPTED) from error
+        except _Terminated as error:
+            raise Failure("terminated, nothing half-written is left", ExitCode.TERMINATED) from error
+
+
+class _Terminated(BaseException):
+    """Ends a command as Ctrl-C does, with an exit code of its own."""
+
+
+@contextmanager
+def _terminable() -> Iterator[None]:
+    """Let SIGTERM end the block as an exception does, so that nothing half-written is left."""
+
+    def terminate(*_: object) -> None:
+        # A second one must not cut short what tidies up.
+        signal.signal(signal.SIGTERM, signal.SIG_IGN)
+        raise _Terminated
+
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGTERM, terminate)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 @contextmanager

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, cast
 
 import click
 
+from balloon_usd.batch.order import FrameRange
 from balloon_usd.cli.device import device_option, start_device
 from balloon_usd.cli.failure import EXIT_CODES_HELP, ExitCode, Failure
-from balloon_usd.cli.frame_range import FrameRange, moments
+from balloon_usd.cli.frame_range import moments
 from balloon_usd.cli.stage_path import stage_file, stage_path
 
 if TYPE_CHECKING:

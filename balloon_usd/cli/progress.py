@@ -1,4 +1,4 @@
-"""Progress: what the hands do, how far, how fast. A bar for people, lines for programs."""
+"""Progress: what the hands do, how far, how fast, how long still. A bar for people, lines for programs."""
 
 from __future__ import annotations
 
@@ -8,11 +8,20 @@ from typing import TYPE_CHECKING, Any, Protocol
 import click
 from rich.console import Console
 from rich.markup import escape
-from rich.progress import BarColumn, Progress, ProgressColumn, TaskProgressColumn, TextColumn
+from rich.progress import (
+    BarColumn,
+    Progress,
+    ProgressColumn,
+    TaskProgressColumn,
+    TextColumn,
+    TimeRemainingColumn,
+)
 from rich.text import Text
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+
+    from balloon_usd.batch.watch import Count
 
 DOING_WIDTH = 44
 """Characters for what the hands do, so that the bar stands still."""
@@ -30,8 +39,8 @@ class FrameRate(ProgressColumn):
 class Shown(Protocol):
     """Progress on the error stream."""
 
-    def advance(self, doing: str, frames: int) -> None:
-        """Say what is done now, and count frames."""
+    def advance(self, doing: str, frames: int, count: Count) -> None:
+        """Say what is done now, count frames, and tell how many recipes are where."""
 
 
 class _Bar:
@@ -39,11 +48,13 @@ class _Bar:
 
     def __init__(self, progress: Progress, total: int) -> None:
         self._progress = progress
-        self._task = progress.add_task("getting ready".ljust(DOING_WIDTH), total=total)
+        self._task = progress.add_task("getting ready".ljust(DOING_WIDTH), total=total, counts="")
 
-    def advance(self, doing: str, frames: int) -> None:
+    def advance(self, doing: str, frames: int, count: Count) -> None:
         shown = doing if len(doing) <= DOING_WIDTH else doing[: DOING_WIDTH - 3] + "..."
-        self._progress.update(self._task, description=escape(shown.ljust(DOING_WIDTH)), advance=frames)
+        self._progress.update(
+            self._task, description=escape(shown.ljust(DOING_WIDTH)), advance=frames, counts=counts(count)
+        )
 
 
 class _Lines:
@@ -51,11 +62,22 @@ class _Lines:
 
     def __init__(self, total: int) -> None:
         self._done, self._total = 0, total
-        self.advance("getting ready", 0)
+        self._tell("getting ready")
 
-    def advance(self, doing: str, frames: int) -> None:
+    def advance(self, doing: str, frames: int, count: Count) -> None:
         self._done += frames
+        self._tell(f"{counts(count)}: {doing}" if count.all > 1 else doing)
+
+    def _tell(self, doing: str) -> None:
         click.echo(f"progress {self._done}/{self._total} {doing}", err=True)
+
+
+def counts(count: Count) -> str:
+    """Say how many recipes are done, at work and failed; nothing of one alone."""
+    if count.all == 1:
+        return ""
+    failed = f", {count.failed} failed" if count.failed else ""
+    return f"{count.done} of {count.all} done, {count.running} running{failed}"
 
 
 @contextmanager
@@ -64,6 +86,13 @@ def show_progress(total: int, *, lines: bool) -> Iterator[Shown]:
     if lines:
         yield _Lines(total)
         return
-    columns = (TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), FrameRate())
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(),
+        TaskProgressColumn(),
+        TextColumn("{task.fields[counts]}"),
+        FrameRate(),
+        TimeRemainingColumn(compact=True),
+    )
     with Progress(*columns, console=Console(stderr=True)) as progress:
         yield _Bar(progress, total)

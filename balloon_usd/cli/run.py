@@ -8,21 +8,22 @@ from typing import TYPE_CHECKING
 
 import click
 
-from balloon_usd.cli.device import compiling, device_option, start_device
+from balloon_usd.batch.facts import LOOKS, WITH_AIR
+from balloon_usd.batch.order import FrameRange, Order
+from balloon_usd.cli.device import devices_named
 from balloon_usd.cli.failure import EXIT_CODES_HELP, ExitCode, Failure
-from balloon_usd.cli.form import LOOKS, WITH_AIR, Form
-from balloon_usd.cli.frame_range import FrameRange, frame_range
-from balloon_usd.cli.output import require_free, require_writable, sheet_path
-from balloon_usd.cli.sources import plans_of, recipe_files
+from balloon_usd.cli.form import require_form
+from balloon_usd.cli.frame_range import frame_range
+from balloon_usd.cli.sources import recipe_files
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from balloon_usd.cli.perform import Outcome
-    from balloon_usd.plan import Plan
+    from balloon_usd.batch.record import Record
 
 DETAILS = ("draft", "preview", "full")
 PROGRESS = ("bar", "lines")
+MOST_JOBS = 4096
 
 
 @click.command(epilog=EXIT_CODES_HELP)
@@ -41,7 +42,21 @@ PROGRESS = ("bar", "lines")
     show_default=True,
     help="How fine the mesh and the time steps are.",
 )
-@device_option
+@click.option(
+    "--device",
+    "devices",
+    type=devices_named,
+    metavar="auto|cpu|cuda:0,cuda:1|all",
+    default="auto",
+    show_default=True,
+    help="Where to compute; auto is the first CUDA device, else the CPU, all is every CUDA device.",
+)
+@click.option(
+    "--jobs",
+    type=click.IntRange(1, MOST_JOBS),
+    metavar="N",
+    help="Processor cores to use. Default: all that there are.",
+)
 @click.option("--flat", is_flag=True, help="Write one NAME.usdc instead of the folder NAME with its layers.")
 @click.option("--usdz", is_flag=True, help="Write one NAME.usdz instead, for AR viewers: y up, no textures.")
 @click.option(
@@ -60,6 +75,7 @@ PROGRESS = ("bar", "lines")
 )
 @click.option("--no-preview", is_flag=True, help="Draw no contact sheet.")
 @click.option("--no-report", is_flag=True, help="Write no report.")
+@click.option("--force", is_flag=True, help="Make anew also what is there already, made of the same.")
 @click.option(
     "--progress",
     type=click.Choice(PROGRESS),
@@ -71,7 +87,8 @@ def run(
     recipes: tuple[Path, ...],
     output: Path,
     detail: str,
-    device: str,
+    devices: tuple[str, ...],
+    jobs: int | None,
     flat: bool,
     usdz: bool,
     look: str | None,
@@ -79,97 +96,78 @@ def run(
     frames: FrameRange | None,
     no_preview: bool,
     no_report: bool,
+    force: bool,
     progress: str,
 ) -> None:
     """Make sculptures: simulate recipes and write a USD stage, a contact sheet and a report of each.
 
-    RECIPE is a recipe file, or a folder whose recipes (*.yaml) are all made. All sculptures advance together.
-    If a recipe is wrong nothing is run, and all problems of all recipes are listed.
+    RECIPE is a recipe file, or a folder whose recipes (*.yaml) are all made, on all cores, or as many at once
+    as fit a GPU. A recipe that is refused or fails takes no other along: all problems are listed, the rest is
+    made. What is there already, whole and made of the same recipe with the same options, is skipped; so a run
+    that was interrupted or killed goes on where it was.
 
     Writes OUTPUT/NAME/NAME.usda with its payload, OUTPUT/NAME.png, OUTPUT/NAME.report.json and its figure
-    OUTPUT/NAME.report.png, where NAME is the recipe's name. --flat and --usdz write one file instead.
+    OUTPUT/NAME.report.png, where NAME is the recipe's name, and OUTPUT/batch.jsonl, a line for each recipe.
+    --flat and --usdz write one file instead.
     """
-    form = Form(flat=flat, usdz=usdz, look=look, shot=shot)
-    plans = plans_of(recipe_files(recipes))
-    form.require_look(plans)
-    require_writable(output)
-    names = [plan.recipe.name for plan in plans]
-    sheets = [] if no_preview else [sheet_path(output, name) for name in names]
-    reports = [] if no_report else _report_paths(output, names)
-    require_free(output, names, form, [*sheets, *reports])
-    used = start_device(device)
-    _print_cautions(plans)
-    outcomes = _perform_all(
-        plans, output, detail, used, form, frames=frames or FrameRange(), lines=progress == "lines"
+    require_form(flat=flat, usdz=usdz, look=look, shot=shot)
+    order = Order(
+        output,
+        detail,
+        flat,
+        usdz,
+        look,
+        shot,
+        frames or FrameRange(),
+        preview=not no_preview,
+        report=not no_report,
+        force=force,
     )
-    if not no_report:
-        _report(outcomes, output, detail)
-    if not no_preview:
-        _draw(outcomes, output, used, form)
-    failed = [f"{o.plan.recipe.file}: simulation failed {o.failed}" for o in outcomes if o.failed]
-    if failed:
-        raise Failure("\n".join(failed), ExitCode.SIMULATION_FAILED)
+    records = _make(recipe_files(recipes), order, devices, jobs, lines=progress == "lines")
+    _end(records)
 
 
-def _print_cautions(plans: Sequence[Plan]) -> None:
-    for plan in plans:
-        for caution in plan.cautions:
-            place = "" if caution.step is None else f"step {caution.step + 1}: "
-            click.echo(f"{plan.recipe.file}: caution: {place}{caution.what} ({caution.why})", err=True)
-
-
-def _perform_all(
-    plans: Sequence[Plan],
-    output: Path,
-    detail: str,
-    device: str,
-    form: Form,
-    *,
-    frames: FrameRange,
-    lines: bool,
-) -> list[Outcome]:
-    from balloon_usd.cli.perform import Order, perform, together  # noqa: PLC0415
+def _make(
+    files: Sequence[Path], order: Order, devices: tuple[str, ...], jobs: int | None, *, lines: bool
+) -> list[Record]:
+    from balloon_usd.batch.engine import run_batch  # noqa: PLC0415
+    from balloon_usd.batch.machine import Machine, usable_cores  # noqa: PLC0415
+    from balloon_usd.batch.scheduler import BatchError  # noqa: PLC0415
+    from balloon_usd.cli.batch_progress import BatchProgress  # noqa: PLC0415
     from balloon_usd.cli.summary import print_summary  # noqa: PLC0415
 
-    order = Order(output, detail, device, form, frames, lines)
     begin = time.perf_counter()
-    with compiling():
-        outcomes = [outcome for group in together(plans) for outcome in perform(group, order)]
-    print_summary(outcomes, time.perf_counter() - begin, detail, device)
-    return outcomes
-
-
-def _report_paths(output: Path, names: Sequence[str]) -> list[Path]:
-    from balloon_usd.report import report_files  # noqa: PLC0415
-
-    return [file for name in names for file in report_files(output, name)]
-
-
-def _report(outcomes: Sequence[Outcome], output: Path, detail: str) -> None:
-    from balloon_usd.report import ReportError, write_report  # noqa: PLC0415
-    from balloon_usd.staging import provenance_of  # noqa: PLC0415
-
-    for outcome in outcomes:
-        if outcome.written is None:
-            continue
-        origin = provenance_of(outcome.plan.recipe)
+    machine = Machine(jobs or usable_cores(), devices)
+    with BatchProgress(order, lines=lines) as progress:
         try:
-            files = write_report(outcome.history, output, detail=detail, provenance=origin)
-        except ReportError as error:
-            raise Failure(str(error), ExitCode.NOT_WRITTEN) from error
-        for file in files:
-            click.echo(f"report {file}")
+            records = run_batch(files, order, machine, progress)
+        except BatchError as error:
+            raise Failure(str(error), ExitCode.BAD_INPUT) from error
+    print_summary(records, order, time.perf_counter() - begin, progress.device)
+    return records
 
 
-def _draw(outcomes: Sequence[Outcome], output: Path, device: str, form: Form) -> None:
-    from balloon_usd.preview import PreviewError, draw_contact_sheet  # noqa: PLC0415
+def _end(records: Sequence[Record]) -> None:
+    """End with what went wrong, and the gravest exit code: not written, failed, refused.
 
-    for outcome in outcomes:
-        if outcome.written is None:
-            continue
-        name = outcome.plan.recipe.name
-        try:
-            sheet = draw_contact_sheet(form.stage(output, name), sheet_path(output, name), device=device)
-        except PreviewError as error:
-            raise Failure(str(error), ExitCode.NOT_WRITTEN) from error
-        click.echo(f"contact sheet {sheet}")
+    Raises:
+        Failure: something did.
+    """
+    from balloon_usd.batch.record import Status  # noqa: PLC0415
+
+    codes = {
+        Status.NOT_WRITTEN: ExitCode.NOT_WRITTEN,
+        Status.UNFORESEEN: ExitCode.NOT_WRITTEN,
+        Status.KILLED: ExitCode.SIMULATION_FAILED,
+        Status.DEVICE: ExitCode.SIMULATION_FAILED,
+        Status.FAILED: ExitCode.SIMULATION_FAILED,
+        Status.REFUSED: ExitCode.BAD_INPUT,
+    }
+    found = {codes[record.status] for record in records if record.status in codes}
+    told = [record.error for record in records if record.status in codes and record.status != Status.REFUSED]
+    gravity = (ExitCode.NOT_WRITTEN, ExitCode.SIMULATION_FAILED, ExitCode.BAD_INPUT)
+    if gravest := next((code for code in gravity if code in found), None):
+        if not told:
+            # Refusals have been told before anything was run.
+            raise click.exceptions.Exit(int(gravest))
+        raise Failure("\n".join(told), gravest)

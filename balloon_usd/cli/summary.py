@@ -2,62 +2,97 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from typing import TYPE_CHECKING
 
 from rich.console import Console
 from rich.table import Table
 
-from balloon_usd.balloon.rubber import BURST_STRETCH
-from balloon_usd.plan.lengths import cm
+from balloon_usd.batch.record import Status
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
-    from balloon_usd.cli.perform import Outcome
+    from balloon_usd.batch.order import Order
+    from balloon_usd.batch.record import Record
 
 MEGABYTE = 1e6
+CENTIMETRES = 100.0
+"""In a metre."""
+MOST_ROWS = 64
+"""Recipes that are listed one by one; of more, only what needs attention."""
+THERE = (Status.DONE, Status.SKIPPED)
 
 
-def print_summary(outcomes: Sequence[Outcome], seconds: float, detail: str, device: str) -> None:
+def print_summary(records: Sequence[Record], order: Order, seconds: float, device: str) -> None:
     """Print what was written and how fast, on the standard stream.
 
     Args:
-        outcomes: one a recipe.
-        seconds: time that the simulation and the writing took.
-        detail: level of detail.
-        device: where it was computed.
+        records: one a recipe.
+        order: what was asked for.
+        seconds: time that all took.
+        device: where it was computed; "" where nothing was.
     """
+    if not any(record.name for record in records):
+        return
+    console = Console(soft_wrap=True, highlight=False)
+    listed = records if len(records) <= MOST_ROWS else [r for r in records if r.status not in THERE]
+    if listed:
+        console.print(_table(listed), no_wrap=True, crop=False)
+    if len(listed) < len(records):
+        console.print(
+            f"{len(records) - len(listed)} more are told in {order.folder / 'batch.jsonl'}", markup=False
+        )
+    for line in _warnings(records):
+        console.print(line, markup=False)
+    console.print(_totals(records, order, seconds, device), markup=False)
+    if len(records) <= MOST_ROWS:
+        for line in _files(records, order):
+            console.print(line, markup=False)
+
+
+def _table(records: Sequence[Record]) -> Table:
     table = Table("sculpture", box=None, pad_edge=False)
     for heading in ("frames", "animation", "tail left", "highest stretch", "size"):
         table.add_column(heading, justify="right")
-    frames, files = 0, []
-    for outcome in outcomes:
-        recipe = outcome.plan.recipe
-        if outcome.written is None:
-            table.add_row(recipe.name, "failed")
+    for record in records:
+        name = record.name or record.recipe
+        if record.status not in THERE:
+            table.add_row(name, str(record.status))
             continue
-        count = outcome.written.frames
-        size = sum(file.stat().st_size for file in outcome.written.files) / MEGABYTE
-        length = f"{count / recipe.fps:.1f} s"
-        tails = ", ".join(cm(tail) for tail in outcome.tally.tails_left.values())
-        bears = f" of {BURST_STRETCH:.1f}" if recipe.physics.model == "latex" else ""
-        stretch = f"{outcome.tally.highest_stretch:.1f}{bears}"
-        table.add_row(recipe.name, str(count), length, tails, stretch, f"{size:.1f} MB")
-        files.append(f"stage {outcome.written.files[0]}")
-        files += [f"shot {file}" for file in outcome.written.files if file.stem == f"{recipe.name}_shot"]
-        frames += count
-    console = Console(soft_wrap=True, highlight=False)
-    console.print(table, no_wrap=True, crop=False)
-    for outcome in outcomes:
-        if outcome.tally.bursts:
-            name, bubble = outcome.plan.recipe.name, outcome.tally.highest_bubble
-            console.print(
-                f"{name}: {bubble} would burst: use less gas, or make it longer or softer", soft_wrap=True
-            )
-        if outcome.tally.undone:
-            name, undone = outcome.plan.recipe.name, ", ".join(outcome.tally.undone)
-            console.print(f"{name}: came undone: {undone}: lock them, with 2 turns or more", soft_wrap=True)
+        told = record.summary
+        length = f"{record.frames / told['fps']:.1f} s"
+        tails = ", ".join(f"{CENTIMETRES * tail:.1f} cm" for tail in told["tails_left"].values())
+        bears = f" of {told['burst_stretch']:.1f}" if told["burst_stretch"] else ""
+        stretch = f"{told['highest_stretch']:.1f}{bears}"
+        size = f"{record.size / MEGABYTE:.1f} MB"
+        table.add_row(name, str(record.frames), length, tails, stretch, size)
+    return table
+
+
+def _warnings(records: Sequence[Record]) -> Iterator[str]:
+    for record in records:
+        if record.summary.get("bursts"):
+            bubble = record.summary["highest_bubble"]
+            yield f"{record.name}: {bubble} would burst: use less gas, or make it longer or softer"
+        if undone := record.summary.get("undone"):
+            yield f"{record.name}: came undone: {', '.join(undone)}: lock them, with 2 turns or more"
+
+
+def _totals(records: Sequence[Record], order: Order, seconds: float, device: str) -> str:
+    made = [record for record in records if record.status is Status.DONE]
+    frames = sum(record.frames for record in made)
+    counts = Counter("made" if record.status is Status.DONE else str(record.status) for record in records)
+    told = ", ".join(f"{count} {what}" for what, count in counts.items())
+    several = f"{told}: " if len(records) > 1 or not made else ""
     rate = frames / max(seconds, 1e-9)
-    console.print(f"{frames} frames in {seconds:.1f} s, {rate:.0f} frames/s, {detail} on {device}")
-    for file in files:
-        console.print(file, markup=False)
+    where = f", {order.detail} on {device}" if device else ""
+    return f"{several}{frames} frames in {seconds:.1f} s, {rate:.0f} frames/s{where}"
+
+
+def _files(records: Sequence[Record], order: Order) -> Iterator[str]:
+    names = {"stage": "stage", "shot": "shot", "report": "report", "sheet": "contact sheet"}
+    for kind, name in names.items():
+        for record in records:
+            for file in record.products.get(kind, ()):
+                yield f"{name} {order.folder / file}"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -14,6 +15,9 @@ if TYPE_CHECKING:
     from balloon_usd.plan.rings import RingTable
     from balloon_usd.plan.strip import PlannedBubble, Strip
     from balloon_usd.recipe import Recipe
+
+ROUNDING = 1e-6
+"""Frames by which a sum of times may miss a whole number."""
 
 
 @dataclass(frozen=True)
@@ -38,6 +42,11 @@ class Plan:
     def of_meshes(self) -> bool:
         """Whether its balloons come from mesh files, which are not twisted."""
         return any(strip.shape is not None for strip in self.strips.values())
+
+    @property
+    def frame_count(self) -> int:
+        """Number of frames of the animation; the first shows the balloons before anything is done."""
+        return 1 + math.ceil(self.choreography.seconds * self.recipe.fps - ROUNDING)
 
     @property
     def bubbles(self) -> tuple[PlannedBubble, ...]:

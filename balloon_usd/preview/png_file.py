@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import secrets
-from contextlib import suppress
 from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from balloon_usd.files.whole_file import write_whole as write_whole_files
 from balloon_usd.preview.error import PictureNotWrittenError, PreviewError
 
 if TYPE_CHECKING:
@@ -56,16 +55,8 @@ def write_whole(data: bytes, path: Path) -> Path:
     Raises:
         PictureNotWrittenError: the disk is full, or the folder cannot be written.
     """
-    # A name of its own, since another run may write the same picture.
-    partial = path.with_name(f".{path.name}.{secrets.token_hex(4)}.partial")
     try:
-        with partial.open("xb") as file:
-            file.write(data)
-        partial.replace(path)
+        write_whole_files({path: data})
     except OSError as error:
         raise PictureNotWrittenError(f"{path} cannot be written: {error.strerror or error}") from error
-    finally:
-        # Also when the user interrupts it.
-        with suppress(OSError):
-            partial.unlink(missing_ok=True)
     return path

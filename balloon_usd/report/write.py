@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import secrets
-from contextlib import suppress
 from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from balloon_usd.files.whole_file import write_whole
 from balloon_usd.report.document import report_data, report_text
 from balloon_usd.report.error import ReportError
 from balloon_usd.report.figure import draw_figure
@@ -40,24 +39,8 @@ def write_report(
     draw_figure(history, detail=detail).save(picture, format="PNG")
     text = report_text(report_data(history, detail=detail, provenance=provenance))
     numbers, figure = report_files(folder, history.plan.recipe.name)
-    _replace_all({numbers: text.encode("utf-8"), figure: picture.getvalue()})
-    return numbers, figure
-
-
-def _replace_all(contents: Mapping[Path, bytes]) -> None:
-    # Names of their own, since another run may write the same report.
-    mark = secrets.token_hex(4)
-    partial = {path: path.with_name(f".{path.name}.{mark}.partial") for path in contents}
-    path = next(iter(contents))
     try:
-        for path, content in contents.items():
-            with partial[path].open("xb") as file:
-                file.write(content)
-        for path in contents:
-            partial[path].replace(path)
+        write_whole({numbers: text.encode("utf-8"), figure: picture.getvalue()})
     except OSError as error:
-        raise ReportError(f"{path} cannot be written: {error.strerror or error}") from error
-    finally:
-        for left in partial.values():
-            with suppress(OSError):
-                left.unlink(missing_ok=True)
+        raise ReportError(f"{error.filename} cannot be written: {error.strerror or error}") from error
+    return numbers, figure

@@ -2,9 +2,32 @@
 
 from __future__ import annotations
 
+import os
+import sys
+import tempfile
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
 import warp as wp
 
 from balloon_usd.solver.errors import DeviceUnavailable
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+DRIVER_MISSING = b"Could not find or load the NVIDIA CUDA driver"
+"""Warp prints this on every computer without a CUDA device, where it is no news."""
+
+
+def start_warp() -> None:
+    """Start Warp without its chatter.
+
+    Raises:
+        OSError: the folder for compiled kernels cannot be made.
+    """
+    wp.config.log_level = wp.LOG_WARNING
+    with _without_driver_warning():
+        wp.get_devices()
 
 
 def device_named(name: str) -> str:
@@ -19,3 +42,20 @@ def device_named(name: str) -> str:
     if wanted not in there:
         raise DeviceUnavailable(name, there)
     return wanted
+
+
+@contextmanager
+def _without_driver_warning() -> Iterator[None]:
+    """Hold back what native code writes to the error stream, and pass on all but the missing driver."""
+    sys.stderr.flush()
+    kept = os.dup(2)
+    with tempfile.TemporaryFile() as held:
+        os.dup2(held.fileno(), 2)
+        try:
+            yield
+        finally:
+            os.dup2(kept, 2)
+            os.close(kept)
+            held.seek(0)
+            told = [line for line in held if DRIVER_MISSING not in line]
+            os.write(2, b"".join(told))

@@ -92,7 +92,7 @@ class Simulation:
     @property
     def frame_counts(self) -> tuple[int, ...]:
         """Number of frames of every plan; the first shows the balloons before anything is done."""
-        return tuple(1 + math.ceil(plan.choreography.seconds * self.fps - 1e-6) for plan in self.plans)
+        return tuple(plan.frame_count for plan in self.plans)
 
     def frames(self) -> Iterator[list[Outcome]]:
         """Yield the next frame of every plan until all are finished.

@@ -7,8 +7,8 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
+from balloon_usd.files.lock import hold, is_held
 from balloon_usd.stage.error import writing
-from balloon_usd.stage.lock import hold, is_held
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-sys.path.insert(0, str(Path(__file__).parent))
+FAKE = Path(__file__).parents[1] / "fake_solver"
+sys.path.insert(0, str(FAKE))
 
 from fake_solver import FakeSolver
 
@@ -40,10 +41,13 @@ def write_recipe(tmp_path):
 
 
 @pytest.fixture
-def solver(monkeypatch):
-    """The solver of this test; set its `trouble` before running."""
-    fake = FakeSolver()
-    monkeypatch.setattr("balloon_usd.cli.perform.simulate_many", fake)
+def solver(monkeypatch, tmp_path_factory):
+    """The solver of this test, in this process and in workers; set its `trouble` before running."""
+    folder = tmp_path_factory.mktemp("solver")
+    fake = FakeSolver(folder)
+    monkeypatch.setenv("FAKE_SOLVER", str(folder))
+    monkeypatch.setenv("FAKE_FRAMES", str(fake.frame_count))
+    monkeypatch.setattr("sys.path", [str(FAKE), *sys.path])
     monkeypatch.setattr("balloon_usd.solver.simulation.simulate_many", fake)
     return fake
 
@@ -61,10 +65,11 @@ def cli(tmp_path, monkeypatch):
 
 @pytest.fixture
 def left(tmp_path):
-    """Everything that a folder holds, hidden files too."""
+    """Everything that a folder holds, hidden files too, but the journal of the batch."""
 
     def look(folder="out"):
         root = tmp_path / folder
-        return sorted(str(path.relative_to(root)) for path in root.rglob("*") if path.is_file())
+        files = (str(path.relative_to(root)) for path in root.rglob("*") if path.is_file())
+        return sorted(file for file in files if file != "batch.jsonl")
 
     return look

@@ -7,10 +7,6 @@ import pytest
 from PIL import Image
 from pxr import Usd, UsdGeom
 
-from balloon_usd.report import ReportError
-from balloon_usd.solver.errors import SimulationFailed
-from balloon_usd.stage import StageError
-
 ASSET = [
     "snake/payload/draft.usda",
     "snake/payload/draft_finished.usda",
@@ -21,7 +17,7 @@ ASSET = [
     "snake/snake.usda",
 ]
 REPORT = ["snake.report.json", "snake.report.png"]
-BURST = SimulationFailed("pinch: nose", 1.25, "the wall is not finite")
+BURST = ("pinch: nose", 1.25, "the wall is not finite")
 
 
 def test_a_recipe_becomes_a_stage_a_contact_sheet_and_a_report(cli, solver, write_recipe, left):
@@ -92,13 +88,10 @@ def test_every_sculpture_of_a_batch_has_its_report(cli, solver, write_recipe, le
 
 
 def test_a_report_that_cannot_be_written_has_its_own_exit_code(cli, solver, write_recipe, left, monkeypatch):
-    def full(*_, **__):
-        raise ReportError("out/snake.report.json cannot be written: No space left on device")
-
-    monkeypatch.setattr("balloon_usd.report.write_report", full)
+    monkeypatch.setenv("FAKE_FULL_DISK", "snake.report.json")
     result = cli("run", write_recipe(), "-o", "out", "--no-preview")
     assert result.exit_code == 1
-    assert "snake.report.json cannot be written" in result.stderr
+    assert "snake.report.json cannot be written: No space left on device" in result.stderr
     assert left() == ASSET
 
 
@@ -129,7 +122,7 @@ def test_many_recipes_and_folders_advance_together(cli, solver, write_recipe, le
     write_recipe("three", "more/three.yml")
     result = cli("run", one, "more", "-o", "out", "--no-preview")
     assert result.exit_code == 0, result.output
-    assert [[plan.recipe.name for plan in call.plans] for call in solver.calls] == [["one", "three", "two"]]
+    assert sorted(solver.calls) == [["one"], ["three"], ["two"]]
     assert [file for file in left() if file.count("/") == 1] == [
         "one/one.usda",
         "three/three.usda",
@@ -141,32 +134,40 @@ def test_many_recipes_and_folders_advance_together(cli, solver, write_recipe, le
 def test_recipes_of_another_frame_rate_advance_on_their_own(cli, solver, write_recipe):
     result = cli("run", write_recipe("one"), write_recipe("two", fps=30), "-o", "out", "--no-preview")
     assert result.exit_code == 0, result.output
-    assert [len(call.plans) for call in solver.calls] == [1, 1]
+    assert sorted(solver.calls) == [["one"], ["two"]]
 
 
 def test_a_file_named_twice_is_made_once(cli, solver, write_recipe, tmp_path):
     write_recipe()
     assert cli("run", "snake.yaml", tmp_path / "snake.yaml", ".", "-o", "out", "--no-preview").exit_code == 0
-    assert len(solver.calls[0].plans) == 1
+    assert solver.calls == [["snake"]]
 
 
-def test_one_broken_recipe_stops_all_and_all_problems_are_listed(cli, solver, write_recipe, tmp_path):
+def test_broken_recipes_are_listed_with_all_problems_and_the_rest_is_made(cli, solver, write_recipe, left):
     write_recipe("good")
     broken = write_recipe("broken", text="format: 1\nname: broken\nballoons: {}\nstops: []\n")
-    result = cli("run", "good.yaml", broken, "missing.yaml", "-o", "out")
+    result = cli("run", "good.yaml", broken, "missing.yaml", "-o", "out", "--no-preview", "--flat")
     assert result.exit_code == 2
     lines = result.stderr.splitlines()
     assert sum(line.startswith(f"{broken}:") for line in lines) >= 2
     assert any(line.startswith("missing.yaml:") for line in lines)
-    assert not any("good.yaml" in line for line in lines)
+    assert not any("good.yaml" in line and "caution" not in line for line in lines)
+    assert left() == ["good.report.json", "good.report.png", "good.usdc"]
+    assert "1 made, 2 refused" in result.stdout
+
+
+def test_nothing_is_left_where_all_recipes_are_broken(cli, solver, write_recipe, tmp_path):
+    assert cli("run", write_recipe(text="format: 1\n"), "-o", "out").exit_code == 2
     assert not (tmp_path / "out").exists()
     assert solver.calls == []
 
 
-def test_two_recipes_of_one_name_are_refused(cli, solver, write_recipe):
-    result = cli("run", write_recipe("snake"), write_recipe("Snake", "other.yaml"), "-o", "out")
+def test_the_second_of_two_recipes_of_one_name_is_refused(cli, solver, write_recipe, left):
+    first, second = write_recipe("snake"), write_recipe("Snake", "other.yaml")
+    result = cli("run", first, second, "-o", "out", "--no-preview", "--flat")
     assert result.exit_code == 2
-    assert '"Snake" is taken by' in result.stderr
+    assert f'{second}: name: "Snake" is taken by {first}' in result.stderr
+    assert left() == [*REPORT, "snake.usdc"]
 
 
 def test_a_folder_without_recipes_is_refused(cli, solver, tmp_path):
@@ -203,7 +204,7 @@ def test_a_range_of_frames_is_written_and_nothing_is_simulated_beyond_it(cli, so
     assert (stage.GetStartTimeCode(), stage.GetEndTimeCode()) == (2, 4)
     (mesh,) = [prim for prim in stage.Traverse() if prim.IsA(UsdGeom.Mesh)]
     assert UsdGeom.Mesh(mesh).GetPointsAttr().GetTimeSamples() == [2, 3, 4]
-    assert solver.calls[0].given == 4
+    assert solver.given == [4]
 
 
 @pytest.mark.parametrize(
@@ -240,30 +241,35 @@ def test_one_failed_sculpture_does_not_take_the_others_along(cli, solver, write_
     assert "failed" in result.stdout
 
 
-def test_an_interrupted_run_leaves_nothing(cli, solver, write_recipe, left):
-    solver.trouble = {"snake": KeyboardInterrupt()}
+def test_an_interrupted_run_leaves_nothing(cli, solver, write_recipe, left, monkeypatch):
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("balloon_usd.cli.progress._Bar.advance", interrupt)
     result = cli("run", write_recipe(), write_recipe("two"), "-o", "out")
     assert result.exit_code == 130
     assert result.stderr.splitlines()[-1] == "interrupted, nothing half-written is left"
     assert left() == []
 
 
-def test_an_unforeseen_error_leaves_nothing_either(cli, solver, write_recipe, left):
-    solver.trouble = {"snake": ZeroDivisionError()}
-    result = cli("run", write_recipe(), "-o", "out")
-    assert isinstance(result.exception, ZeroDivisionError)
-    assert left() == []
-
-
-def test_a_stage_that_cannot_be_written_ends_the_run(cli, solver, write_recipe, monkeypatch):
-    def full(description, frames, folder, **options):
-        next(iter(frames))
-        raise StageError("no space left on device")
-
-    monkeypatch.setattr("balloon_usd.cli.stage_writer.write_stage", full)
-    result = cli("run", write_recipe(), "-o", "out")
+def test_an_unforeseen_error_leaves_nothing_and_takes_no_other_recipe_along(
+    cli, solver, write_recipe, left
+):
+    solver.trouble = {"bad": ZeroDivisionError("what?")}
+    result = cli("run", write_recipe("bad"), write_recipe(), "-o", "out", "--no-preview", "--flat")
     assert result.exit_code == 1
-    assert "snake.yaml: no space left on device" in result.stderr
+    assert "ZeroDivisionError: what?" in result.stderr
+    assert left() == [*REPORT, "snake.usdc"]
+
+
+def test_a_stage_that_cannot_be_written_takes_no_other_recipe_along(
+    cli, solver, write_recipe, left, monkeypatch
+):
+    monkeypatch.setenv("FAKE_FULL_DISK", "bad.usdc")
+    result = cli("run", write_recipe("bad"), write_recipe(), "-o", "out", "--no-preview", "--flat")
+    assert result.exit_code == 1
+    assert "bad.yaml: out/bad.usdc could not be written: No space left on device" in result.stderr
+    assert left() == [*REPORT, "snake.usdc"]
 
 
 def test_a_device_that_is_not_there_is_refused_with_those_that_are(cli, solver, write_recipe):
@@ -276,7 +282,7 @@ def test_a_device_that_is_not_there_is_refused_with_those_that_are(cli, solver, 
 def test_a_word_that_is_no_device_is_refused(cli, solver, write_recipe):
     result = cli("run", write_recipe(), "--device", "gpu")
     assert result.exit_code == 2
-    assert "expected auto, cpu, cuda or cuda:N" in result.stderr
+    assert "expected auto, cpu, cuda or cuda:N, several with commas, or all" in result.stderr
 
 
 def test_cautions_are_told_and_do_not_stop_the_run(cli, solver, write_recipe):

@@ -1,0 +1,118 @@
+"""Worker processes and the connections to them."""
+
+from __future__ import annotations
+
+import os
+import socket
+import subprocess
+import sys
+from contextlib import suppress
+from multiprocessing import reduction
+from multiprocessing.connection import Connection
+from typing import TYPE_CHECKING, Any
+
+from balloon_usd.batch.frame_ring import SharedMemory
+
+if TYPE_CHECKING:
+    from balloon_usd.batch.messages import Ring, Role, Started
+
+WORKER = "balloon_usd.batch.worker"
+"""Module that workers run."""
+
+
+class Worker:
+    """A process of this program at the other end of a connection.
+
+    It runs a module of its own, so that a script that calls this program needs no guard against being
+    imported again.
+    """
+
+    def __init__(self, role: Role, device: str) -> None:
+        """Start the process."""
+        self.role = role
+        self.device = device
+        """Device that it was started for; its full name once it has told."""
+        ours, theirs = socket.socketpair()
+        os.set_inheritable(theirs.fileno(), True)
+        try:
+            self._process = subprocess.Popen(  # noqa: S603  # our own module
+                [sys.executable, "-P", "-m", WORKER, str(theirs.fileno())],
+                stdin=subprocess.DEVNULL,
+                env=_surroundings(),
+                pass_fds=(theirs.fileno(),),
+            )
+        except BaseException:
+            ours.close()
+            raise
+        finally:
+            theirs.close()
+        self.connection: Connection[Any, Any] = Connection(ours.detach())
+        self.told: Started | None = None
+        """What it said when it was ready."""
+
+    @property
+    def ready(self) -> bool:
+        """Whether it can work."""
+        return self.told is not None and not self.told.problem
+
+    @property
+    def process_id(self) -> int:
+        """Number of the process."""
+        return self._process.pid
+
+    def send(self, message: object) -> None:
+        """Tell it something; a worker that is gone is found out when its connection is read."""
+        with suppress(BrokenPipeError, ConnectionResetError):
+            self.connection.send(message)
+
+    def send_ring(self, ring: Ring, memory: SharedMemory) -> None:
+        """Tell it of a ring and hand over its memory."""
+        with suppress(BrokenPipeError, ConnectionResetError):
+            self.connection.send(ring)
+            if isinstance(memory.handle, int):
+                reduction.send_handle(self.connection, memory.handle, self.process_id)
+
+    def close(self) -> None:
+        """Close the connection, which ends the process in its own time."""
+        self.connection.close()
+
+    def wait(self, seconds: float) -> bool:
+        """Wait for its end; return whether that came in time."""
+        try:
+            self._process.wait(seconds)
+        except subprocess.TimeoutExpired:
+            return False
+        return True
+
+    def end(self) -> None:
+        """Ask it to end now: a writer removes what is half-written before."""
+        self._process.terminate()
+
+    def kill(self) -> None:
+        """End it at once."""
+        self._process.kill()
+        self._process.wait()
+
+    def how_it_ended(self) -> str:
+        """Say how it ended, as "SIGKILL" or "exit code 1"."""
+        code = self._process.wait()
+        if code >= 0:
+            return f"exit code {code}"
+        import signal  # noqa: PLC0415
+
+        with suppress(ValueError):
+            return signal.Signals(-code).name
+        return f"signal {-code}"
+
+
+def receive_ring(connection: Connection[Any, Any], ring: Ring) -> SharedMemory:
+    """Return the memory that follows a message about a ring."""
+    if ring.name:
+        return SharedMemory(ring.shape.size, ring.name)
+    return SharedMemory(ring.shape.size, reduction.recv_handle(connection))
+
+
+def _surroundings() -> dict[str, str]:
+    """Return the environment of a worker, which imports from where this process does."""
+    there = os.pathsep.join(dict.fromkeys(path for path in sys.path if path))
+    return {**os.environ, "PYTHONPATH": there}

@@ -1,0 +1,210 @@
+"""The engine: recipes in, records out, with as many processes as the machine has use for."""
+
+from __future__ import annotations
+
+from collections import deque
+from typing import TYPE_CHECKING, TypeVar
+
+from balloon_usd.batch import record as records
+from balloon_usd.batch.facts import Facts, Refusal
+from balloon_usd.batch.job import Job
+from balloon_usd.batch.journal import Journal
+from balloon_usd.batch.machine import Machine, usable_cores
+from balloon_usd.batch.messages import Role, Started, Survey, Surveyed, Verified, Verify
+from balloon_usd.batch.pool import Pool
+from balloon_usd.batch.record import Record, Status
+from balloon_usd.batch.scheduler import BatchError, Scheduler
+from balloon_usd.batch.watch import Silence
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Sequence
+    from pathlib import Path
+
+    from balloon_usd.batch.channel import Worker
+    from balloon_usd.batch.order import Order
+    from balloon_usd.batch.watch import Watch
+
+CHUNK = 16
+"""Recipes that a writer is asked about at a time, at most."""
+
+Q = TypeVar("Q", Survey, Verify)
+T = TypeVar("T", Surveyed, Verified)
+
+
+def run_batch(
+    recipes: Sequence[Path], order: Order, machine: Machine | None = None, watch: Watch | None = None
+) -> list[Record]:
+    """Make the stages of recipes, and return what became of each, in their order.
+
+    What is in the output folder already, whole and made of the same recipe with the same options, is skipped.
+    Wherever the run is interrupted or killed, the same call again ends in the same files.
+
+    Raises:
+        BatchError: there is no such device, workers cannot start, kernels cannot be compiled, or the journal
+            cannot be written.
+    """
+    told = watch or Silence()
+    with _Engine(order, machine or Machine(usable_cores()), told) as engine:
+        return engine.make([str(recipe) for recipe in recipes])
+
+
+class _Engine:
+    """One run of a batch."""
+
+    def __init__(self, order: Order, machine: Machine, watch: Watch) -> None:
+        self._order, self._machine, self._watch = order, machine, watch
+        self._pool = Pool(order)
+
+    def __enter__(self) -> _Engine:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._pool.close()
+
+    def make(self, files: Sequence[str]) -> list[Record]:
+        """Survey, verify and make recipes."""
+        self._start_workers(len(files))
+        jobs = [Job(number, file) for number, file in enumerate(files)]
+        self._survey(jobs)
+        _refuse_shared_names(jobs)
+        accepted = [job for job in jobs if job.record is None]
+        refused = [job.record for job in jobs if job.record is not None]
+        self._watch.surveyed([job.known for job in accepted], refused)
+        try:
+            self._make_accepted(jobs, accepted)
+        except OSError as error:
+            raise BatchError(f"{error.filename or self._order.folder}: {error.strerror or error}") from error
+        return [job.record for job in jobs if job.record is not None]
+
+    def _make_accepted(self, jobs: Sequence[Job], accepted: Sequence[Job]) -> None:
+        if not accepted:
+            return
+        journal = Journal(self._order.folder)
+        for job in jobs:
+            if job.record is not None:
+                journal.add(job.record)
+        todo = self._not_there_yet(accepted, journal)
+        if todo:
+            self._wait_for_simulator()
+            Scheduler(todo, self._order, self._machine, self._pool, journal, self._watch).run()
+        journal.put_in_order(job.file for job in jobs)
+
+    def _start_workers(self, recipes: int) -> None:
+        """Start what is needed in any case, so that it gets ready while recipes are read."""
+        for device in self._machine.devices:
+            self._pool.start(Role.SIMULATOR, device)
+        for _ in range(self._machine.writers(recipes)):
+            self._pool.start(Role.WRITER)
+
+    def _wait_for_simulator(self) -> None:
+        """Wait until the simulators that were started first can work, on every device that was asked for.
+
+        Raises:
+            BatchError: one cannot.
+        """
+        while any(worker.told is None for worker in self._pool.of(Role.SIMULATOR)):
+            for worker, message in self._pool.heard():
+                self._hear_start(worker, message)
+
+    def _hear_start(self, worker: Worker, message: object | None) -> None:
+        if message is None:
+            raise BatchError(f"a {worker.role.value} process ended early: {worker.how_it_ended()}")
+        if isinstance(message, Started):
+            worker.told = message
+            if message.problem:
+                raise BatchError(message.problem)
+            if worker.role is Role.SIMULATOR and worker.device == "all":
+                for other in message.devices[1:]:
+                    self._pool.start(Role.SIMULATOR, other)
+
+    # Questions to writers.
+
+    def _survey(self, jobs: Sequence[Job]) -> None:
+        """Read and plan all recipes; those that are refused have their records then."""
+        chunk = max(1, min(CHUNK, len(jobs) // (2 * len(self._pool.of(Role.WRITER)))))
+        asked = deque(
+            Survey(tuple((job.number, job.file) for job in jobs[begin : begin + chunk]))
+            for begin in range(0, len(jobs), chunk)
+        )
+
+        def hear(message: Surveyed) -> None:
+            for number, found in message.found:
+                if isinstance(found, Facts):
+                    jobs[number].facts = found
+                else:
+                    jobs[number].record = self._refused(jobs[number].file, found)
+
+        self._ask(asked, Surveyed, hear)
+
+    def _refused(self, file: str, found: Refusal) -> Record:
+        return Record(
+            file,
+            found.name,
+            Status.REFUSED,
+            records.made_of(found.provenance) if found.provenance else {},
+            records.options_of(self._order),
+            error="\n".join(found.problems),
+        )
+
+    def _not_there_yet(self, accepted: Sequence[Job], journal: Journal) -> list[Job]:
+        """Return the jobs whose files are not there, or not whole, and skip the others."""
+        by_number = {job.number: job for job in accepted}
+        known = {job.number: self._record_of(job, journal) for job in accepted}
+        there = [(job, record) for job in accepted if (record := known[job.number]) is not None]
+        asked = deque(
+            Verify(tuple((job.number, record.name, record.files) for job, record in there[at : at + CHUNK]))
+            for at in range(0, len(there), CHUNK)
+        )
+
+        def hear(message: Verified) -> None:
+            for number, whole in message.whole:
+                record = known[number]
+                if whole and record is not None:
+                    job = by_number[number]
+                    job.record = records.skipped(record, job.file)
+                    self._watch.ended(job.record)
+
+        self._ask(asked, Verified, hear)
+        return [job for job in accepted if job.record is None]
+
+    def _record_of(self, job: Job, journal: Journal) -> Record | None:
+        """Return the record of what is there already, if that is just what is asked for."""
+        record = None if self._order.force else journal.of(job.known.name)
+        # Results of a GPU and of the CPU differ in their last digits: one that was asked for must be it.
+        kinds = {device.split(":")[0] for device in self._machine.devices} & {"cpu", "cuda"}
+        kind = kinds.pop() if len(kinds) == 1 else ""
+        return record if record is not None and record.fits(job.known, self._order, kind) else None
+
+    def _ask(self, questions: deque[Q], kind: type[T], hear: Callable[[T], None]) -> None:
+        """Ask writers, each one question at a time, until all are answered."""
+        asked: dict[Worker, Q] = {}
+        kills = 0
+        while questions or asked:
+            for writer in self._pool.of(Role.WRITER):
+                if writer.ready and writer not in asked and questions:
+                    asked[writer] = questions.popleft()
+                    writer.send(asked[writer])
+            for worker, message in self._pool.heard():
+                if isinstance(message, kind):
+                    del asked[worker]
+                    hear(message)
+                elif message is None and worker in asked:
+                    kills += 1
+                    if kills > len(self._pool.of(Role.WRITER)) + 1:
+                        raise BatchError(f"writer processes end again and again: {worker.how_it_ended()}")
+                    questions.appendleft(asked.pop(worker))
+                    self._pool.start(Role.WRITER)
+                else:
+                    self._hear_start(worker, message)
+
+
+def _refuse_shared_names(jobs: Iterable[Job]) -> None:
+    """Refuse recipes that would write the files of an earlier one, also where capitals make no difference."""
+    taken: dict[str, Job] = {}
+    for job in jobs:
+        if job.record is not None or job.facts is None:
+            continue
+        first = taken.setdefault(job.facts.name.casefold(), job)
+        if first is not job:
+            text = f'{job.file}: name: "{job.facts.name}" is taken by {first.file}'
+            job.record = Record(job.file, job.facts.name, Status.REFUSED, error=text)

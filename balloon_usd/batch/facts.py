@@ -1,0 +1,109 @@
+"""What the scheduler knows of a recipe: enough to order the work, without its plan."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Hashable
+
+    from balloon_usd.batch.order import Order
+    from balloon_usd.plan import Plan
+
+LOOKS = ("recipe", "clear", "chrome", "clay", "stress")
+"""Looks of every stage."""
+WITH_AIR = "thesis"
+"""Look of stages of the model kosaka only; it needs a texture."""
+
+
+@dataclass(frozen=True)
+class Facts:
+    """A recipe that can be made."""
+
+    name: str
+    provenance: dict[str, str]
+    """Hash of the recipe's text, those of its meshes, and the version of the solver."""
+    fps: float
+    frames: int
+    """Frames that are simulated: all up to the last one wanted."""
+    written: int
+    """Frames that are written."""
+    vertices: int
+    group: Hashable
+    """Recipes of one group can advance in one simulation."""
+    cautions: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Refusal:
+    """A recipe that cannot be made as it is."""
+
+    problems: tuple[str, ...]
+    """Lines that begin with the file and, where it is known, the place in it."""
+    name: str = ""
+    provenance: dict[str, str] = field(default_factory=dict)
+
+
+def survey(file: str, order: Order) -> Facts | Refusal:
+    """Read and plan a recipe, and say what it takes or why it is refused."""
+    from balloon_usd.plan import plan  # noqa: PLC0415
+    from balloon_usd.recipe import Recipe, RecipeError  # noqa: PLC0415
+
+    try:
+        planned = plan(Recipe.load(Path(file)))
+    except RecipeError as error:
+        return Refusal(tuple(str(error).splitlines()))
+    return _judge(planned, order)
+
+
+def _judge(plan: Plan, order: Order) -> Facts | Refusal:
+    from balloon_usd.balloon.detail import detail_named  # noqa: PLC0415
+    from balloon_usd.plan.meshing import mesh_of  # noqa: PLC0415
+    from balloon_usd.staging import provenance_of  # noqa: PLC0415
+
+    recipe = plan.recipe
+    name, provenance = recipe.name, dict(provenance_of(recipe))
+    provenance |= _mesh_hashes(plan)
+    problems = order.in_the_way(name)
+    if order.look == WITH_AIR and recipe.physics.model != "kosaka":
+        needs = f"needs model: kosaka, take one of {', '.join(LOOKS)}"
+        problems.append(f"{recipe.file}: --look {WITH_AIR} {needs}")
+    try:
+        codes = order.frames.within(plan.frame_count)
+    except ValueError as error:
+        problems.append(f"{recipe.file}: {error}")
+    if problems:
+        return Refusal(tuple(problems), name, provenance)
+    level = detail_named(order.detail)
+    return Facts(
+        name,
+        provenance,
+        recipe.fps,
+        codes[-1],
+        len(codes),
+        sum(len(mesh_of(strip, level).points) for strip in plan.strips.values()),
+        _group(plan),
+        tuple(_cautions(plan)),
+    )
+
+
+def _mesh_hashes(plan: Plan) -> dict[str, str]:
+    hashes = [strip.shape.file_sha256 for strip in plan.strips.values() if strip.shape is not None]
+    return {"mesh_sha256": " ".join(hashes)} if hashes else {}
+
+
+def _group(plan: Plan) -> tuple[str, ...]:
+    """Return what plans that advance together have in common: frame rate and surrounding physics."""
+    own = {"hold", "leak", "rubber", "softening", "kosaka"}
+    physics = plan.recipe.physics.model_dump(exclude=own)
+    return (str(plan.recipe.fps), *(f"{key}={value}" for key, value in physics.items()))
+
+
+def _cautions(plan: Plan) -> list[str]:
+    lines = []
+    for caution in plan.cautions:
+        place = "" if caution.step is None else f"step {caution.step + 1}: "
+        lines.append(f"{plan.recipe.file}: caution: {place}{caution.what} ({caution.why})")
+    return lines

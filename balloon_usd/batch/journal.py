@@ -1,0 +1,108 @@
+"""`batch.jsonl`: what became of every recipe of an output folder, a line each."""
+
+from __future__ import annotations
+
+import os
+import sys
+from contextlib import contextmanager, suppress
+from typing import TYPE_CHECKING
+
+from balloon_usd.batch.record import Record, Status
+from balloon_usd.files.whole_file import write_whole
+
+if sys.platform != "win32":
+    import fcntl
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+    from pathlib import Path
+
+FILE_NAME = "batch.jsonl"
+
+
+class Journal:
+    """The records of an output folder, kept on disk as they come, so that a killed run loses none.
+
+    Several runs may write to one folder at once: each line is added under a lock, and the last run to end
+    puts all of them in order.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        """Read what is there; lines that are cut short or from elsewhere count for nothing."""
+        self._folder = folder
+        self._file = folder / FILE_NAME
+        self._records = _by_key(self._read())
+
+    def of(self, name: str) -> Record | None:
+        """Return the last record of a sculpture's name."""
+        return self._records.get(("name", name))
+
+    def add(self, record: Record) -> None:
+        """Keep a record on disk.
+
+        Raises:
+            OSError: it cannot be written.
+        """
+        self._records[_key(record)] = record
+        line = record.line().encode("utf-8", "surrogateescape")
+        with _locked(self._folder), self._file.open("ab+") as file:
+            # A line that was cut short must not swallow this one.
+            if file.tell() and not _ends_a_line(file.fileno(), file.tell()):
+                line = b"\n" + line
+            file.write(line)
+
+    def put_in_order(self, recipes: Iterable[str]) -> None:
+        """Leave one line of every recipe: first those of this run in their order, then the others by name.
+
+        Raises:
+            OSError: the file cannot be written.
+        """
+        with _locked(self._folder):
+            found = _by_key(self._read())
+            order = {recipe: number for number, recipe in enumerate(recipes)}
+            last = len(order)
+            lines = sorted(found.values(), key=lambda r: (order.get(r.recipe, last), r.recipe, r.name))
+            if lines:
+                text = "".join(record.line() for record in lines)
+                write_whole({self._file: text.encode("utf-8", "surrogateescape")})
+
+    def _read(self) -> list[Record]:
+        try:
+            text = self._file.read_bytes().decode("utf-8", "surrogateescape")
+        except FileNotFoundError:
+            return []
+        records = (Record.read(line) for line in text.split("\n"))
+        return [record for record in records if record is not None]
+
+
+def _by_key(records: Iterable[Record]) -> dict[tuple[str, str], Record]:
+    found: dict[tuple[str, str], Record] = {}
+    for record in records:
+        # A recipe that is made at last was perhaps refused before.
+        found.pop(("recipe", record.recipe), None)
+        found[_key(record)] = record
+    return found
+
+
+def _key(record: Record) -> tuple[str, str]:
+    """Return by what a later record takes the place of this one: what was made by its name."""
+    return ("name", record.name) if record.status is Status.DONE else ("recipe", record.recipe)
+
+
+def _ends_a_line(descriptor: int, size: int) -> bool:
+    return os.pread(descriptor, 1, size - 1) == b"\n" if hasattr(os, "pread") else True
+
+
+@contextmanager
+def _locked(folder: Path) -> Iterator[None]:
+    """Keep other runs from the journal of a folder, where its file system knows locks."""
+    if sys.platform == "win32":
+        yield
+        return
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        with suppress(OSError):
+            fcntl.flock(descriptor, fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(descriptor)

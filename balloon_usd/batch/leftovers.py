@@ -1,0 +1,25 @@
+"""What killed runs leave beside the stages: hidden folders and files that never got their final names."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from typing import TYPE_CHECKING
+
+from balloon_usd.files.lock import is_held
+from balloon_usd.stage.workspace import sweep
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+PARTIAL = ("png", "report.png", "report.json")
+"""Endings of files that are written beside their final names."""
+
+
+def remove_leftovers(folder: Path, name: str) -> None:
+    """Remove what killed runs of a sculpture left in a folder, and nothing of a run that lives."""
+    sweep(name, folder)
+    for ending in PARTIAL:
+        for partial in folder.glob(f".{name}.{ending}.????????.partial"):
+            with suppress(OSError):
+                if not is_held(partial):
+                    partial.unlink()

@@ -1,0 +1,78 @@
+"""How many processes work on a batch, and how many sculptures advance together."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+
+SIMULATORS_PER_GPU = 2
+"""While one sees to the hands of its sculptures, the other has the device."""
+TOGETHER = 128
+"""Sculptures that advance together on a GPU at most: about one for each multiprocessor of an H100."""
+ENOUGH_FOR_TWO = 96
+"""Sculptures from which on two simulators with half of them each are as fast as one: fewer leave
+multiprocessors idle."""
+VERTEX_BYTES = 6000
+"""Device memory for a vertex of a batch, with all that goes with it [B]."""
+SHARE_OF_MEMORY = 0.4
+"""Share of a device's free memory that one simulator may fill."""
+RECIPES_PER_WRITER = 4
+"""Recipes below which another writer does not pay for its start."""
+MOST_WRITERS = 32
+"""Writers at most, however many cores there are."""
+
+
+def usable_cores() -> int:
+    """Return how many cores of the CPU this process may use."""
+    affinity = getattr(os, "sched_getaffinity", None)
+    return len(affinity(0)) if affinity else os.cpu_count() or 1
+
+
+@dataclass(frozen=True)
+class Device:
+    """A device that simulates."""
+
+    name: str
+    processors: int = 0
+    """Multiprocessors; 0 of a CPU."""
+    free_bytes: int = 0
+
+    @property
+    def is_gpu(self) -> bool:
+        """Whether many sculptures advance on it together."""
+        return self.processors > 0
+
+    def together(self, vertices: int, waiting: int) -> int:
+        """Return how many sculptures of so many vertices each make a batch, when so many wait for it."""
+        if not self.is_gpu:
+            return 1
+        fitting = int(SHARE_OF_MEMORY * self.free_bytes) // (VERTEX_BYTES * max(vertices, 1))
+        batches = -(-waiting // TOGETHER)
+        if batches == 1 and waiting >= ENOUGH_FOR_TWO:
+            batches = 2
+        return max(1, min(-(-waiting // batches), fitting))
+
+
+@dataclass(frozen=True)
+class Machine:
+    """What a batch may use."""
+
+    cores: int
+    devices: tuple[str, ...] = ("auto",)
+    """Names of devices; auto is the first CUDA device, else the CPU, all is every CUDA device."""
+
+    @property
+    def may_fall_back(self) -> bool:
+        """Whether the CPU takes over from a GPU that is gone."""
+        return self.devices == ("auto",)
+
+    def writers(self, recipes: int) -> int:
+        """Return how many writers so many recipes keep busy: at most one for two cores, or for a GPU more."""
+        wanted = -(-recipes // RECIPES_PER_WRITER)
+        most = max(1, min(MOST_WRITERS, self.cores - SIMULATORS_PER_GPU - 1, -(-3 * self.cores // 4)))
+        return max(1, min(wanted, most))
+
+    def simulators(self, device: Device, batches: int) -> int:
+        """Return how many simulators a device gets for so many batches."""
+        most = SIMULATORS_PER_GPU if device.is_gpu else self.cores
+        return max(1, min(batches, most))

@@ -1,0 +1,219 @@
+"""What the scheduler and its worker processes tell each other; frames themselves lie in shared memory."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import Enum
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from balloon_usd.batch.facts import Facts, Refusal
+    from balloon_usd.batch.frame_layout import Counts
+    from balloon_usd.batch.frame_ring import RingShape
+    from balloon_usd.batch.order import Order
+
+
+class Role(Enum):
+    """What a worker process is for."""
+
+    SIMULATOR = "simulator"
+    WRITER = "writer"
+
+
+class Trouble(Enum):
+    """Why a recipe was not made."""
+
+    NOT_WRITTEN = "not written"
+    """Its stage, report or contact sheet, as on a full disk."""
+    FAILED = "simulation failed"
+    UNFORESEEN = "unforeseen"
+    """An error in this program."""
+    KILLED = "killed"
+    """The process that made it was, twice."""
+    DEVICE = "device"
+    """The device has no memory for it, or is gone."""
+
+
+@dataclass(frozen=True)
+class Start:
+    """To a new worker: what it is for."""
+
+    role: Role
+    order: Order
+    device: str
+
+
+@dataclass(frozen=True)
+class Started:
+    """From a worker that is ready, or cannot be."""
+
+    device: str = ""
+    """Name of the device that was asked for."""
+    devices: tuple[str, ...] = ()
+    """All CUDA devices that are there."""
+    processors: int = 0
+    """Multiprocessors of the device; 0 of a CPU."""
+    free_bytes: int = 0
+    """Free memory of the device; 0 where it is the computer's own."""
+    problem: str = ""
+    """Why it cannot work."""
+
+
+@dataclass(frozen=True)
+class Survey:
+    """To a writer: read and plan recipes."""
+
+    files: tuple[tuple[int, str], ...]
+    """Numbers of jobs and the files of their recipes."""
+
+
+@dataclass(frozen=True)
+class Surveyed:
+    """From a writer."""
+
+    found: tuple[tuple[int, Facts | Refusal], ...]
+
+
+@dataclass(frozen=True)
+class Verify:
+    """To a writer: remove what killed runs left of sculptures, and see whether their files are whole."""
+
+    sculptures: tuple[tuple[int, str, dict[str, str]], ...]
+    """Number of the job, name, and SHA-256 by path below the output folder."""
+
+
+@dataclass(frozen=True)
+class Verified:
+    """From a writer."""
+
+    whole: tuple[tuple[int, bool], ...]
+    """By number of the job."""
+
+
+@dataclass(frozen=True)
+class Part:
+    """A sculpture of a batch."""
+
+    job: int
+    place: int
+    """In the batch."""
+    file: str
+    sha256: str
+    """Of the recipe's text when it was surveyed."""
+    last: int
+    """Last time code that is wanted."""
+
+
+@dataclass(frozen=True)
+class Simulate:
+    """To a simulator."""
+
+    batch: int
+    parts: tuple[Part, ...]
+
+
+@dataclass(frozen=True)
+class Begin:
+    """To a writer: sculptures of a batch whose frames it will get."""
+
+    batch: int
+    parts: tuple[Part, ...]
+    device: str
+    """Draws the contact sheets."""
+
+
+@dataclass(frozen=True)
+class LaidOut:
+    """From a simulator: sizes of the frames to come."""
+
+    batch: int
+    counts: tuple[Counts, ...]
+
+
+@dataclass(frozen=True)
+class Ring:
+    """To a simulator and its writers: where the frames lie; the handle of the memory follows."""
+
+    batch: int
+    counts: tuple[Counts, ...]
+    shape: RingShape
+    name: str = ""
+    """Of the memory, on Windows."""
+
+
+@dataclass(frozen=True)
+class Frames:
+    """From a simulator, and on to the writers: consecutive frames in a slot."""
+
+    batch: int
+    slot: int
+    first: int
+    """Time code of the first of them."""
+    count: int
+    doing: str
+    undone: dict[int, dict[int, tuple[str, ...]]] = field(default_factory=dict)
+    """What has come undone, by time code and place, where that is news."""
+    failed: dict[int, tuple[int, str]] = field(default_factory=dict)
+    """By place: the time code from which on there is nothing, and why."""
+
+
+@dataclass(frozen=True)
+class Copied:
+    """From a writer: it needs a slot no more."""
+
+    batch: int
+    slot: int
+
+
+@dataclass(frozen=True)
+class Free:
+    """To a simulator: no writer needs a slot any more."""
+
+    batch: int
+    slot: int
+
+
+@dataclass(frozen=True)
+class Simulated:
+    """From a simulator: a batch is over; `problem` says why if that is before its end."""
+
+    batch: int
+    problem: str = ""
+    of_device: bool = False
+    """Whether the device is to blame: no memory, or gone."""
+    of_all: bool = False
+    """Whether every other batch would end in the same way."""
+
+
+@dataclass(frozen=True)
+class Drop:
+    """To a writer or simulator: give up sculptures of a batch, all of them where no jobs are named."""
+
+    batch: int
+    jobs: tuple[int, ...] = ()
+
+
+@dataclass(frozen=True)
+class Made:
+    """From a writer: a sculpture is on disk, whole and verified."""
+
+    job: int
+    files: dict[str, str]
+    """SHA-256 by path below the output folder; the stage that people open comes first."""
+    products: dict[str, tuple[str, ...]]
+    """Files of the stage, the shot, the report and the contact sheet."""
+    frames: int
+    size: int
+    """Of the stage's files [B]."""
+    summary: dict[str, object]
+    seconds: float
+    """From its first frame to its last file."""
+
+
+@dataclass(frozen=True)
+class NotMade:
+    """From a writer: a sculpture was given up."""
+
+    job: int
+    trouble: Trouble
+    why: str

@@ -1,0 +1,70 @@
+"""The worker processes of a batch: started, found dead, replaced, and brought to their end."""
+
+from __future__ import annotations
+
+import time
+from multiprocessing.connection import wait
+from typing import TYPE_CHECKING, Any
+
+from balloon_usd.batch.channel import Worker
+from balloon_usd.batch.messages import Role, Start
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from balloon_usd.batch.order import Order
+
+GRACE = 8.0
+"""Time for all workers to tidy up before they are killed (s)."""
+
+
+class Pool:
+    """All workers that live."""
+
+    def __init__(self, order: Order) -> None:
+        """Begin with none."""
+        self._order = order
+        self._workers: dict[Any, Worker] = {}
+
+    def start(self, role: Role, device: str = "") -> Worker:
+        """Start a worker; raises `OSError` when the system has no room for one."""
+        worker = Worker(role, device)
+        self._workers[worker.connection] = worker
+        worker.send(Start(role, self._order, device))
+        return worker
+
+    def of(self, role: Role) -> list[Worker]:
+        """Return the workers of a role, those that start included."""
+        return [worker for worker in self._workers.values() if worker.role is role]
+
+    def heard(self) -> Iterator[tuple[Worker, object | None]]:
+        """Wait, then yield a message of every worker that has one; None of a worker that is gone."""
+        for connection in wait(list(self._workers)):
+            worker = self._workers.get(connection)
+            if worker is None:
+                continue
+            try:
+                message: object | None = worker.connection.recv()
+            except (EOFError, ConnectionResetError):
+                message = None
+                self.remove(worker)
+            yield worker, message
+
+    def remove(self, worker: Worker) -> None:
+        """Close the connection to a worker, which ends it if it lives."""
+        self._workers.pop(worker.connection, None)
+        worker.close()
+
+    def close(self) -> bool:
+        """End all workers; return whether all of them tidied up."""
+        left = list(self._workers.values())
+        for worker in left:
+            worker.end()
+            self.remove(worker)
+        deadline = time.monotonic() + GRACE
+        tidy = True
+        for worker in left:
+            if not worker.wait(max(0.0, deadline - time.monotonic())):
+                worker.kill()
+                tidy = False
+        return tidy

@@ -1,0 +1,386 @@
+"""The scheduler: which worker does what next, and what happens when one is gone."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from typing import TYPE_CHECKING
+
+from balloon_usd.batch import record as records
+from balloon_usd.batch.frame_layout import FrameLayout
+from balloon_usd.batch.frame_ring import RingShape, SharedMemory
+from balloon_usd.batch.job import BatchRun, Job
+from balloon_usd.batch.machine import Device
+from balloon_usd.batch.messages import (
+    Begin,
+    Copied,
+    Drop,
+    Frames,
+    Free,
+    LaidOut,
+    Made,
+    NotMade,
+    Part,
+    Ring,
+    Role,
+    Simulate,
+    Simulated,
+    Started,
+    Trouble,
+)
+from balloon_usd.batch.record import Record, Status
+from balloon_usd.batch.waiting import Waiting
+from balloon_usd.batch.watch import Count
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from balloon_usd.batch.channel import Worker
+    from balloon_usd.batch.journal import Journal
+    from balloon_usd.batch.machine import Machine
+    from balloon_usd.batch.order import Order
+    from balloon_usd.batch.pool import Pool
+    from balloon_usd.batch.watch import Watch
+
+MOST_FAILED_STARTS = 3
+"""Workers that may end before they are ready, before the batch is given up."""
+STATUS = {
+    Trouble.NOT_WRITTEN: Status.NOT_WRITTEN,
+    Trouble.FAILED: Status.FAILED,
+    Trouble.UNFORESEEN: Status.UNFORESEEN,
+    Trouble.KILLED: Status.KILLED,
+    Trouble.DEVICE: Status.DEVICE,
+}
+
+
+class BatchError(Exception):
+    """A batch cannot go on; the message says why."""
+
+
+class Scheduler:
+    """Makes accepted jobs with the workers of a pool."""
+
+    def __init__(
+        self, jobs: Sequence[Job], order: Order, machine: Machine, pool: Pool, journal: Journal, watch: Watch
+    ) -> None:
+        """Prepare to make jobs that are surveyed and not there yet."""
+        self._jobs = {job.number: job for job in jobs}
+        self._order, self._machine, self._pool = order, machine, pool
+        self._journal, self._watch = journal, watch
+        self._devices: dict[str, Device] = {}
+        self._most: dict[str, int] = {}
+        """Sculptures in a batch at most, by device, where its memory has set a limit."""
+        self._waiting = Waiting(jobs)
+        self._runs: dict[int, BatchRun] = {}
+        self._busy: dict[Worker, int] = {}
+        """Simulators at work, with the numbers of their batches."""
+        self._load: dict[Worker, int] = defaultdict(int)
+        """Jobs of every writer."""
+        self._failed_starts = 0
+        self._next = 0
+        self._done = self._failed = 0
+
+    def run(self) -> None:
+        """Work until every job has its record.
+
+        Raises:
+            BatchError: workers cannot start, or kernels cannot be compiled.
+            OSError: the journal cannot be written.
+        """
+        for worker in self._pool.of(Role.SIMULATOR):
+            if worker.ready:
+                self._add_device(worker)
+        self._watch.begun(self._device_names(), sum(job.known.frames for job in self._jobs.values()))
+        while self._done + self._failed < len(self._jobs):
+            self._hand_out()
+            for worker, message in self._pool.heard():
+                if message is None:
+                    self._lost(worker)
+                else:
+                    self.hear(worker, message)
+
+    def hear(self, worker: Worker, message: object) -> None:
+        """Act on what a worker says."""
+        if isinstance(message, Started):
+            self._started(worker, message)
+        elif isinstance(message, Frames):
+            self._pass_on(self._runs[message.batch], message)
+        elif isinstance(message, Copied):
+            self._copied(message, worker)
+        elif isinstance(message, LaidOut):
+            self._lay_out(self._runs[message.batch], message)
+        elif isinstance(message, Made):
+            self._made(message)
+        elif isinstance(message, NotMade):
+            self._not_made(self._jobs[message.job], message.trouble, message.why)
+        elif isinstance(message, Simulated):
+            self._simulated(worker, message)
+        else:
+            raise TypeError(f"a worker said {type(message).__name__}")
+
+    # Devices and workers.
+
+    def _started(self, worker: Worker, told: Started) -> None:
+        worker.told = told
+        if worker.role is Role.WRITER:
+            return
+        if told.problem:
+            self._pool.remove(worker)
+            self._without_device(worker.device, told.problem)
+            return
+        self._add_device(worker)
+
+    def _add_device(self, worker: Worker) -> None:
+        told = worker.told
+        assert told is not None, "only ready workers have a device"
+        worker.device = told.device
+        if told.device not in self._devices:
+            self._devices[told.device] = Device(told.device, told.processors, told.free_bytes)
+            self._most[told.device] = len(self._jobs)
+
+    def _device_names(self) -> str:
+        return ", ".join(self._devices)
+
+    def _without_device(self, name: str, why: str) -> None:
+        """Go on without a device that is gone."""
+        if self._devices.pop(name, None) is None and self._devices:
+            return
+        if self._devices or any(worker.device != name for worker in self._pool.of(Role.SIMULATOR)):
+            self._watch.said(f"{name}: {why}; going on without it")
+        elif self._machine.may_fall_back and name != "cpu":
+            self._watch.said(f"{name}: {why}; going on on the CPU")
+            self._devices["cpu"], self._most["cpu"] = Device("cpu"), 1
+        else:
+            self._waiting.clear()
+            for job in self._jobs.values():
+                self._not_made(job, Trouble.DEVICE, f"{job.file}: {name}: {why}")
+
+    # Handing out.
+
+    def _hand_out(self) -> None:
+        """Start what workers are missing, and give idle simulators the longest batch there is."""
+        self._start_workers()
+        if not any(worker.ready for worker in self._pool.of(Role.WRITER)):
+            return
+        for worker in self._pool.of(Role.SIMULATOR):
+            if worker.ready and worker not in self._busy and worker.device in self._devices:
+                jobs = self._waiting.take(self._together(self._devices[worker.device]))
+                if not jobs:
+                    return
+                self._begin(worker, jobs)
+
+    def _start_workers(self) -> None:
+        left = len(self._waiting)
+        if not left:
+            return
+        if not self._pool.of(Role.WRITER):
+            self._pool.start(Role.WRITER)
+        for device in self._devices.values():
+            there = [worker for worker in self._pool.of(Role.SIMULATOR) if worker.device == device.name]
+            idle = sum(worker not in self._busy for worker in there)
+            batches = -(-left // self._together(device))
+            wanted = self._machine.simulators(device, len(there) - idle + batches)
+            for _ in range(wanted - len(there)):
+                self._pool.start(Role.SIMULATOR, device.name)
+
+    def _together(self, device: Device) -> int:
+        together = device.together(self._waiting.vertices, max(len(self._waiting), 1))
+        return min(self._most[device.name], together)
+
+    def _begin(self, simulator: Worker, jobs: Sequence[Job]) -> None:
+        number, self._next = self._next, self._next + 1
+        parts = []
+        by_writer: dict[Worker, list[Part]] = defaultdict(list)
+        writers = [worker for worker in self._pool.of(Role.WRITER) if worker.ready]
+        for place, job in enumerate(jobs):
+            part = Part(job.number, place, job.file, job.known.provenance["recipe_sha256"], job.known.frames)
+            parts.append(part)
+            writer = min(writers, key=lambda one: self._load[one])
+            self._load[writer] += 1
+            by_writer[writer].append(part)
+            job.frames = 0
+        self._runs[number] = BatchRun(number, simulator, by_writer)
+        self._busy[simulator] = number
+        simulator.send(Simulate(number, tuple(parts)))
+        for writer, own in by_writer.items():
+            writer.send(Begin(number, tuple(own), simulator.device))
+
+    # Frames.
+
+    def _lay_out(self, run: BatchRun, told: LaidOut) -> None:
+        layout = FrameLayout(told.counts)
+        shape = RingShape.for_frames(layout.frame_bytes)
+        memory = SharedMemory(shape.size)
+        try:
+            name = memory.handle if isinstance(memory.handle, str) else ""
+            ring = Ring(run.number, told.counts, shape, name)
+            for worker in (run.simulator, *run.writers):
+                worker.send_ring(ring, memory)
+        finally:
+            memory.close()
+
+    def _pass_on(self, run: BatchRun, frames: Frames) -> None:
+        readers = run.lent(frames)
+        for writer in readers:
+            writer.send(frames)
+        if not readers:
+            run.simulator.send(Free(run.number, frames.slot))
+        made = 0
+        for number in list(run.writer):
+            job, part = self._jobs[number], run.parts[number]
+            advance = run.advance(number, frames)
+            job.frames += advance
+            made += advance
+            if part.place in frames.failed:
+                text = f"{job.file}: simulation failed {frames.failed[part.place][1]}"
+                self._not_made(job, Trouble.FAILED, text)
+        self._watch.advanced(frames.doing, made, self._count())
+
+    def _copied(self, told: Copied, writer: Worker) -> None:
+        run = self._runs.get(told.batch)
+        if run is not None and run.given_back(told.slot, writer):
+            run.simulator.send(Free(told.batch, told.slot))
+
+    def _count(self) -> Count:
+        running = sum(len(run.writer) for run in self._runs.values())
+        return Count(len(self._jobs), running, self._done, self._failed)
+
+    # Ends.
+
+    def _made(self, made: Made) -> None:
+        job = self._jobs[made.job]
+        device = self._leave(job)
+        self._end(job, records.done(job.file, job.known, self._order, device, made))
+
+    def _not_made(self, job: Job, trouble: Trouble, why: str) -> None:
+        if job.record is not None:
+            return
+        for run in self._runs.values():
+            if job.number in run.writer and trouble is not Trouble.FAILED:
+                run.simulator.send(Drop(run.number, (job.number,)))
+        device = self._leave(job)
+        self._end(
+            job,
+            Record(
+                job.file,
+                job.known.name,
+                STATUS[trouble],
+                records.made_of(job.known.provenance),
+                records.options_of(self._order),
+                device,
+                error=why,
+            ),
+        )
+
+    def _leave(self, job: Job) -> str:
+        """Let a job go from its batch and its writer; return the device that simulated it."""
+        device = ""
+        for run in self._runs.values():
+            if job.number in run.writer:
+                self._load[run.writer.pop(job.number)] -= 1
+                device = run.simulator.device
+        self._forget_finished()
+        return device
+
+    def _forget_finished(self) -> None:
+        busy = set(self._busy.values())
+        for number in [n for n, run in self._runs.items() if not run.writer and n not in busy]:
+            del self._runs[number]
+
+    def _end(self, job: Job, record: Record) -> None:
+        job.record = record
+        if record.status is Status.DONE:
+            self._done += 1
+        else:
+            self._failed += 1
+        self._journal.add(record)
+        self._watch.ended(record)
+
+    def _simulated(self, simulator: Worker, told: Simulated) -> None:
+        del self._busy[simulator]
+        run = self._runs[told.batch]
+        if told.of_all:
+            raise BatchError(told.problem)
+        if told.problem:
+            # Of a device that has failed once, nothing is known any more.
+            self._pool.remove(simulator)
+            jobs = self._take_back(run, list(run.writer))
+            if told.of_device:
+                self._device_trouble(simulator.device, jobs, told.problem)
+            else:
+                self._try_again(jobs, told.problem, Trouble.UNFORESEEN)
+        else:
+            short = self._take_back(run, list(run.writer))
+            self._try_again(short, "the simulation ended before its last frame", Trouble.UNFORESEEN)
+        self._forget_finished()
+
+    def _device_trouble(self, name: str, jobs: list[Job], why: str) -> None:
+        """Try again in smaller batches, in the end without the device."""
+        if len(jobs) > 1:
+            most = self._most[name] = max(1, min(self._most[name], len(jobs) // 2))
+            self._watch.said(f"{name}: {why}; going on with {most} sculptures at a time")
+            self._waiting.retry(jobs)
+        elif jobs:
+            self._waiting.retry(jobs)
+            self._without_device(name, why)
+
+    # Losses.
+
+    def _lost(self, worker: Worker) -> None:
+        how = worker.how_it_ended()
+        if not worker.ready:
+            self._failed_starts += 1
+            if self._failed_starts >= MOST_FAILED_STARTS:
+                raise BatchError(f"{worker.role.value} processes end before they are ready: {how}")
+            return
+        self._watch.said(f"a {worker.role.value} process ended ({how}), its recipes are tried again")
+        lost: list[Job] = []
+        if worker.role is Role.SIMULATOR:
+            number = self._busy.pop(worker, None)
+            if number is not None:
+                lost = self._take_back(self._runs[number], list(self._runs[number].writer))
+        else:
+            for run in list(self._runs.values()):
+                lost += self._lose_writer(run, worker)
+            self._load.pop(worker, None)
+        self._try_again(lost, f"the {worker.role.value} process was killed twice ({how})", Trouble.KILLED)
+        self._forget_finished()
+
+    def _take_back(self, run: BatchRun, numbers: Iterable[int]) -> list[Job]:
+        """Take jobs back from their writers, but those whose frames these have all got."""
+        jobs = [self._jobs[number] for number in numbers]
+        lost = [job for job in jobs if job.frames < job.known.frames]
+        for job in lost:
+            run.writer[job.number].send(Drop(run.number, (job.number,)))
+            self._load[run.writer.pop(job.number)] -= 1
+            self._forget_frames(job)
+        return lost
+
+    def _lose_writer(self, run: BatchRun, writer: Worker) -> list[Job]:
+        numbers, free = run.without(writer)
+        lost = [self._jobs[number] for number in numbers]
+        if run.simulator in self._busy and self._busy[run.simulator] == run.number:
+            if numbers:
+                run.simulator.send(Drop(run.number, tuple(numbers)))
+            for slot in free:
+                run.simulator.send(Free(run.number, slot))
+        for job in lost:
+            self._forget_frames(job)
+        return lost
+
+    def _forget_frames(self, job: Job) -> None:
+        self._watch.advanced("", -job.frames, self._count())
+        job.frames = 0
+
+    def _try_again(self, jobs: list[Job], why: str, trouble: Trouble) -> None:
+        """Halve jobs that were lost together; try one alone once more, and only a killed one."""
+        if len(jobs) > 1:
+            middle = len(jobs) // 2
+            self._waiting.retry(jobs[:middle])
+            self._waiting.retry(jobs[middle:])
+            return
+        for job in jobs:
+            job.kills += 1
+            if trouble is Trouble.KILLED and job.kills <= 1:
+                self._waiting.retry([job])
+            else:
+                self._not_made(job, trouble, f"{job.file}: {why}")

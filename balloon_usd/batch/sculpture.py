@@ -1,0 +1,130 @@
+"""One sculpture in the making: its stage, its report and its contact sheet."""
+
+from __future__ import annotations
+
+import time
+from contextlib import ExitStack
+from typing import TYPE_CHECKING
+
+from balloon_usd.balloon.detail import detail_named
+from balloon_usd.balloon.rubber import BURST_STRETCH
+from balloon_usd.batch.messages import Made
+from balloon_usd.files.hashes import hashes_of
+from balloon_usd.plan.meshing import mesh_of
+from balloon_usd.preview.error import PreviewError
+from balloon_usd.report import History, write_report
+from balloon_usd.solver.tally import Tally
+from balloon_usd.stage import StageWriter
+from balloon_usd.staging import describe_stage, provenance_of
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from pathlib import Path
+
+    from balloon_usd.batch.messages import Part
+    from balloon_usd.batch.order import Order
+    from balloon_usd.plan import Plan
+    from balloon_usd.solver.frame import Frame
+    from balloon_usd.stage import WrittenStage
+
+
+class Sculpture:
+    """Takes the frames of one sculpture, and makes files of them."""
+
+    def __init__(self, part: Part, plan: Plan, order: Order, device: str) -> None:
+        """Prepare for a plan; `device` draws its contact sheet."""
+        self.part = part
+        self._plan, self._order, self._device = plan, order, device
+        level = detail_named(order.detail)
+        meshes = tuple(mesh_of(strip, level) for strip in plan.strips.values())
+        self._codes = order.frames.within(plan.frame_count)
+        self._tally = Tally(plan, meshes)
+        self._history = History(plan, meshes)
+        self._open = ExitStack()
+        self._writer = StageWriter(describe_stage(plan, meshes), order.folder, **order.form)
+        self._undone: tuple[str, ...] = ()
+        self._begun = time.perf_counter()
+
+    def start(self) -> None:
+        """Make the hidden files of the stage; raises `StageError` when the folder cannot be written."""
+        self._open.enter_context(self._writer)
+        self._begun = time.perf_counter()
+
+    def stop(self) -> None:
+        """Give up the stage and remove what was written of it; does nothing to a finished one."""
+        self._open.close()
+
+    def undone_at(self, time_code: int, news: Mapping[int, Mapping[int, tuple[str, ...]]]) -> tuple[str, ...]:
+        """Return what has come undone by a time code, after the news by time code and place."""
+        self._undone = news.get(time_code, {}).get(self.part.place, self._undone)
+        return self._undone
+
+    def add(self, frame: Frame) -> Made | None:
+        """Take the next frame; return what was made if it was the last one.
+
+        Raises:
+            StageError: the stage cannot be written.
+            ReportError: the report cannot be written.
+            PreviewError: the contact sheet cannot be written.
+        """
+        self._tally.add(frame)
+        if frame.time_code in self._codes:
+            self._history.add(frame)
+            self._writer.write(frame)
+        return self._finish() if frame.time_code == self._codes[-1] else None
+
+    def _finish(self) -> Made:
+        written = self._writer.finish()
+        self._open.close()
+        name, folder = self._plan.recipe.name, self._order.folder
+        shots = tuple(file for file in written.files if file == self._order.shot_file(name))
+        products: dict[str, tuple[Path, ...]] = {
+            "stage": written.files[:1],
+            "shot": shots,
+            "report": (),
+            "sheet": (),
+        }
+        if self._order.report:
+            facts = provenance_of(self._plan.recipe)
+            products["report"] = write_report(
+                self._history, folder, detail=self._order.detail, provenance=facts
+            )
+        if self._order.preview:
+            products["sheet"] = (self._draw(written.files[0]),)
+        files = (*written.files, *products["report"], *products["sheet"])
+        return Made(
+            self.part.job,
+            hashes_of(folder, files),
+            {key: tuple(f.relative_to(folder).as_posix() for f in found) for key, found in products.items()},
+            written.frames,
+            sum(file.stat().st_size for file in written.files),
+            self._summary(written),
+            time.perf_counter() - self._begun,
+        )
+
+    def _draw(self, stage: Path) -> Path:
+        from balloon_usd.preview import draw_contact_sheet  # noqa: PLC0415
+        from balloon_usd.solver.device import start_warp  # noqa: PLC0415
+
+        start_warp()
+        sheet = self._order.sheet(self._plan.recipe.name)
+        try:
+            return draw_contact_sheet(stage, sheet, device=self._device)
+        except RuntimeError as error:
+            # What Warp says of a device without memory, or that is gone.
+            raise PreviewError(f"{sheet} cannot be drawn: {error}") from error
+
+    def _summary(self, written: WrittenStage) -> dict[str, object]:
+        """What the run came to, in numbers that a table shows."""
+        tally = self._tally
+        return {
+            "fps": self._plan.recipe.fps,
+            "model": self._plan.recipe.physics.model,
+            "tails_left": {name: round(tail, 6) for name, tail in tally.tails_left.items()},
+            "highest_stretch": round(tally.highest_stretch, 4),
+            "burst_stretch": BURST_STRETCH if self._plan.recipe.physics.model == "latex" else None,
+            "highest_bubble": tally.highest_bubble,
+            "bursts": tally.bursts,
+            "undone": list(tally.undone),
+            "stale": list(written.stale),
+        }

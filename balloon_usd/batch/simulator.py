@@ -1,0 +1,259 @@
+"""The simulator process: plans in, frames into shared memory."""
+
+from __future__ import annotations
+
+import time
+import traceback
+from typing import TYPE_CHECKING, Any
+
+from balloon_usd.batch.channel import receive_ring
+from balloon_usd.batch.frame_layout import Counts, FrameLayout
+from balloon_usd.batch.frame_ring import FrameRing
+from balloon_usd.batch.messages import (
+    Drop,
+    Frames,
+    Free,
+    LaidOut,
+    Ring,
+    Simulate,
+    Simulated,
+    Started,
+)
+from balloon_usd.batch.reading import RecipeChanged, planned
+from balloon_usd.recipe.problem import RecipeError
+from balloon_usd.solver import simulation as solver
+from balloon_usd.solver.errors import DeviceUnavailable, SimulationFailed
+from balloon_usd.solver.frame import Frame
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from multiprocessing.connection import Connection
+
+    from balloon_usd.batch.messages import Part, Start
+    from balloon_usd.solver.batch import Outcome
+
+LONGEST_WAIT = 0.2
+"""Frames travel after this time even if their slot has room for more (s)."""
+OF_DEVICE = ("Failed to allocate", "CUDA error", "Warp CUDA error", "out of memory")
+"""What Warp says when a device has no memory for a batch, or is gone."""
+
+
+class _Dropped(Exception):  # noqa: N818
+    """Ends a simulation that nobody wants any more."""
+
+
+class Simulator:
+    """Simulates batches, one after the other."""
+
+    def __init__(self, connection: Connection[Any, Any], start: Start) -> None:
+        """Start Warp on a device and load the model that most recipes have."""
+        self._connection = connection
+        self._order = start.order
+        self._device = ""
+        connection.send(self._started(start.device))
+
+    def _started(self, name: str) -> Started:
+        import warp as wp  # noqa: PLC0415
+
+        from balloon_usd.solver.device import device_named, start_warp  # noqa: PLC0415
+
+        try:
+            start_warp()
+            # Of all devices, this one takes the first; the scheduler starts others for the rest.
+            self._device = device_named("cuda" if name == "all" else name)
+            solver.model_named("latex")
+        except DeviceUnavailable as error:
+            return Started(problem=str(error))
+        except OSError as error:
+            return Started(problem=_no_cache(error))
+        device = wp.get_device(self._device)
+        cuda = tuple(other.alias for other in wp.get_cuda_devices())
+        if not device.is_cuda:
+            return Started(self._device, cuda)
+        return Started(self._device, cuda, device.sm_count, device.free_memory)
+
+    def run(self) -> None:
+        """Simulate until the connection ends; raises `EOFError` then."""
+        while True:
+            message = self._connection.recv()
+            if isinstance(message, Simulate):
+                self._connection.send(self._simulated(message))
+            elif isinstance(message, Ring):
+                # Of a batch that was over before its first frame: the handle has to be taken.
+                receive_ring(self._connection, message).close()
+
+    def close(self) -> None:
+        """Leave nothing: there is nothing."""
+
+    def _simulated(self, task: Simulate) -> Simulated:
+        """Simulate a batch and say how that ended."""
+        try:
+            _Run(self._connection, task).frames(self._simulation(task.parts))
+        except _Dropped:
+            pass
+        except (EOFError, BrokenPipeError, ConnectionResetError):
+            raise
+        except Exception as error:  # whatever it is, other batches go on
+            return _problem(task.batch, error)
+        return Simulated(task.batch)
+
+    def _simulation(self, parts: Sequence[Part]) -> solver.Simulation:
+        plans = [planned(part) for part in parts]
+        return solver.simulate_many(plans, detail=self._order.detail, device=self._device)
+
+
+class _Run:
+    """One batch on its way into shared memory."""
+
+    def __init__(self, connection: Connection[Any, Any], task: Simulate) -> None:
+        self._connection = connection
+        self._batch = task.batch
+        self._last = [part.last for part in task.parts]
+        self._wanted = [True] * len(task.parts)
+        self._place = {part.job: place for place, part in enumerate(task.parts)}
+        self._told: list[tuple[str, ...]] = [()] * len(task.parts)
+        self._ring: FrameRing | None = None
+        self._free: list[int] = []
+        self._slot: _Slot | None = None
+
+    def frames(self, simulation: solver.Simulation) -> None:
+        """Pass frames on until every sculpture has its last one, or has failed."""
+        for outcomes in simulation.frames():
+            self._attend()
+            self._pass_on(outcomes)
+            if not any(self._wanted):
+                break
+        self._flush()
+
+    def _pass_on(self, outcomes: Sequence[Outcome]) -> None:
+        made = next((outcome for outcome in outcomes if isinstance(outcome, Frame)), None)
+        if made is None and not any(isinstance(outcome, SimulationFailed) for outcome in outcomes):
+            return
+        slot = self._open_slot(outcomes, made)
+        for place, outcome in enumerate(outcomes):
+            if not self._wanted[place]:
+                continue
+            if isinstance(outcome, SimulationFailed):
+                slot.failed[place] = (slot.first + slot.count, str(outcome))
+                self._wanted[place] = False
+            elif outcome is not None:
+                self._put(slot, place, outcome)
+        slot.count += 1
+        slot.doing = _doing(made, sum(self._wanted)) or slot.doing
+        if self._ring is None or slot.count == self._ring.shape.frames or slot.age > LONGEST_WAIT:
+            self._flush()
+
+    def _put(self, slot: _Slot, place: int, frame: Frame) -> None:
+        assert self._ring is not None, "a slot is open"
+        self._ring.layout.put(self._ring.room(slot.number, slot.count), place, frame)
+        if frame.undone != self._told[place]:
+            self._told[place] = frame.undone
+            slot.undone.setdefault(frame.time_code, {})[place] = frame.undone
+        if frame.time_code == self._last[place]:
+            self._wanted[place] = False
+
+    def _open_slot(self, outcomes: Sequence[Outcome], made: Frame | None) -> _Slot:
+        """Return the slot that is being filled; wait for a free one if none is."""
+        if self._slot is None:
+            if self._ring is None:
+                self._lay_out(outcomes)
+            while self._ring is None or not self._free:
+                self._hear(self._connection.recv())
+            first = made.time_code if made is not None else 1
+            self._slot = _Slot(self._free.pop(), first)
+        return self._slot
+
+    def _lay_out(self, outcomes: Sequence[Outcome]) -> None:
+        nothing = Counts((), 0)
+        counts = [Counts.of(frame) if isinstance(frame, Frame) else nothing for frame in outcomes]
+        self._connection.send(LaidOut(self._batch, tuple(counts)))
+
+    def _attend(self) -> None:
+        """Hear what has been said meanwhile; raises `EOFError` when the scheduler is gone."""
+        while self._connection.poll():
+            self._hear(self._connection.recv())
+
+    def _hear(self, message: object) -> None:
+        if isinstance(message, Free):
+            if message.batch == self._batch:
+                self._free.append(message.slot)
+        elif isinstance(message, Ring):
+            memory = receive_ring(self._connection, message)
+            if message.batch == self._batch:
+                self._ring = FrameRing(FrameLayout(message.counts), message.shape, memory)
+                self._free = list(range(message.shape.slots))
+            memory.close()
+        elif isinstance(message, Drop):
+            if message.batch == self._batch:
+                self._drop(message.jobs)
+        else:
+            raise TypeError(f"a simulator at work was told {type(message).__name__}")
+
+    def _drop(self, jobs: Sequence[int]) -> None:
+        for job in jobs or self._place:
+            self._wanted[self._place[job]] = False
+        if not any(self._wanted):
+            raise _Dropped
+
+    def _flush(self) -> None:
+        """Let the frames travel that are in the open slot."""
+        slot, self._slot = self._slot, None
+        if slot is not None:
+            self._connection.send(
+                Frames(self._batch, slot.number, slot.first, slot.count, slot.doing, slot.undone, slot.failed)
+            )
+
+
+class _Slot:
+    """A slot of the ring that is being filled."""
+
+    def __init__(self, number: int, first: int) -> None:
+        self.number = number
+        self.first = first
+        """Time code of its first frame."""
+        self.count = 0
+        self.doing = ""
+        self.undone: dict[int, dict[int, tuple[str, ...]]] = {}
+        self.failed: dict[int, tuple[int, str]] = {}
+        self._opened = time.monotonic()
+
+    @property
+    def age(self) -> float:
+        """Time since it was opened (s)."""
+        return time.monotonic() - self._opened
+
+
+def _doing(frame: Frame | None, running: int) -> str:
+    """Say what the hands do, of the first that moves when there are several."""
+    if frame is None:
+        return ""
+    return frame.doing if running <= 1 else f"{running} sculptures, {frame.doing}"
+
+
+def _problem(batch: int, error: Exception) -> Simulated:
+    """Say what ended a batch before its time, and whom it is to be blamed on."""
+    if isinstance(error, OSError) and _in_cache(error):
+        return Simulated(batch, _no_cache(error), of_all=True)
+    # Warp tells of its devices by no kind of error of their own.
+    of_device = isinstance(error, RuntimeError) and any(sign in str(error) for sign in OF_DEVICE)
+    if of_device or isinstance(error, MemoryError):
+        text = (str(error).strip() or "out of memory").splitlines()[0]
+        return Simulated(batch, text, of_device=True)
+    if isinstance(error, RecipeChanged | RecipeError):
+        return Simulated(batch, str(error))
+    return Simulated(batch, "".join(traceback.format_exception(error)))
+
+
+def _in_cache(error: OSError) -> bool:
+    """Whether an error is about the folder of compiled kernels."""
+    import warp as wp  # noqa: PLC0415
+
+    cache = wp.config.kernel_cache_dir
+    return cache is not None and str(error.filename or "").startswith(str(cache))
+
+
+def _no_cache(error: OSError) -> str:
+    """Say that compiled kernels cannot be kept."""
+    place = f"{error.filename}: " if error.filename else ""
+    text = f"{place}compiled kernels cannot be kept here ({error.strerror or error})"
+    return f"{text}, set WARP_CACHE_PATH to a folder that can be written"

@@ -1,0 +1,67 @@
+"""A worker process: a simulator or a writer, `python -m balloon_usd.batch.worker DESCRIPTOR`.
+
+One thread does all its work, so no two threads ever meet in OpenUSD. It ends when the connection does.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+from multiprocessing.connection import Connection
+from typing import TYPE_CHECKING, Any
+
+from balloon_usd.batch.messages import Role, Start
+
+if TYPE_CHECKING:
+    from balloon_usd.batch.simulator import Simulator
+    from balloon_usd.batch.writer import Writer
+
+
+def work(connection: Connection[Any, Any]) -> None:
+    """Do what comes over the connection, until its other end is closed."""
+    start = connection.recv()
+    assert isinstance(start, Start), "a worker is told first what it is for"
+    if start.role is Role.WRITER:
+        signal.signal(signal.SIGTERM, _terminate)
+    worker = _worker(connection, start)
+    try:
+        worker.run()
+    finally:
+        worker.close()
+
+
+def _worker(connection: Connection[Any, Any], start: Start) -> Simulator | Writer:
+    if start.role is Role.SIMULATOR:
+        from balloon_usd.batch.simulator import Simulator  # noqa: PLC0415
+
+        return Simulator(connection, start)
+    from balloon_usd.batch.writer import Writer  # noqa: PLC0415
+
+    return Writer(connection, start)
+
+
+class _Terminated(BaseException):
+    """Ends a writer that must not leave half-written files behind."""
+
+
+def _terminate(*_: object) -> None:
+    raise _Terminated
+
+
+def main(descriptor: str) -> None:
+    """Work at the other end of an inherited connection."""
+    # Ctrl-C reaches the whole group of processes: the scheduler decides what it means.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        work(Connection(int(descriptor)))
+    except (EOFError, BrokenPipeError, ConnectionResetError):
+        # The scheduler is gone or wants no more. Devices and libraries are not taken down one by one.
+        sys.stderr.flush()
+        os._exit(0)
+    except _Terminated:
+        os._exit(128 + signal.SIGTERM)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])

@@ -1,0 +1,185 @@
+"""The writer process: frames from shared memory into stages, reports and contact sheets."""
+
+from __future__ import annotations
+
+import traceback
+from typing import TYPE_CHECKING, Any
+
+from balloon_usd.batch.channel import receive_ring
+from balloon_usd.batch.facts import survey
+from balloon_usd.batch.frame_layout import FrameLayout
+from balloon_usd.batch.frame_ring import FrameRing
+from balloon_usd.batch.leftovers import remove_leftovers
+from balloon_usd.batch.messages import (
+    Begin,
+    Copied,
+    Drop,
+    Frames,
+    NotMade,
+    Ring,
+    Started,
+    Survey,
+    Surveyed,
+    Trouble,
+    Verified,
+    Verify,
+)
+from balloon_usd.batch.reading import RecipeChanged, planned
+from balloon_usd.batch.sculpture import Sculpture
+from balloon_usd.files.hashes import are_whole
+from balloon_usd.preview.error import PreviewError
+from balloon_usd.recipe.problem import RecipeError
+from balloon_usd.report import ReportError
+from balloon_usd.stage import StageError
+
+if TYPE_CHECKING:
+    from multiprocessing.connection import Connection
+
+    from balloon_usd.batch.messages import Made, Part, Start
+
+EXPECTED = (StageError, ReportError, PreviewError, RecipeChanged, RecipeError)
+"""What may go wrong with a sculpture without a mistake in this program."""
+
+
+class Writer:
+    """Writes sculptures side by side, and answers questions about recipes and files."""
+
+    def __init__(self, connection: Connection[Any, Any], start: Start) -> None:
+        """Get ready; what it takes is imported by now."""
+        self._connection = connection
+        self._order = start.order
+        self._batches: dict[int, _Batch] = {}
+        connection.send(Started())
+
+    def run(self) -> None:
+        """Write until the connection ends; raises `EOFError` then."""
+        while True:
+            message = self._connection.recv()
+            if isinstance(message, Survey):
+                self._survey(message)
+            elif isinstance(message, Verify):
+                self._verify(message)
+            elif isinstance(message, Begin):
+                self._begin(message)
+            elif isinstance(message, Ring):
+                self._open_ring(message)
+            elif isinstance(message, Frames):
+                self._take(message)
+            elif isinstance(message, Drop):
+                self._drop(message)
+            else:
+                raise TypeError(f"a writer was told {type(message).__name__}")
+
+    def close(self) -> None:
+        """Remove what is half-written."""
+        for batch in self._batches.values():
+            for sculpture in batch.sculptures.values():
+                sculpture.stop()
+
+    def _survey(self, asked: Survey) -> None:
+        found = tuple((job, survey(file, self._order)) for job, file in asked.files)
+        self._connection.send(Surveyed(found))
+
+    def _verify(self, asked: Verify) -> None:
+        whole = []
+        for job, name, files in asked.sculptures:
+            remove_leftovers(self._order.folder, name)
+            whole.append((job, are_whole(self._order.folder, files)))
+        self._connection.send(Verified(tuple(whole)))
+
+    def _begin(self, begin: Begin) -> None:
+        batch = self._batches[begin.batch] = _Batch()
+        for part in begin.parts:
+            try:
+                self._start(part, batch, begin.device)
+            except Exception as error:  # no sculpture takes another one along
+                self._give_up(batch, part, error)
+
+    def _start(self, part: Part, batch: _Batch, device: str) -> None:
+        plan = planned(part)
+        remove_leftovers(self._order.folder, plan.recipe.name)
+        sculpture = batch.sculptures[part.place] = Sculpture(part, plan, self._order, device)
+        sculpture.start()
+
+    def _open_ring(self, ring: Ring) -> None:
+        memory = receive_ring(self._connection, ring)
+        if batch := self._batches.get(ring.batch):
+            batch.ring = FrameRing(FrameLayout(ring.counts), ring.shape, memory)
+        memory.close()
+
+    def _take(self, frames: Frames) -> None:
+        """Copy frames out of their slot, let that be used again, and write them."""
+        batch = self._batches.get(frames.batch)
+        if batch is None or batch.ring is None:
+            self._connection.send(Copied(frames.batch, frames.slot))
+            return
+        taken = {
+            place: [
+                batch.ring.layout.get(
+                    batch.ring.room(frames.slot, number),
+                    place,
+                    frames.first + number,
+                    sculpture.undone_at(frames.first + number, frames.undone),
+                )
+                for number in range(self._wanted(sculpture, frames))
+            ]
+            for place, sculpture in batch.sculptures.items()
+        }
+        self._connection.send(Copied(frames.batch, frames.slot))
+        for place, found in taken.items():
+            self._write(batch, place, found)
+        for place in frames.failed:
+            if sculpture := batch.sculptures.pop(place, None):
+                sculpture.stop()
+        if not batch.sculptures:
+            del self._batches[frames.batch]
+
+    @staticmethod
+    def _wanted(sculpture: Sculpture, frames: Frames) -> int:
+        """Return how many of some frames show a sculpture."""
+        end = min(frames.first + frames.count, sculpture.part.last + 1)
+        if failed := frames.failed.get(sculpture.part.place):
+            end = min(end, failed[0])
+        return max(0, end - frames.first)
+
+    def _write(self, batch: _Batch, place: int, frames: list[Any]) -> None:
+        sculpture = batch.sculptures[place]
+        try:
+            made: Made | None = None
+            for frame in frames:
+                made = sculpture.add(frame)
+        except Exception as error:  # no sculpture takes another one along
+            self._give_up(batch, sculpture.part, error)
+            return
+        if made is not None:
+            del batch.sculptures[place]
+            self._connection.send(made)
+
+    def _give_up(self, batch: _Batch, part: Part, error: Exception) -> None:
+        if sculpture := batch.sculptures.pop(part.place, None):
+            sculpture.stop()
+        if isinstance(error, EXPECTED):
+            self._connection.send(NotMade(part.job, Trouble.NOT_WRITTEN, f"{part.file}: {error}"))
+        else:
+            text = "".join(traceback.format_exception(error))
+            self._connection.send(NotMade(part.job, Trouble.UNFORESEEN, f"{part.file}: {text}"))
+
+    def _drop(self, drop: Drop) -> None:
+        batch = self._batches.get(drop.batch)
+        if batch is None:
+            return
+        for place, sculpture in list(batch.sculptures.items()):
+            if not drop.jobs or sculpture.part.job in drop.jobs:
+                sculpture.stop()
+                del batch.sculptures[place]
+        if not batch.sculptures:
+            del self._batches[drop.batch]
+
+
+class _Batch:
+    """What a writer has of one batch."""
+
+    def __init__(self) -> None:
+        self.sculptures: dict[int, Sculpture] = {}
+        """By their places in the batch."""
+        self.ring: FrameRing | None = None

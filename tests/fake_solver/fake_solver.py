@@ -1,0 +1,132 @@
+"""A simulation without physics, in worker processes too: the flat balloons, drifting upwards."""
+
+from __future__ import annotations
+
+import json
+import os
+import pickle
+import signal
+import time
+from pathlib import Path
+
+import numpy as np
+
+from balloon_usd.balloon.detail import detail_named
+from balloon_usd.plan.meshing import mesh_of
+from balloon_usd.solver.errors import SimulationFailed
+from balloon_usd.solver.frame import Frame
+
+FRAMES = 6
+HERE = Path(__file__).parent
+
+
+class FakeSimulation:
+    """What `simulate_many` returns; `trouble` by recipe name happens at frame 3."""
+
+    def __init__(self, plans, detail, device, solver):
+        self.plans = tuple(plans)
+        self.meshes = [
+            tuple(mesh_of(strip, detail_named(detail)) for strip in plan.strips.values()) for plan in plans
+        ]
+        self.frame_counts = tuple(solver.frame_count for _ in plans)
+        self.device = device
+        self.solver = solver
+        self.substeps = 100
+
+    def frames(self):
+        try:
+            for code in range(1, max(self.frame_counts) + 1):
+                self.given = code
+                yield [self._frame(world, code) for world in range(len(self.plans))]
+        finally:
+            self.solver.log({"given": self.given, "plans": [plan.recipe.name for plan in self.plans]})
+
+    def _frame(self, world, code):
+        plan, meshes = self.plans[world], self.meshes[world]
+        trouble = self.solver.trouble.get(plan.recipe.name)
+        if code == 3 and isinstance(trouble, str):
+            self._act(trouble, plan.recipe.name)
+        if code == 3 and isinstance(trouble, BaseException):
+            raise trouble
+        if isinstance(trouble, tuple):
+            return SimulationFailed(*trouble) if code == 3 else None if code > 3 else self._made(plan, meshes, code)
+        return self._made(plan, meshes, code, undone=trouble == "undone")
+
+    def _act(self, trouble, name):
+        if trouble == "sleep":
+            print("asleep", flush=True)
+            time.sleep(60)
+        first = self.solver.first_time(name)
+        if trouble == "kill" or (trouble == "kill once" and first):
+            os.kill(os.getpid(), signal.SIGKILL)
+        if trouble == "out of memory" and len(self.plans) > 2 and self.device != "cpu":
+            raise RuntimeError(f"Failed to allocate 123 bytes on device '{self.device}'")
+        if trouble == "slow":
+            time.sleep(0.3)
+
+    def _made(self, plan, meshes, code, *, undone=False):
+        lift = np.float32([0, 0, 0.01 * code])
+        bubbles = np.full(len(plan.bubbles), 1e-4, dtype=np.float32)
+        return Frame(
+            code,
+            tuple(mesh.points + lift for mesh in meshes),
+            tuple(np.ones(len(mesh.points), dtype=np.float32) for mesh in meshes),
+            bubbles * 1e7,
+            bubbles,
+            "pinch: nose",
+            undone=("nose.end", "middle.end") if undone else (),
+        )
+
+
+class FakeSolver:
+    """Stands in for `simulate_many`; what it is told and does lies in a folder, which other processes know."""
+
+    def __init__(self, folder, frame_count=FRAMES):
+        self._folder = Path(folder)
+        self._folder.mkdir(exist_ok=True)
+        self.frame_count = frame_count
+
+    @classmethod
+    def of_environment(cls):
+        return cls(os.environ["FAKE_SOLVER"], int(os.environ["FAKE_FRAMES"]))
+
+    @property
+    def trouble(self):
+        """What befalls recipes by name: an exception, arguments of `SimulationFailed`, or a word."""
+        file = self._folder / "trouble"
+        return pickle.loads(file.read_bytes()) if file.exists() else {}
+
+    @trouble.setter
+    def trouble(self, trouble):
+        (self._folder / "trouble").write_bytes(pickle.dumps(trouble))
+
+    def first_time(self, name):
+        """Whether this was not asked of a name before."""
+        try:
+            (self._folder / f"{name}.once").touch(exist_ok=False)
+        except FileExistsError:
+            return False
+        return True
+
+    def log(self, entry):
+        with (self._folder / "log").open("a") as file:
+            file.write(json.dumps(entry) + "\n")
+
+    @property
+    def calls(self):
+        """Simulations so far: the names of their recipes."""
+        return [entry["start"] for entry in self._entries() if "start" in entry]
+
+    @property
+    def given(self):
+        """Frames that simulations gave out, in the order in which they ended."""
+        return [entry["given"] for entry in self._entries() if "given" in entry]
+
+    def _entries(self):
+        file = self._folder / "log"
+        return [json.loads(line) for line in file.read_text().splitlines()] if file.exists() else []
+
+    def __call__(self, plans, detail="draft", device="cpu"):
+        simulation = FakeSimulation(plans, detail, device, self)
+        self.log({"start": [plan.recipe.name for plan in plans], "device": device, "process": os.getpid()})
+        return simulation
