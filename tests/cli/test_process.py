@@ -5,6 +5,8 @@ import signal
 import sys
 from pathlib import Path
 
+import pytest
+
 import balloon_usd
 from tests import interruptible
 
@@ -12,7 +14,7 @@ ROOT = Path(balloon_usd.__file__).parents[1]
 
 
 def start(*words, **options):
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(ROOT), str(Path(__file__).parent)])}
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([*sys.path[:1], str(ROOT)])}
     return interruptible.start([sys.executable, *map(str, words)], env=environment, **options)
 
 
@@ -50,17 +52,19 @@ def test_a_missing_device_is_told_in_one_line(write_recipe, tmp_path):
     assert 'no device "cuda:99", only cpu' in err
 
 
-def test_ctrl_c_ends_with_130_and_leaves_nothing(write_recipe, tmp_path):
-    code = (
-        "import balloon_usd.cli.perform as perform; from fake_solver import FakeSolver;"
-        "perform.simulate_many = FakeSolver({'snake': 'sleep'});"
-        "from balloon_usd.cli import main; main()"
-    )
-    process = start("-c", code, "run", write_recipe(), "-o", "out", cwd=tmp_path)
+@pytest.mark.parametrize(
+    ("ending", "code", "word"),
+    [(signal.SIGINT, 130, "interrupted"), (signal.SIGTERM, 143, "terminated")],
+)
+def test_ctrl_c_and_sigterm_have_their_exit_codes_and_leave_nothing(
+    solver, write_recipe, tmp_path, ending, code, word
+):
+    solver.trouble = {"snake": "sleep"}
+    process = start("-m", "balloon_usd", "run", write_recipe(), "-o", "out", cwd=tmp_path)
     assert process.stdout.readline().strip() == "asleep"
-    process.send_signal(signal.SIGINT)
+    process.send_signal(ending)
     _, err = process.communicate(timeout=30)
-    assert process.returncode == 130
+    assert process.returncode == code
     assert "Traceback" not in err
-    assert "interrupted" in err
+    assert err.splitlines()[-1] == f"{word}, nothing half-written is left"
     assert list((tmp_path / "out").iterdir()) == []
