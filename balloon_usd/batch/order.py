@@ -91,8 +91,11 @@ class Order:
             *([self.shot_file(name)] if self.shot else []),
             *([self.stage(name)] if self.ending else []),
         ]
-        found = [f"{file}: a folder is in the way" for file in files if file.is_dir()]
         asset = self.stage(name).parent
-        if not self.ending and asset.exists() and not asset.is_dir():
-            found.append(f"{asset}: a file is in the way")
+        try:
+            found = [f"{file}: a folder is in the way" for file in files if file.is_dir()]
+            if not self.ending and asset.exists() and not asset.is_dir():
+                found.append(f"{asset}: a file is in the way")
+        except OSError as error:
+            return [f"{asset}: cannot write here ({error.strerror or error})"]
         return found

@@ -6,7 +6,7 @@ import traceback
 from typing import TYPE_CHECKING, Any
 
 from balloon_usd.batch.channel import receive_ring
-from balloon_usd.batch.facts import survey
+from balloon_usd.batch.facts import Refusal, survey
 from balloon_usd.batch.frame_layout import FrameLayout
 from balloon_usd.batch.frame_ring import FrameRing
 from balloon_usd.batch.leftovers import remove_leftovers
@@ -35,6 +35,7 @@ from balloon_usd.stage import StageError
 if TYPE_CHECKING:
     from multiprocessing.connection import Connection
 
+    from balloon_usd.batch.facts import Facts
     from balloon_usd.batch.messages import Made, Part, Start
 
 EXPECTED = (StageError, ReportError, PreviewError, RecipeChanged, RecipeError)
@@ -77,8 +78,14 @@ class Writer:
                 sculpture.stop()
 
     def _survey(self, asked: Survey) -> None:
-        found = tuple((job, survey(file, self._order)) for job, file in asked.files)
+        found = tuple((job, self._survey_one(file)) for job, file in asked.files)
         self._connection.send(Surveyed(found))
+
+    def _survey_one(self, file: str) -> Facts | Refusal:
+        try:
+            return survey(file, self._order)
+        except Exception:  # noqa: BLE001  # no recipe takes another one along
+            return Refusal((f"{file}: {traceback.format_exc()}",))
 
     def _verify(self, asked: Verify) -> None:
         whole = []

@@ -47,11 +47,11 @@ class BatchProgress:
         """
         for record in refused:
             click.echo(record.error, err=True)
+        if accepted:
+            require_writable(self._order.folder)
         for facts in accepted:
             for caution in facts.cautions:
                 click.echo(caution, err=True)
-        if accepted:
-            require_writable(self._order.folder)
 
     def begun(self, device: str, frames: int) -> None:
         """Begin to show progress."""
