@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from balloon_usd.solver.simulation import Simulation, simulate_many
     from balloon_usd.stage import StageError, WrittenStage
     from balloon_usd.staging import describe_stage, write_stage
+    from balloon_usd.variation import VariationError, Variations, vary_recipe
 
 __version__ = "0.1.0"
 
@@ -46,6 +47,8 @@ __all__ = [
     "Simulation",
     "SimulationFailed",
     "StageError",
+    "VariationError",
+    "Variations",
     "WrittenStage",
     "__version__",
     "check_file",
@@ -60,6 +63,7 @@ __all__ = [
     "recipe_schema",
     "simulate",
     "simulate_many",
+    "vary_recipe",
     "write_stage",
 ]
 
@@ -77,6 +81,7 @@ _ROOMS = {
     "balloon_usd.solver.simulation": ("Simulation", "simulate_many"),
     "balloon_usd.stage": ("StageError", "WrittenStage"),
     "balloon_usd.staging": ("describe_stage", "write_stage"),
+    "balloon_usd.variation": ("VariationError", "Variations", "vary_recipe"),
 }
 _PLACES = {name: (room, name) for room, names in _ROOMS.items() for name in names}
 # The function `plan` cannot have its own name here: `balloon_usd.plan` is its room.

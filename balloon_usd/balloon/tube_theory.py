@@ -173,6 +173,7 @@ def bulged_state(law: MembraneLaw, p_star: float) -> TubeState:
     return closed_tube_state(law, stretch)
 
 
+@lru_cache(maxsize=64)
 def bulged_state_of_volume(law: MembraneLaw, volume_ratio: float) -> TubeState:
     """Return the bulged closed tube that encloses volume_ratio times its unstressed volume.
 

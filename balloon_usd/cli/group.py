@@ -24,6 +24,7 @@ from balloon_usd.cli.plan import plan
 from balloon_usd.cli.preview import preview
 from balloon_usd.cli.run import run
 from balloon_usd.cli.schema import schema
+from balloon_usd.cli.vary import vary
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -93,5 +94,5 @@ def main() -> None:
     """Physics-true balloon twisting: a YAML recipe becomes an animated USD stage."""
 
 
-for command in (run, plan, schema, preview, check, diff, golden, export, blender_extension, bench):
+for command in (run, plan, vary, schema, preview, check, diff, golden, export, blender_extension, bench):
     main.add_command(command)

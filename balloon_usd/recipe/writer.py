@@ -47,9 +47,9 @@ def recipe_text(entries: Mapping[str, object]) -> str:
                 lines += _step_lines(step)
         elif key in ("balloons", "physics") and isinstance(value, Mapping) and value:
             lines.append(f"{key}:")
-            lines += [f"  {_text(name)}: {_flow(entry)}" for name, entry in value.items()]
+            lines += [f"  {_text(name)}: {flow_text(entry)}" for name, entry in value.items()]
         else:
-            lines.append(f"{_text(key)}: {_flow(value)}")
+            lines.append(f"{_text(key)}: {flow_text(value)}")
     return "\n".join(lines) + "\n"
 
 
@@ -96,16 +96,17 @@ def _physics_entries(physics: Entries, units: str | None) -> Entries:
 
 def _step_lines(step: object) -> list[str]:
     if not isinstance(step, Mapping) or not step:
-        return [f"  - {_flow(step)}"]
-    lines = [f"    {_text(key)}: {_flow(value)}" for key, value in step.items()]
+        return [f"  - {flow_text(step)}"]
+    lines = [f"    {_text(key)}: {flow_text(value)}" for key, value in step.items()]
     return ["  - " + lines[0][4:], *lines[1:]]
 
 
-def _flow(value: object) -> str:
+def flow_text(value: object) -> str:
+    """YAML text of plain data on one line, as it may stand anywhere in a recipe."""
     if isinstance(value, Mapping):
-        return "{" + ", ".join(f"{_text(key)}: {_flow(entry)}" for key, entry in value.items()) + "}"
+        return "{" + ", ".join(f"{_text(key)}: {flow_text(entry)}" for key, entry in value.items()) + "}"
     if isinstance(value, (list, tuple)):
-        return "[" + ", ".join(_flow(entry) for entry in value) + "]"
+        return "[" + ", ".join(flow_text(entry) for entry in value) + "]"
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, (int, float)):
