@@ -1,0 +1,1 @@
+"""The batch room: many recipes made side by side."""
