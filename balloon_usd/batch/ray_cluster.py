@@ -32,7 +32,7 @@ BEGIN = b"\x04"
 
 
 class ClusterError(Exception):
-    """A cluster cannot be used as asked; the message is one line."""
+    """A cluster cannot be used as asked; the message has one line a problem."""
 
 
 @contextmanager
@@ -67,8 +67,11 @@ def ray_cluster(address: str | None) -> Iterator[ModuleType]:
 
 
 def one_line(error: BaseException) -> str:
-    """Return what an error says in one line."""
-    return " ".join(str(error).split()) or type(error).__name__
+    """Return what an error says in one line; of a traceback in it, what it ends with."""
+    text = str(error).strip()
+    if "Traceback (most recent call last)" in text:
+        text = text.splitlines()[-1]
+    return " ".join(text.split()) or type(error).__name__
 
 
 def import_ray() -> ModuleType:

@@ -5,10 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from balloon_usd.batch.ray_cluster import ClusterError, one_line, ray_cluster
+from balloon_usd.batch.ray_cluster import one_line, ray_cluster
+from balloon_usd.batch.ray_machines import Needs, require_machines
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence
+    from pathlib import Path
     from types import ModuleType
 
     Make = Callable[[Sequence[str]], list[dict[str, Any]]]
@@ -18,23 +20,6 @@ RETRIES = 10
 """Times that a chunk begins anew after its worker or machine was lost, or its folder could not be reached."""
 SECONDS_TO_END = 5.0
 """Time that tasks have to clear up when nobody waits for them any more, s."""
-
-
-@dataclass(frozen=True)
-class Needs:
-    """What a task takes of its machine while it runs."""
-
-    cpus: float = 1
-    gpus: float = 0
-
-    def __str__(self) -> str:
-        """Name them, as in `2 CPUs and 1 GPU`."""
-        named = [
-            f"{count:g} {name}{'' if count == 1 else 's'}"
-            for count, name in ((self.cpus, "CPU"), (self.gpus, "GPU"))
-            if count
-        ]
-        return " and ".join(named)
 
 
 @dataclass(frozen=True)
@@ -48,7 +33,7 @@ class Ended:
 
 
 def make_on_cluster(
-    chunks: Iterable[Sequence[str]], make: Make, needs: Needs, address: str | None = None
+    chunks: Iterable[Sequence[str]], make: Make, needs: Needs, folder: Path, address: str | None = None
 ) -> Iterator[Ended]:
     """Make chunks of recipes on a Ray cluster and yield each as it ends.
 
@@ -56,16 +41,18 @@ def make_on_cluster(
     OSError. Any other exception ends its chunk alone. Tasks end with the iterator.
 
     Args:
-        chunks: paths, which all machines must see alike.
-        make: is pickled, so all that it needs must be installed on all machines.
-        needs: CUDA_VISIBLE_DEVICES holds as many GPUs as a task needs.
+        chunks: absolute paths of recipes.
+        make: is pickled.
+        needs: of a task. CUDA_VISIBLE_DEVICES names the GPUs that are its own, and is left alone where it
+            needs none.
+        folder: where `make` writes, absolute; all machines must see it, as they must see the recipes.
         address: HOST:PORT of the cluster; None starts one on this machine.
 
     Raises:
-        ClusterError: the cluster cannot be used, or no machine in it has what a task needs.
+        ClusterError: the cluster cannot be used, or a machine of it; one line a problem.
     """
     with ray_cluster(address) as ray:
-        _require_machine(ray, needs)
+        require_machines(ray, needs, folder)
         task = _task(ray, make, needs)
         waiting = {task.remote(list(chunk)): tuple(chunk) for chunk in chunks}
         try:
@@ -96,10 +83,10 @@ def _task(ray: ModuleType, make: Make, needs: Needs) -> Any:
 def _ended(ray: ModuleType, task: Any, chunk: tuple[str, ...]) -> Ended:
     try:
         return Ended(chunk, ray.get(task))
-    except ray.exceptions.RayTaskError as error:
-        return Ended(chunk, lost=f"{type(error.cause).__name__}: {one_line(error.cause)}")
     except ray.exceptions.RayError as error:
-        return Ended(chunk, lost=f"lost {RETRIES + 1} times ({type(error).__name__}: {one_line(error)})")
+        # What `make` raised is the cause, else it is Ray that gives up.
+        cause = getattr(error, "cause", None) or error
+        return Ended(chunk, lost=f"{type(cause).__name__}: {one_line(cause)}")
 
 
 def _end(ray: ModuleType, tasks: list[Any]) -> None:
@@ -108,12 +95,3 @@ def _end(ray: ModuleType, tasks: list[Any]) -> None:
         ray.cancel(task)
     if tasks:
         ray.wait(tasks, num_returns=len(tasks), timeout=SECONDS_TO_END)
-
-
-def _require_machine(ray: ModuleType, needs: Needs) -> None:
-    """Check that a task can run somewhere: Ray would wait for such a machine for ever."""
-    resources = [node["Resources"] for node in ray.nodes() if node["Alive"]]
-    machines = [Needs(each.get("CPU", 0), each.get("GPU", 0)) for each in resources]
-    if not any(has.cpus >= needs.cpus and has.gpus >= needs.gpus for has in machines):
-        has = "; ".join(sorted({str(machine) or "nothing" for machine in machines}))
-        raise ClusterError(f"a task needs {needs}, and no machine of the cluster has that (they have {has})")

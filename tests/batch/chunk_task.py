@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import time
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,6 +18,8 @@ class ChunkTask:
     """For each recipe."""
     error: type[Exception] | None = None
     """Raised by the first attempt at each recipe."""
+    deadly: str = ""
+    """Name of a recipe that kills its process, whenever it is tried."""
 
     def __call__(self, chunk):
         return [self._make(name) for name in chunk]
@@ -47,5 +50,7 @@ class ChunkTask:
         first = not begun.exists()
         with begun.open("a") as file:
             file.write(f"{os.getpid()}\n")
+        if name == self.deadly:
+            os.kill(os.getpid(), signal.SIGKILL)
         if first and self.error:
             raise self.error(f"{name} was lost")

@@ -14,7 +14,8 @@ import pytest
 
 import balloon_usd
 from balloon_usd.batch.ray_cluster import ClusterError, import_ray
-from balloon_usd.batch.ray_engine import Needs, make_on_cluster
+from balloon_usd.batch.ray_engine import make_on_cluster
+from balloon_usd.batch.ray_machines import Needs
 
 sys.path.insert(0, str(Path(__file__).parent))
 
@@ -102,7 +103,7 @@ def at_work(folder):
 
 
 def test_every_chunk_is_made_once_and_told_as_it_ends(cluster, tmp_path, capfd):
-    ended = list(make_on_cluster(chunks(4), ChunkTask(tmp_path), ONE_CPU, cluster.address))
+    ended = list(make_on_cluster(chunks(4), ChunkTask(tmp_path), ONE_CPU, tmp_path, cluster.address))
     assert sorted(each.chunk for each in ended) == [tuple(chunk) for chunk in chunks(4)]
     assert all([record["name"] for record in each.records] == list(each.chunk) for each in ended)
     assert made(tmp_path) == names(4)
@@ -111,21 +112,38 @@ def test_every_chunk_is_made_once_and_told_as_it_ends(cluster, tmp_path, capfd):
 
 
 def test_a_task_sees_the_gpu_that_it_needs(cluster, tmp_path):
-    (ended,) = make_on_cluster([["a"]], ChunkTask(tmp_path), Needs(cpus=1, gpus=1), cluster.address)
+    (ended,) = make_on_cluster([["a"]], ChunkTask(tmp_path), Needs(cpus=1, gpus=1), tmp_path, cluster.address)
     assert ended.records[0]["gpus"] == "0"
 
 
 def test_a_task_for_which_no_machine_is_large_enough_is_refused_at_once(cluster, tmp_path):
     needs = r"a task needs 2 CPUs and 1 GPU, and no machine of the cluster has that \(they have 1 CPU; "
     with pytest.raises(ClusterError, match=needs):
-        list(make_on_cluster(chunks(1), ChunkTask(tmp_path), Needs(2, 1), cluster.address))
+        list(make_on_cluster(chunks(1), ChunkTask(tmp_path), Needs(2, 1), tmp_path, cluster.address))
+
+
+def test_a_machine_that_does_not_share_the_folder_is_told_before_any_work(cluster, tmp_path, monkeypatch):
+    monkeypatch.setattr("balloon_usd.batch.ray_machines.FILE_SECONDS", 0.2)
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "out").mkdir()
+    # A relative path is another one wherever the current folder is another one, as it is in Ray's workers.
+    with pytest.raises(ClusterError, match=r"^[^\n]*: out is not the folder of this name here, share it"):
+        list(make_on_cluster(chunks(4), ChunkTask(tmp_path), ONE_CPU, Path("out"), cluster.address))
+    assert [path.name for path in tmp_path.rglob("*")] == ["out"]
+
+
+def test_a_machine_with_another_version_is_told_before_any_work(cluster, tmp_path, monkeypatch):
+    monkeypatch.setattr("balloon_usd.__version__", "9.0.0")
+    with pytest.raises(ClusterError, match=r": balloon_usd is of version [\d.]+, expected 9.0.0 as here$"):
+        list(make_on_cluster(chunks(4), ChunkTask(tmp_path), ONE_CPU, tmp_path, cluster.address))
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_chunk_whose_worker_is_killed_begins_anew_where_it_was(cluster, tmp_path, capfd):
     killer = meanwhile(lambda: os.kill(begun_by(tmp_path, "0b"), signal.SIGKILL))
     ended = {
         each.chunk: each
-        for each in make_on_cluster(chunks(3), ChunkTask(tmp_path, 0.4), ONE_CPU, cluster.address)
+        for each in make_on_cluster(chunks(3), ChunkTask(tmp_path, 0.4), ONE_CPU, tmp_path, cluster.address)
     }
     killer.join()
     assert made(tmp_path) == names(3)
@@ -135,9 +153,20 @@ def test_a_chunk_whose_worker_is_killed_begins_anew_where_it_was(cluster, tmp_pa
     assert capfd.readouterr() == ("", "")
 
 
+def test_a_chunk_that_kills_every_worker_is_given_up_and_the_others_are_made(cluster, tmp_path, monkeypatch):
+    monkeypatch.setattr("balloon_usd.batch.ray_engine.RETRIES", 1)
+    task = ChunkTask(tmp_path, deadly="0b")
+    ended = list(make_on_cluster(chunks(2), task, ONE_CPU, tmp_path, cluster.address))
+    (lost,) = [each for each in ended if each.lost]
+    assert lost.lost.startswith("WorkerCrashedError: The worker died")
+    assert (lost.chunk, lost.records) == (("0a", "0b"), [])
+    assert made(tmp_path) == ["0a", "1a", "1b"]
+    assert len((tmp_path / "0b.begun").read_text().split()) == 2
+
+
 @pytest.mark.parametrize(("error", "lost"), [(OSError, None), (ValueError, "ValueError: a was lost")])
 def test_only_what_may_be_found_again_is_tried_again(cluster, tmp_path, error, lost):
-    (ended,) = make_on_cluster([["a"]], ChunkTask(tmp_path, error=error), ONE_CPU, cluster.address)
+    (ended,) = make_on_cluster([["a"]], ChunkTask(tmp_path, error=error), ONE_CPU, tmp_path, cluster.address)
     assert ended.lost == lost
     assert made(tmp_path) == ([] if lost else ["a"])
 
@@ -150,7 +179,11 @@ def test_tasks_end_as_by_hand_when_nobody_waits_for_them(cluster, tmp_path):
 
     by_hand = meanwhile(interrupt)
     with pytest.raises(KeyboardInterrupt):
-        list(make_on_cluster([["a"], ["b"], ["c"]], ChunkTask(tmp_path, 30.0), ONE_CPU, cluster.address))
+        list(
+            make_on_cluster(
+                [["a"], ["b"], ["c"]], ChunkTask(tmp_path, 30.0), ONE_CPU, tmp_path, cluster.address
+            )
+        )
     by_hand.join()
     assert sorted(path.name for path in tmp_path.glob("*.interrupted")) == ["a.interrupted", "b.interrupted"]
     assert not (tmp_path / "c.begun").exists()
@@ -158,7 +191,7 @@ def test_tasks_end_as_by_hand_when_nobody_waits_for_them(cluster, tmp_path):
 
 def test_what_a_lost_machine_was_making_is_made_by_the_others(cluster, tmp_path, capfd):
     killer = meanwhile(lambda: lose_a_machine(cluster, tmp_path))
-    ended = list(make_on_cluster(chunks(4), ChunkTask(tmp_path, 0.5), ONE_CPU, cluster.address))
+    ended = list(make_on_cluster(chunks(4), ChunkTask(tmp_path, 0.5), ONE_CPU, tmp_path, cluster.address))
     killer.join()
     assert [each.lost for each in ended] == [None] * 4
     assert made(tmp_path) == names(4)
@@ -171,7 +204,7 @@ def test_a_batch_outlives_five_machines(cluster, tmp_path):
     for machine in [*cluster.worker_nodes]:
         cluster.remove_node(machine)
     lost, killers = [], []
-    for ended in make_on_cluster(chunks(60), ChunkTask(tmp_path, 0.5), ONE_CPU, cluster.address):
+    for ended in make_on_cluster(chunks(60), ChunkTask(tmp_path, 0.5), ONE_CPU, tmp_path, cluster.address):
         lost.append(ended.lost)
         if not cluster.worker_nodes and len(killers) < 5:
             cluster.add_node(**SMALL)
@@ -186,9 +219,11 @@ ON_THIS_MACHINE = """
 import sys
 from pathlib import Path
 from chunk_task import ChunkTask
-from balloon_usd.batch.ray_engine import Needs, make_on_cluster
+from balloon_usd.batch.ray_engine import make_on_cluster
+from balloon_usd.batch.ray_machines import Needs
 
-for ended in make_on_cluster([["a"], ["b"]], ChunkTask(Path(sys.argv[1])), Needs(cpus=1)):
+folder = Path(sys.argv[1])
+for ended in make_on_cluster([["a"], ["b"]], ChunkTask(folder), Needs(cpus=1), folder):
     print(*ended.chunk, ended.records[0]["status"])
 """
 
