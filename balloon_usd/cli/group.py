@@ -19,6 +19,8 @@ from balloon_usd.cli.check import check
 from balloon_usd.cli.diff import diff
 from balloon_usd.cli.export import export
 from balloon_usd.cli.failure import EXIT_CODES_HELP, ExitCode, Failure
+from balloon_usd.cli.farm_task import farm_task
+from balloon_usd.cli.farm_template import farm_template
 from balloon_usd.cli.golden import golden
 from balloon_usd.cli.plan import plan
 from balloon_usd.cli.preview import preview
@@ -94,5 +96,19 @@ def main() -> None:
     """Physics-true balloon twisting: a YAML recipe becomes an animated USD stage."""
 
 
-for command in (run, plan, vary, schema, preview, check, diff, golden, export, blender_extension, bench):
+for command in (
+    run,
+    plan,
+    vary,
+    schema,
+    preview,
+    check,
+    diff,
+    golden,
+    export,
+    farm_template,
+    farm_task,
+    blender_extension,
+    bench,
+):
     main.add_command(command)
