@@ -89,7 +89,9 @@ class SampleStream:
         layer = layers.samples
         self._tracks = Tracks.declare(layer, description)
         self._held = [HeldSamples(layer, part_path(description.name, air.name)) for air in description.airs]
-        self._stress = StressColors(layers.stress, description) if layers.stress else None
+        self._stress = (
+            StressColors(layers.stress, description, indexed=layers.apart) if layers.stress else None
+        )
         self._take: Take | None = None
         self._unsaved = 0
 
