@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import reduce
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -58,7 +59,7 @@ class Pose:
     @property
     def extent(self) -> NDArray[np.float32]:
         """Smallest and largest corner of all meshes and particles (2, 3) [m]."""
-        return union([*(mesh.extent for mesh in self.meshes), *(air.extent for air in self.airs)])
+        return reduce(union, [*(mesh.extent for mesh in self.meshes), *(air.extent for air in self.airs)])
 
     @property
     def size(self) -> int:
@@ -109,10 +110,9 @@ def extent_of_balls(points: NDArray[np.float32], width: float) -> NDArray[np.flo
     return extent_of(points) + np.stack([-radius, radius])[:, None]
 
 
-def union(extents: list[NDArray[np.float32]]) -> NDArray[np.float32]:
-    """Extent (2, 3) that holds all the extents (2, 3)."""
-    corners = np.array(extents)
-    return np.array([corners[:, 0].min(axis=0), corners[:, 1].max(axis=0)])
+def union(one: NDArray[np.float32], other: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Extent (2, 3) that holds both extents (2, 3)."""
+    return np.array([np.minimum(one[0], other[0]), np.maximum(one[1], other[1])])
 
 
 def _at_vertices(per_bubble: NDArray[np.float32], mesh: MeshDescription) -> NDArray[np.float32]:

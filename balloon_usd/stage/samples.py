@@ -137,7 +137,7 @@ def _longer(take: Take | None, time_code: int, pose: Pose) -> Take:
     """The take with one more frame."""
     if take is None:
         return Take(time_code, time_code, pose, pose.extent)
-    return Take(take.first, time_code, pose, union([take.extent, pose.extent]))
+    return Take(take.first, time_code, pose, union(take.extent, pose.extent))
 
 
 def _write_steps(layer: Any, description: StageDescription, take: Take) -> None:
