@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 UNKNOWN_NODE = "MaterialX nodes are unknown to usd-core, whose wheel has no MaterialX"
-REPEATED = "primvars that change with every frame are not worth an index"
+REPEATED = "primvars with repeated values, which an index would hardly make smaller"
 SPECULATIVE = "overs are found by property 7, except below classes, where they are meant"
 BROKE_DOWN = "rules of the validator that broke down themselves, as over points of one width for all"
 

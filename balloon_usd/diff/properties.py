@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from pxr import Sdf, Usd
 
 from balloon_usd.diff.difference import ONLY, Difference, Spread
+from balloon_usd.diff.flattening import Flattened, are_indices
 from balloon_usd.diff.metadata import both, metadata_differences
 from balloon_usd.diff.values import Gap, gap_between, same_bits
 
@@ -33,7 +34,7 @@ def property_differences(
         touched: takes the names of the properties whose values are not the same bits.
     """
     path = str(one.GetPath())
-    names = [{*prim.GetAuthoredPropertyNames()} for prim in (one, other)]
+    names = [_names(prim) for prim in (one, other)]
     for name in sorted(names[0] | names[1]):
         if not (name in names[0] and name in names[1]):
             touched.add(name)
@@ -61,17 +62,17 @@ def _attribute_differences(one: Any, other: Any, allowed: Allowed, touched: set[
     if one.GetConnections() != other.GetConnections():
         found = both(*([str(source) for source in a.GetConnections()] for a in (one, other)))
         yield Difference(path, f"connections differ: {found}", name)
-    queries = [Usd.AttributeQuery(attribute) for attribute in (one, other)]
-    times = [query.GetTimeSamples() for query in queries]
+    values = [Flattened(attribute) for attribute in (one, other)]
+    times = [found.times() for found in values]
     if times[0] != times[1]:
         touched.add(name)
         yield Difference(path, f"times of the samples differ: {_times_text(*times)}", name)
     shared = times[0] if times[0] == times[1] else sorted({*times[0]} & {*times[1]})
     tally = Tally(allowed)
     for time in shared:
-        tally.compare(time, *(_read(query, time) for query in queries))
+        tally.compare(time, *_values_at(time, *values))
     rest = Tally(allowed)
-    rest.compare(None, *(_read(query, None) for query in queries))
+    rest.compare(None, *_values_at(None, *values))
     yield from tally.told(path, name, rest)
     if tally.touched or rest.touched:
         touched.add(name)
@@ -135,9 +136,17 @@ def _authored_type(attribute: Any) -> str:
     return next((str(spec.typeName) for spec in specs), "")
 
 
-def _read(query: Any, time: float | None) -> Any:
-    """Return a value at a time code, or the default."""
-    return query.Get(Usd.TimeCode.Default() if time is None else time)
+def _names(prim: Any) -> set[str]:
+    """Return the names of the properties of a prim; indices are part of the values that they choose."""
+    return {name for name in prim.GetAuthoredPropertyNames() if not are_indices(prim, name)}
+
+
+def _values_at(time: float | None, one: Flattened, other: Flattened) -> tuple[Any, Any]:
+    """Return two values at a time code, or the defaults; what leads nowhere in both as it is stored."""
+    first, second = one.at(time), other.at(time)
+    if first is None and second is None:
+        return one.indices_at(time), other.indices_at(time)
+    return first, second
 
 
 def _short(one: Any, other: Any) -> str:

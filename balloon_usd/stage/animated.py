@@ -10,7 +10,7 @@ from pxr import Sdf, Vt
 
 from balloon_usd.stage.cluster_color import colors_of
 from balloon_usd.stage.provenance import KEY
-from balloon_usd.stage.stretch_color import ramp_legend, stretch_colors
+from balloon_usd.stage.stretch_color import stretch_colors, stretch_shades
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -75,13 +75,21 @@ BY_CLUSTER: tuple[Animated[NDArray[np.int32]], ...] = (
 """What changes with the clusters (P,) of the air, which is seldom: sampled only then."""
 
 
-def on_stress(highest: float) -> Animated[MeshPose]:
-    """Stretch as a colour, on the ramp that ends at the highest stretch."""
+def colors_of_stress(highest: float) -> Animated[MeshPose]:
+    """Stretch as a colour of the ramp that ends at the highest stretch."""
     return Animated(
         "primvars:displayColor",
         Sdf.ValueTypeNames.Color3fArray,
         lambda pose: _vectors(stretch_colors(pose.stretch, highest)),
-        ramp_legend(highest),
+    )
+
+
+def shades_of_stress(highest: float) -> Animated[MeshPose]:
+    """Stretch as the number of a colour of that ramp."""
+    return Animated(
+        "primvars:displayColor:indices",
+        Sdf.ValueTypeNames.IntArray,
+        lambda pose: _integers(stretch_shades(pose.stretch, highest)),
     )
 
 

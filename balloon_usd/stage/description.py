@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
 from pxr import Sdf
@@ -55,6 +55,19 @@ class StageFrame(Protocol):
 
         Counted in the order of `StageDescription.bubble_names`; not read where there is no air.
         """
+
+
+class Seam(NamedTuple):
+    """Vertices of several bubbles, and the corners of quads around them."""
+
+    vertices: NDArray[np.int32]
+    """Vertex numbers (S,)."""
+    quads: NDArray[np.int64]
+    """Number of quads around each of them (S,)."""
+    place: NDArray[np.intp]
+    """Which of the vertices each corner lies at (C,), counted through `vertices`."""
+    bubble: NDArray[np.int32]
+    """Bubble of each corner's quad (C,), an index into the mesh's `bubble_names`."""
 
 
 @dataclass(frozen=True)
@@ -119,12 +132,14 @@ class MeshDescription:
         return bubble
 
     @cached_property
-    def seam_corners(self) -> NDArray[np.int64]:
-        """Corners (C,), counted through all quads, that lie at vertices of several bubbles."""
+    def seam(self) -> Seam:
+        """The vertices at which several bubbles meet."""
         corners, at_corners = self.quads.ravel(), np.repeat(self.quad_bubble, 4)
         mixed = np.zeros(self.vertex_count, dtype=bool)
         mixed[corners[at_corners != self.vertex_bubble[corners]]] = True
-        return np.flatnonzero(mixed[corners])
+        there = np.flatnonzero(mixed[corners])
+        vertices, place = np.unique(corners[there], return_inverse=True)
+        return Seam(vertices, self.quads_at_vertex[vertices], place, at_corners[there])
 
 
 @dataclass(frozen=True)

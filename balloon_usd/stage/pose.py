@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import reduce
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -58,7 +59,7 @@ class Pose:
     @property
     def extent(self) -> NDArray[np.float32]:
         """Smallest and largest corner of all meshes and particles (2, 3) [m]."""
-        return union([*(mesh.extent for mesh in self.meshes), *(air.extent for air in self.airs)])
+        return reduce(union, [*(mesh.extent for mesh in self.meshes), *(air.extent for air in self.airs)])
 
     @property
     def size(self) -> int:
@@ -100,7 +101,7 @@ def extent_of(points: NDArray[np.float32]) -> NDArray[np.float32]:
     """Smallest and largest corner (2, 3) of points (V, 3)."""
     # NumPy reduces long rows about forty times as fast as a long narrow array's columns.
     rows = np.ascontiguousarray(points.T)
-    return np.stack([rows.min(axis=1), rows.max(axis=1)])
+    return np.array([rows.min(axis=1), rows.max(axis=1)])
 
 
 def extent_of_balls(points: NDArray[np.float32], width: float) -> NDArray[np.float32]:
@@ -109,18 +110,15 @@ def extent_of_balls(points: NDArray[np.float32], width: float) -> NDArray[np.flo
     return extent_of(points) + np.stack([-radius, radius])[:, None]
 
 
-def union(extents: list[NDArray[np.float32]]) -> NDArray[np.float32]:
-    """Extent (2, 3) that holds all the extents (2, 3)."""
-    corners = np.array(extents)
-    return np.stack([corners[:, 0].min(axis=0), corners[:, 1].max(axis=0)])
+def union(one: NDArray[np.float32], other: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Extent (2, 3) that holds both extents (2, 3)."""
+    return np.array([np.minimum(one[0], other[0]), np.maximum(one[1], other[1])])
 
 
 def _at_vertices(per_bubble: NDArray[np.float32], mesh: MeshDescription) -> NDArray[np.float32]:
     """Mean over the quads around each vertex: at a joint, the mean of the two bubbles."""
-    found = per_bubble[mesh.vertex_bubble]
-    seam = mesh.seam_corners
-    at_corners = per_bubble[mesh.quad_bubble[seam // 4]]
-    vertices, place = np.unique(mesh.quads.ravel()[seam], return_inverse=True)
-    total = np.bincount(place, weights=at_corners, minlength=len(vertices))
-    found[vertices] = total / mesh.quads_at_vertex[vertices]
+    found = per_bubble.take(mesh.vertex_bubble)
+    seam = mesh.seam
+    total = np.bincount(seam.place, weights=per_bubble.take(seam.bubble), minlength=len(seam.vertices))
+    found[seam.vertices] = total / seam.quads
     return found

@@ -10,7 +10,7 @@ from balloon_usd import __version__
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-SCHEMA = 2
+SCHEMA = 3
 """Version of the layout of prims, attributes and files."""
 
 KEY = "balloon_usd"

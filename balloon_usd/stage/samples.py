@@ -89,7 +89,9 @@ class SampleStream:
         layer = layers.samples
         self._tracks = Tracks.declare(layer, description)
         self._held = [HeldSamples(layer, part_path(description.name, air.name)) for air in description.airs]
-        self._stress = StressColors(layers.stress, description) if layers.stress else None
+        self._stress = (
+            StressColors(layers.stress, description, indexed=layers.apart) if layers.stress else None
+        )
         self._take: Take | None = None
         self._unsaved = 0
 
@@ -135,7 +137,7 @@ def _longer(take: Take | None, time_code: int, pose: Pose) -> Take:
     """The take with one more frame."""
     if take is None:
         return Take(time_code, time_code, pose, pose.extent)
-    return Take(take.first, time_code, pose, union([take.extent, pose.extent]))
+    return Take(take.first, time_code, pose, union(take.extent, pose.extent))
 
 
 def _write_steps(layer: Any, description: StageDescription, take: Take) -> None:

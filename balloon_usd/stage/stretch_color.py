@@ -66,13 +66,18 @@ def _shades() -> NDArray[np.float32]:
 RAMP = _shades()
 
 
-def stretch_colors(stretch: NDArray[np.float32], highest: float) -> NDArray[np.float32]:
-    """Colour (V, 3), linear rgb, of stretch (V,) on the ramp from `LOWEST_STRETCH` to `highest`.
+def stretch_shades(stretch: NDArray[np.float32], highest: float) -> NDArray[np.int32]:
+    """Number in `RAMP` (V,) int32 of the colour of stretch (V,), from `LOWEST_STRETCH` to `highest`.
 
     What lies beyond either end has the colour of that end.
     """
     share = (stretch - np.float32(LOWEST_STRETCH)) * np.float32(SHADES / (highest - LOWEST_STRETCH))
-    return np.take(RAMP, share.astype(np.int32), axis=0, mode="clip")
+    return np.clip(share, 0, SHADES - 1, out=share).astype(np.int32)
+
+
+def stretch_colors(stretch: NDArray[np.float32], highest: float) -> NDArray[np.float32]:
+    """Colour (V, 3), linear rgb, of stretch (V,), see `stretch_shades`."""
+    return RAMP.take(stretch_shades(stretch, highest), axis=0)
 
 
 def ramp_legend(highest: float) -> str:

@@ -40,7 +40,8 @@ def sample(file: str, path: str, time: float, change: Callable[[np.ndarray], np.
     def damage(folder: Path) -> None:
         layer = Sdf.Layer.FindOrOpen(str(folder / file))
         changed = np.ascontiguousarray(change(np.array(layer.QueryTimeSample(path, time))))
-        kind = Vt.FloatArray if changed.ndim == 1 else Vt.Vec3fArray
+        integers, vectors = changed.dtype.kind == "i", changed.ndim == 2
+        kind = Vt.IntArray if integers else Vt.Vec3fArray if vectors else Vt.FloatArray
         layer.SetTimeSample(path, time, kind.FromNumpy(changed))
         layer.Save()
 
@@ -51,6 +52,21 @@ def without_sample(file: str, path: str, time: float) -> Damage:
     def damage(folder: Path) -> None:
         layer = Sdf.Layer.FindOrOpen(str(folder / file))
         layer.EraseTimeSample(path, time)
+        layer.Save()
+
+    return damage
+
+
+def default(file: str, path: str, change: Callable[[np.ndarray], np.ndarray] | None) -> Damage:
+    """Change the default of an attribute in a layer; None removes the attribute with its samples."""
+
+    def damage(folder: Path) -> None:
+        layer = Sdf.Layer.FindOrOpen(str(folder / file))
+        spec = layer.GetAttributeAtPath(path)
+        if change is None:
+            spec.owner.RemoveProperty(spec)
+        else:
+            spec.default = np.ascontiguousarray(change(np.array(spec.default)))
         layer.Save()
 
     return damage
@@ -72,6 +88,11 @@ def geometry_above_samples(folder: Path) -> None:
 
 def hide_stretch(stage: Usd.Stage) -> None:
     stage.OverridePrim(MAIN).CreateAttribute("primvars:stretch", Sdf.ValueTypeNames.FloatArray).Set([1.0])
+
+
+def hide_shades(stage: Usd.Stage) -> None:
+    shades = stage.OverridePrim(MAIN).CreateAttribute(SHADES, Sdf.ValueTypeNames.IntArray)
+    shades.Set(Vt.IntArray(len(UsdGeom.Mesh.Get(stage, MAIN).GetPointsAttr().Get())))
 
 
 def absolute_sublayer(folder: Path) -> None:
@@ -123,6 +144,8 @@ def killed_run(folder: Path) -> None:
 
 SIM, GEO = "payload/draft_sim.usdc", "payload/draft_geo.usdc"
 STRESS = "payload/draft_stress.usdc"
+SHADES = "primvars:displayColor:indices"
+STILL_SHADES = f"/__finished__{MAIN.removeprefix('/dog')}.{SHADES}"
 
 LAYERED_DAMAGES: list[tuple[int, str, Damage]] = [
     (2, "a material beside the root", edited("dog.usda", outside_material)),
@@ -132,7 +155,8 @@ LAYERED_DAMAGES: list[tuple[int, str, Damage]] = [
     (5, "a default that hides samples", edited("dog.usda", hide_stretch)),
     (5, "a missing sample", without_sample(SIM, f"{MAIN}.points", 4)),
     (5, "a missing extent", without_sample(SIM, f"{MAIN}.extent", 4)),
-    (5, "a missing colour of stress", without_sample(STRESS, f"{MAIN}.primvars:displayColor", 4)),
+    (5, "a missing colour of stress", without_sample(STRESS, f"{MAIN}.{SHADES}", 4)),
+    (5, "a default that hides the colours of stress", edited("dog.usda", hide_shades)),
     (5, "a longer range", replaced("dog.usda", "endTimeCode = 12", "endTimeCode = 13")),
     (6, "an absolute sublayer", absolute_sublayer),
     (6, "a layer outside", layer_outside),
@@ -143,11 +167,19 @@ LAYERED_DAMAGES: list[tuple[int, str, Damage]] = [
     (14, "a loose extent", sample(SIM, f"{MAIN}.extent", 3, lambda e: e * np.float32(1.2))),
     (19, "a teleport", sample(SIM, f"{MAIN}.points", 6, first_row(0.9))),
     (20, "a stretch too few", sample(SIM, f"{MAIN}.primvars:stretch", 5, lambda x: x[1:])),
-    (20, "a colour of stress too few", sample(STRESS, f"{MAIN}.primvars:displayColor", 5, lambda x: x[1:])),
+    (20, "a colour of stress too few", sample(STRESS, f"{MAIN}.{SHADES}", 5, lambda x: x[1:])),
+    (20, "a colour beyond the ramp", sample(STRESS, f"{MAIN}.{SHADES}", 5, first_row(256))),
+    (20, "a colour before the ramp", sample(STRESS, f"{MAIN}.{SHADES}", 5, first_row(-1))),
+    (20, "no colours chosen from the ramp", default(STRESS, f"{MAIN}.{SHADES}", None)),
+    (20, "a ramp of one colour", default(STRESS, f"{MAIN}.primvars:displayColor", lambda c: c[:1])),
+    (20, "no colours chosen in the still", default(STRESS, STILL_SHADES, None)),
+    (20, "a colour of the still too few", default(STRESS, STILL_SHADES, lambda x: x[1:])),
+    (20, "a colour of the still beyond the ramp", default(STRESS, STILL_SHADES, first_row(256))),
     (22, "a material outside", edited("dog.usda", outside_material)),
     (22, "clay not bound", unbound("clay")),
     (22, "chrome not bound", unbound("chrome")),
     (24, "a resting pose of its own", sample(SIM, f"{MAIN}.points", 12, lambda p: p + np.float32(0.001))),
+    (24, "resting colours of its own", default(STRESS, f"{MAIN}.{SHADES}", lambda x: x * 0)),
     (30, "a killed run", killed_run),
     (31, "an instance", edited("dog.usda", instanced)),
     (32, "no clay", without_variant("payload/materials.usda", "/dog", "look", "clay")),

@@ -16,7 +16,7 @@ from balloon_usd import __version__
 from balloon_usd.diff import differences
 from balloon_usd.stage import StageError, write_stage
 from balloon_usd.stage.properties import check_variants
-from balloon_usd.stage.stretch_color import stretch_colors
+from balloon_usd.stage.stretch_color import RAMP, stretch_colors
 from balloon_usd.stage.wire_texture import CUT, LINE, SIDE, wire_png
 from tests.stage.capsule import Capsule
 from tests.stage.selections import complaints, every_selection
@@ -162,13 +162,39 @@ def test_stress_is_stretch_as_a_colour_at_every_vertex_and_time_code(tmp_path: P
     stage = Usd.Stage.Open(str(write_stage(sculpture(), stretched(5), tmp_path, look="stress").files[0]))
     color = UsdGeom.Mesh.Get(stage, "/dog/geo/render/main").GetDisplayColorPrimvar()
     assert color.GetInterpolation() == "vertex"
-    assert color.GetAttr().GetTimeSamples() == [1, 2, 3, 4, 5]
+    assert color.GetTimeSamples() == [1, 2, 3, 4, 5]
     for frame in stretched(5):
-        assert np.array_equal(color.Get(frame.time_code), stretch_colors(frame.stretch[0], 7.0))
-    assert color.Get() == color.Get(5)
+        shown = color.ComputeFlattened(frame.time_code)
+        assert np.array_equal(shown, stretch_colors(frame.stretch[0], 7.0))
+    assert color.ComputeFlattened() == color.ComputeFlattened(5)
     assert color.GetAttr().GetDocumentation().endswith("1 dark blue, 4 pale yellow, 7 dark red.")
     (source,), _ = surface_of(stage, "/dog/geo/render/main").GetInput("diffuseColor").GetConnectedSources()
     assert UsdShade.Shader(source.source.GetPrim()).GetInput("varname").Get() == "displayColor"
+
+
+@pytest.mark.parametrize("form", ["layered", "flat", "usdz"])
+def test_only_a_layered_stage_numbers_its_colours_since_readers_of_one_layer_may_know_no_indices(
+    form: str, tmp_path: Path
+) -> None:
+    one_layer = {form: True} if form != "layered" else {}
+    written = write_stage(sculpture(), stretched(3), tmp_path, look="stress", **one_layer)
+    stage = Usd.Stage.Open(str(written.files[0]))
+    color = UsdGeom.Mesh.Get(stage, "/dog/geo/render/main").GetDisplayColorPrimvar()
+    if form == "layered":
+        assert np.array_equal(color.Get(), RAMP)
+        assert (color.GetAttr().GetTimeSamples(), color.GetIndicesAttr().GetTimeSamples()) == ([], [1, 2, 3])
+    else:
+        assert not color.IsIndexed()
+        assert color.GetAttr().GetTimeSamples() == [1, 2, 3]
+
+
+def test_a_colour_of_a_layered_stage_takes_less_than_two_bytes_whatever_the_mesh(tmp_path: Path) -> None:
+    rings, count, any_stretch = 1250, 20, np.random.default_rng(7)
+    noise = [any_stretch.uniform(3.0, 5.0, 8 * rings + 2).astype(np.float32) for _ in range(count)]
+    moving = (replace(f, stretch=(n, n)) for f, n in zip(frames(count, rings), noise, strict=True))
+    write_stage(sculpture(rings), moving, tmp_path)
+    colors = sum(len(n) for n in noise)
+    assert (tmp_path / "dog" / "payload" / "draft_stress.usdc").stat().st_size < 2 * colors
 
 
 def test_the_colours_of_stress_are_only_read_in_its_look(dog: Usd.Stage) -> None:

@@ -83,13 +83,19 @@ def _other_times(shape: Any, times: Any) -> Iterator[Finding]:
     if not np.array_equal(shape.GetExtentAttr().GetTimeSamples(), times):
         yield Finding(5, "extent has other times than points", str(shape.GetPath()))
     seldom = isinstance(shape, UsdGeom.Points)
-    primvars = [v.GetAttr() for v in UsdGeom.PrimvarsAPI(shape).GetAuthoredPrimvars()]
+    primvars = _primvars(shape)
     for attribute in (shape.GetVelocitiesAttr(), *primvars):
         found = attribute.GetTimeSamples()
         if seldom and attribute in primvars and {*found} <= {*times.tolist()}:
             yield from _blends(attribute)
         elif (found or attribute.GetName() in MOVING) and not np.array_equal(found, times):
             yield Finding(5, "has other times than points", str(attribute.GetPath()))
+
+
+def _primvars(shape: Any) -> list[Any]:
+    """Attributes with the values and indices of the primvars of a shape."""
+    primvars = UsdGeom.PrimvarsAPI(shape).GetAuthoredPrimvars()
+    return [*(v.GetAttr() for v in primvars), *(v.GetIndicesAttr() for v in primvars if v.IsIndexed())]
 
 
 def _blends(attribute: Any) -> Iterator[Finding]:
@@ -160,9 +166,7 @@ def default_is_last(stage: Any) -> Iterator[Finding]:
     So do the extent and the primvars.
     """
     for shape in sculpted(stage, [*meshes_of(stage), *clouds_of(stage)]):
-        resting = [shape.GetPointsAttr(), shape.GetExtentAttr()]
-        resting += [v.GetAttr() for v in UsdGeom.PrimvarsAPI(shape).GetAuthoredPrimvars()]
-        for attribute in resting:
+        for attribute in (shape.GetPointsAttr(), shape.GetExtentAttr(), *_primvars(shape)):
             times = attribute.GetTimeSamples()
             if times and not np.array_equal(value_at(attribute, None), value_at(attribute, times[-1])):
                 name = attribute.GetName().removeprefix("primvars:")
