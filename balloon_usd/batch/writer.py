@@ -84,7 +84,7 @@ class Writer:
     def _survey_one(self, file: str) -> Facts | Refusal:
         try:
             return survey(file, self._order)
-        except Exception:  # noqa: BLE001  # no recipe takes another one along
+        except Exception:  # no recipe takes another one along
             return Refusal((f"{file}: {traceback.format_exc()}",))
 
     def _verify(self, asked: Verify) -> None:

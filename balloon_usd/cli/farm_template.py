@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from balloon_usd.batch.facts import LOOKS, WITH_AIR
 from balloon_usd.cli.failure import EXIT_CODES_HELP, ExitCode, Failure
-from balloon_usd.cli.form import Form
+from balloon_usd.cli.form import require_form
 from balloon_usd.cli.output import require_readable_name
 from balloon_usd.cli.run import run
 from balloon_usd.cli.sources import is_folder, plans_of, recipe_files
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
     from balloon_usd.farm import JobTemplate
     from balloon_usd.plan import Plan
 
-OF_RUN = ("device", "flat", "usdz", "look", "shot", "frames", "no_preview", "no_report")
+OF_RUN = ("devices", "flat", "usdz", "look", "shot", "frames", "no_preview", "no_report")
 """Options of `run` that are written into the template as they are given."""
 MOST_IN_CHUNK = 4096
 
@@ -66,9 +67,9 @@ def farm_template(
     """
     from balloon_usd.farm import JobTemplate, chunk_size, default_below  # noqa: PLC0415
 
-    form = Form(**{name: of_run[name] for name in ("flat", "usdz", "look", "shot")})
+    require_form(**{name: of_run[name] for name in ("flat", "usdz", "look", "shot")})
     plans = plans_of(recipe_files(recipes))
-    form.require_look(plans)
+    _require_air(plans, of_run["look"])
     _require_text(plans)
     require_readable_name(output)
     beside = _template_folder(template)
@@ -76,12 +77,12 @@ def farm_template(
     defaults = {name: default_below(folder, beside) for name, folder in folders.items()}
     job = JobTemplate(
         name=_job_name(plans),
-        chunks=_chunks(plans, chunk or chunk_size(of_run["device"]), folders["Recipes"]),
+        chunks=_chunks(plans, chunk or chunk_size(of_run["devices"][0]), folders["Recipes"]),
         recipes=defaults["Recipes"],
         output=defaults["Output"],
         detail=detail,
         options=_words(of_run),
-        gpus=_gpus(of_run["device"]),
+        gpus=_gpus(of_run["devices"]),
     )
     _write(job, template)
     for name, folder in folders.items():
@@ -91,6 +92,16 @@ def farm_template(
 
 
 farm_template.params += [option for option in run.params if option.name in {"detail", *OF_RUN}]
+
+
+def _require_air(plans: Sequence[Plan], look: str | None) -> None:
+    """Check that plans with a look that shows air have some."""
+    if look != WITH_AIR:
+        return
+    files = [plan.recipe.file for plan in plans if plan.recipe.physics.model != "kosaka"]
+    if files:
+        needs = f"--look {WITH_AIR} needs model: kosaka, take one of {', '.join(LOOKS)}"
+        raise Failure("\n".join(f"{file}: {needs}" for file in files), ExitCode.BAD_INPUT)
 
 
 def _require_text(plans: Sequence[Plan]) -> None:
@@ -151,15 +162,19 @@ def _words(of_run: dict[str, Any]) -> tuple[str, ...]:
     words: list[str] = []
     for option in run.params:
         value = of_run.get(option.name or "")
+        if isinstance(value, tuple):
+            value = ",".join(value)
         if value and value != option.default:
             words += [option.opts[0]] if value is True else [option.opts[0], str(value)]
     return tuple(words)
 
 
-def _gpus(device: str) -> int:
-    """Return how many GPUs a machine must have that makes them on a device: cuda:1 is the second."""
-    kind, _, number = device.partition(":")
-    return int(number or 0) + 1 if kind == "cuda" else 0
+def _gpus(devices: Sequence[str]) -> int:
+    """Return how many GPUs a machine must have that makes them on devices: cuda:1 is the second."""
+    if devices == ("all",):
+        return 1
+    named = [device.partition(":") for device in devices]
+    return max(int(number or 0) + 1 if kind == "cuda" else 0 for kind, _, number in named)
 
 
 def _write(job: JobTemplate, template: Path | None) -> None:

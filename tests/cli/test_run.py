@@ -252,9 +252,7 @@ def test_an_interrupted_run_leaves_nothing(cli, solver, write_recipe, left, monk
     assert left() == []
 
 
-def test_an_unforeseen_error_leaves_nothing_and_takes_no_other_recipe_along(
-    cli, solver, write_recipe, left
-):
+def test_an_unforeseen_error_leaves_nothing_and_takes_no_other_recipe_along(cli, solver, write_recipe, left):
     solver.trouble = {"bad": ZeroDivisionError("what?")}
     result = cli("run", write_recipe("bad"), write_recipe(), "-o", "out", "--no-preview", "--flat")
     assert result.exit_code == 1

@@ -49,7 +49,13 @@ class FakeSimulation:
         if code == 3 and isinstance(trouble, BaseException):
             raise trouble
         if isinstance(trouble, tuple):
-            return SimulationFailed(*trouble) if code == 3 else None if code > 3 else self._made(plan, meshes, code)
+            return (
+                SimulationFailed(*trouble)
+                if code == 3
+                else None
+                if code > 3
+                else self._made(plan, meshes, code)
+            )
         return self._made(plan, meshes, code, undone=trouble == "undone")
 
     def _act(self, trouble, name):
