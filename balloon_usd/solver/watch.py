@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan, Strip
     from balloon_usd.solver.frame import Frame
-    from balloon_usd.solver.sight import Sight
+    from balloon_usd.solver.sight import Place, Sight
 
 FASTEST = 5.0
 """Speed that no part of a balloon reaches between two frames unless the run has gone unstable, m/s."""
@@ -118,23 +118,29 @@ class Lookout:
     """Looks at all sculptures of a flat state at once, and closely only where something is wrong."""
 
     def __init__(
-        self, plans: Sequence[Plan], meshes: Sequence[tuple[BalloonMesh, ...]], fps: float, substeps: int
+        self,
+        plans: Sequence[Plan],
+        meshes: Sequence[tuple[BalloonMesh, ...]],
+        places: Sequence[Place],
+        fps: float,
+        substeps: int,
     ) -> None:
+        """Look at plans that lie at these places in the sights."""
+        self._places = places
         self._watches = [Watch(plan, m, fps, substeps) for plan, m in zip(plans, meshes, strict=True)]
         self._fps = fps
-        vertices = [sum(len(mesh.points) for mesh in m) for m in meshes]
-        self._vertex = np.cumsum([0, *vertices[:-1]])
+        self._vertex = np.array([place.walls[0].start for place in places])
         """First vertex of every sculpture, (W,)."""
-        self._bubble = np.cumsum([0, *(len(plan.bubbles) for plan in plans[:-1])])
+        self._bubble = np.array([place.bubbles.start for place in places])
         """First bubble of every sculpture, (W,)."""
         self._stops = np.array([plan.recipe.physics.burst == "stop" for plan in plans])
-        self._last: NDArray[np.float32] | None = None
-        self._suspect = np.zeros(len(plans), dtype=bool)
+        self._sight: Sight | None = None
+        self._last: Sight | None = None
 
-    def look(self, sight: Sight) -> None:
-        """Find the sculptures in which something may be wrong."""
-        last = sight.points if self._last is None else self._last
-        self._last = sight.points
+    def look(self, sight: Sight) -> list[int]:
+        """Find the sculptures in which something may be wrong; the sight before must be as it was."""
+        self._last, self._sight = self._sight, sight
+        last = sight.points if self._last is None else self._last.points
         # What has failed may be anything; it stays a suspect.
         with np.errstate(invalid="ignore", over="ignore"):
             moved = sight.points - last
@@ -147,14 +153,15 @@ class Lookout:
             well &= ~self._stops | (tightest <= BURST_STRETCH)
         for bound in (tightest, slackest, largest, smallest):
             well &= np.isfinite(bound)
-        self._suspect = ~well
+        return np.flatnonzero(~well).tolist()
 
-    def failure(self, world: int, frame: Frame) -> str | None:
-        """Return what is wrong with the frame of a sculpture that was last looked at, or None."""
-        if self._suspect[world]:
-            return self._watches[world].failure(frame)
-        self._watches[world].pass_over(frame)
-        return None
+    def failure(self, world: int) -> str | None:
+        """Return what is wrong with a sculpture that was last looked at, or None."""
+        assert self._sight is not None, "nothing was looked at"
+        place, watch = self._places[world], self._watches[world]
+        if self._last is not None:
+            watch.pass_over(self._last.frame(place, 0))
+        return watch.failure(self._sight.frame(place, 0))
 
 
 def _range(values: NDArray[np.float32], first: NDArray[np.int64]) -> tuple[NDArray[np.float32], ...]:
@@ -162,8 +169,6 @@ def _range(values: NDArray[np.float32], first: NDArray[np.int64]) -> tuple[NDArr
     return np.maximum.reduceat(values, first), np.minimum.reduceat(values, first)
 
 
-def crowded(most_hits: int) -> str | None:
-    """Tell when more vertices have pressed on one face at a time than there is room for."""
-    if most_hits <= HITS:
-        return None
+def crowded(most_hits: int) -> str:
+    """Tell that more vertices have pressed on one face at a time than there is room for."""
     return f"{most_hits} vertices press on one face but there is room for {HITS}: use a finer detail"

@@ -14,7 +14,7 @@ from balloon_usd.recipe import Recipe
 from balloon_usd.solver.errors import SimulationFailed
 from balloon_usd.solver.frame import Frame
 from balloon_usd.solver.remedy import steadier
-from balloon_usd.solver.sight import Sight
+from balloon_usd.solver.sight import Extent, Place, Sight
 from balloon_usd.solver.watch import Lookout, Watch
 
 RECIPE = """\
@@ -165,35 +165,47 @@ def copied(frame):
     )
 
 
+def lookout_over(scenes):
+    """Who looks at several sculptures that lie one after another."""
+    places, before = [], Extent(0, 0)
+    for scene in scenes:
+        own = Extent(len(scene.frame.points[0]), len(scene.frame.volume))
+        places.append(Place((slice(0, own.vertices),), slice(0, own.bubbles)).after(before))
+        before = Extent.of([before, own])
+    return Lookout([s.plan for s in scenes], [s.meshes for s in scenes], places, 24.0, 100)
+
+
+def causes(lookout, frames):
+    """What is wrong with each of several sculptures."""
+    suspects = lookout.look(sight_of(frames))
+    return [lookout.failure(k) if k in suspects else None for k in range(len(frames))]
+
+
 @pytest.mark.parametrize("spoil", WRONG)
 @pytest.mark.parametrize("bubble", ["nose", "tail"])
 def test_a_look_at_all_sculptures_finds_the_one_in_which_something_is_wrong(spoil, bubble):
     scenes = [Scene("physics: {burst: stop}\n") for _ in range(3)]
-    lookout = Lookout([s.plan for s in scenes], [s.meshes for s in scenes], 24.0, 100)
+    lookout = lookout_over(scenes)
     frames = [copied(s.frame) for s in scenes]
-    lookout.look(sight_of(frames))
-    assert [lookout.failure(k, frame) for k, frame in enumerate(frames)] == [None] * 3
+    assert causes(lookout, frames) == [None] * 3
     frames = [copied(frame) for frame in frames]
     spoil(frames[1], scenes[1].of(bubble))
     scenes[1].watch.failure(scenes[1].frame)
     cause = scenes[1].watch.failure(frames[1])
-    lookout.look(sight_of(frames))
-    assert [lookout.failure(k, frame) for k, frame in enumerate(frames)] == [None, cause, None]
+    assert causes(lookout, frames) == [None, cause, None]
     assert cause is not None
     # What has failed is nobody else's failure in the frames that follow.
     frames = [copied(frame) for frame in frames]
-    lookout.look(sight_of(frames))
-    assert [lookout.failure(k, frames[k]) for k in (0, 2)] == [None, None]
+    assert causes(lookout, frames)[::2] == [None, None]
 
 
 def test_a_first_frame_that_is_no_number_is_found_among_others():
     scenes = [Scene() for _ in range(2)]
-    lookout = Lookout([s.plan for s in scenes], [s.meshes for s in scenes], 24.0, 100)
     frames = [copied(s.frame) for s in scenes]
     frames[0].points[0][:] = np.inf
-    lookout.look(sight_of(frames))
-    assert lookout.failure(0, frames[0]).startswith("balloon main has flown apart")
-    assert lookout.failure(1, frames[1]) is None
+    lost, well = causes(lookout_over(scenes), frames)
+    assert lost.startswith("balloon main has flown apart")
+    assert well is None
 
 
 @pytest.mark.parametrize(
