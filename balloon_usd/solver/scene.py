@@ -133,7 +133,11 @@ def _contact_arrays(scene: Scene) -> None:
     scene.zeros("touching", len(scene.bodies), int)
     scene.zeros("hit_count", quads, int)
     scene.zeros("hits", (quads, HITS), int)
-    scene.zeros("most_hits", max(scene.worlds) + 1, int)
+    # Vertices that touch a wall, as twice their number and which of their walls; quads that are touched.
+    scene.zeros("pairs", TARGETS * vertices, int)
+    scene.zeros("pressed", quads, int)
+    for name in ("most_hits", "pair_count", "pressed_count"):
+        scene.zeros(name, max(scene.worlds) + 1, int)
     scene.touch.offset = scene.settings.contact_offset
     scene.touch.pressure = scene.settings.contact_pressure
     scene.touch.margin = 0.5 * scene.settings.contact_offset

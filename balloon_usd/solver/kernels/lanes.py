@@ -107,22 +107,12 @@ def lanes_that(yes: int) -> int:
 #if defined(__CUDA_ARCH__)
 return __ffs(bits) - 1;
 #else
-return 0;
+return __builtin_ctz(bits);
 #endif
 """)
 def lowest(bits: int) -> int:
-    """Return the first of some lanes, given as bits that are not all 0."""
+    """Return the first of some bits that are not all 0, such as those of lanes."""
     return bits
-
-
-@native(
-    _OVER_LANES.format(
-        lanes=WARP, type="float", add="total = fminf(total, __shfl_xor_sync(0xffffffffu, total, step));"
-    ),
-)
-def lanes_least(value: float) -> float:
-    """Return the smallest value over the lanes of a warp."""
-    return value
 
 
 @native(

@@ -4,8 +4,16 @@ other, in place of a launch for each law.
 
 import warp as wp
 
-from balloon_usd.solver.kernels.at import int_at, int_in, put_float, put_vec3, vec3_at
-from balloon_usd.solver.kernels.contact import Touch, press_quad_back, press_wall
+from balloon_usd.solver.kernels.at import (
+    int_at,
+    int_in,
+    put_float,
+    put_vec3,
+    vec3_at,
+    vec4_at,
+    vec4i_at,
+)
+from balloon_usd.solver.kernels.contact import Touch, limits_of_pair, press_quad_back, press_wall
 from balloon_usd.solver.kernels.core import cores_may_pack, press_core, yield_to_core
 from balloon_usd.solver.kernels.fingers import Finger, press_finger
 from balloon_usd.solver.kernels.gas import Air, advance_gas, shares_of_chunks, volume_of_fans
@@ -158,6 +166,10 @@ def advance_sculptures(
     ring_radius: wp.array[float],
     target: wp.array2d[int],
     hit_count: wp.array[int],
+    pair_count: wp.array[int],
+    pairs: wp.array[int],
+    pressed_count: wp.array[int],
+    pressed: wp.array[int],
     v: wp.array[wp.vec3],
     slip: wp.array2d[wp.vec3],
     contact_force: wp.array2d[float],
@@ -177,6 +189,8 @@ def advance_sculptures(
     peak_energy: wp.array[float],
     x_next: wp.array[wp.vec3],
     chunk_share: wp.array[float],
+    pair_corners: wp.array[wp.vec4i],
+    pair_limits: wp.array[wp.vec4],
     gates: wp.array[int],
 ):
     """Advance every sculpture from substep `begin` to `end` of its frame.
@@ -218,6 +232,27 @@ def advance_sculptures(
     core_begin = int_at(world_core, w)
     core_end = wp.where(walls == 1, int_at(world_core, w + 1), core_begin)
     welds = int_at(world_welds, w)
+    pair_begin = 2 * vertex_begin
+    pair_end = pair_begin + int_at(pair_count, w)
+    pressed_end = quad_begin + int_at(pressed_count, w)
+    if walls == 1:
+        # Each lane reads in every substep what it wrote itself.
+        for at in range(pair_begin + lanes - 1 - me, pair_end, lanes):
+            touched, limits = limits_of_pair(
+                int_at(pairs, at),
+                quads,
+                mass,
+                touch,
+                friction,
+                vertex_balloon,
+                dt,
+                area,
+                quad_area,
+                target,
+                hit_count,
+            )
+            pair_corners[at] = touched
+            pair_limits[at] = limits
     take_room()
     faces = quad_end - quad_begin
     places = PLACE * (vertex_end - vertex_begin)
@@ -298,19 +333,13 @@ def advance_sculptures(
                 ring_area,
             )
         if walls == 1:
-            for i in range(vertex_begin + lanes - 1 - me, vertex_end, lanes):
+            for at in range(pair_begin + lanes - 1 - me, pair_end, lanes):
                 press_wall(
-                    i,
-                    quads,
-                    mass,
-                    touch,
-                    friction,
-                    vertex_balloon,
+                    int_at(pairs, at),
+                    vec4i_at(pair_corners, at),
+                    vec4_at(pair_limits, at),
+                    touch.offset,
                     dt,
-                    area,
-                    quad_area,
-                    target,
-                    hit_count,
                     x_here,
                     v_here,
                     slip,
@@ -393,9 +422,16 @@ def advance_sculptures(
                 )
         if other >= 0:
             if walls == 1:
-                for q in range(quad_begin + other, quad_end, others):
+                for at in range(quad_begin + other, pressed_end, others):
                     press_quad_back(
-                        q, quads, hit_count, hits, contact_force, contact_place, x_here, force_here
+                        int_at(pressed, at),
+                        quads,
+                        hit_count,
+                        hits,
+                        contact_force,
+                        contact_place,
+                        x_here,
+                        force_here,
                     )
             slots = joint_struts.shape[1]
             # From the other end: those that press no wall back.

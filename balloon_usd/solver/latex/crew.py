@@ -37,8 +37,6 @@ class Crew:
         scene.zeros("chunk_share", len(scene.chunk_low), float)
         for name, starts in (
             ("balloon", np.arange(len(scene.bodies) + 1)),
-            ("quad", scene.quad_start),
-            ("vertex", scene.vertex_start),
             ("segment", scene.segment_start),
             ("joint", scene.joint_start),
         ):
