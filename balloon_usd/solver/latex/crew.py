@@ -11,7 +11,7 @@ import numpy as np
 import warp as wp
 
 from balloon_usd.solver.kernels.home import FORCE_BYTES, NEAR, PLACE_BYTES
-from balloon_usd.solver.kernels.lanes import WARP
+from balloon_usd.solver.kernels.lanes import HALF, WARP
 from balloon_usd.solver.kernels.sculpture import advance_sculptures
 from balloon_usd.solver.kernels.seen import ALONE
 from balloon_usd.solver.latex.quick_kernel import BESIDE, quick_kernel, room_inside
@@ -47,7 +47,9 @@ class Crew:
         self._kernel = advance_sculptures
         if device.is_cuda:
             cores = any(body.packs for body in scene.bodies)
-            self._kernel = quick_kernel(self.lanes, room_inside(device), cores=cores)
+            around = int(scene.joint_around.numpy().max())
+            joint = HALF if around <= HALF else WARP
+            self._kernel = quick_kernel(self.lanes, room_inside(device), cores=cores, joint=joint)
         scene.zeros("gates", worlds, int)
 
     def advance(
