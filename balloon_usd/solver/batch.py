@@ -74,13 +74,13 @@ class Batch:
             if index and not self._ahead:
                 self._advance(index)
             self.model.look()
-            sight, told = self.model.sight, self.model.told
+            sight, told, suspects = self.model.sight, self.model.told, self.model.suspects
             causes = self.model.failures()
             # A plan that fails in this frame still takes part in the next one, unseen.
             if self._ahead and self.goes_on(index + 1):
                 self._advance(index + 1)
             sight.copy_to(into)
-            for world in self._lookout.look(sight):
+            for world in self._lookout.look(sight, suspects):
                 if self._made(index)[world] and (cause := self._lookout.failure(world)):
                     causes[world] = cause
             changes = self._changes(index, told, causes)

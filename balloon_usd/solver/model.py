@@ -7,6 +7,9 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    import numpy as np
+    from numpy.typing import NDArray
+
     from balloon_usd.balloon.detail import Detail
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
@@ -45,6 +48,10 @@ class Model(Protocol):
     @property
     def told(self) -> Sequence[Told]:
         """What was told of every sculpture by then."""
+
+    @property
+    def suspects(self) -> NDArray[np.int32]:
+        """1 for every sculpture with walls that went too far or are stretched too much, (W,)."""
 
     def failures(self) -> dict[int, str]:
         """Return what is wrong with sculptures in a way that their frames do not show."""

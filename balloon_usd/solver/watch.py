@@ -9,6 +9,7 @@ import numpy as np
 from balloon_usd.balloon.rubber import BURST_STRETCH
 from balloon_usd.solver.kernels.contact import HITS
 from balloon_usd.solver.remedy import steadier
+from balloon_usd.solver.scene import NO_LIMIT
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -115,7 +116,7 @@ class Watch:
 
 
 class Lookout:
-    """Looks at all sculptures of a flat state at once, and closely only where something is wrong."""
+    """Looks closely at those sculptures of a flat state in which something may be wrong."""
 
     def __init__(
         self,
@@ -128,32 +129,22 @@ class Lookout:
         """Look at plans that lie at these places in the sights."""
         self._places = places
         self._watches = [Watch(plan, m, fps, substeps) for plan, m in zip(plans, meshes, strict=True)]
-        self._fps = fps
-        self._vertex = np.array([place.walls[0].start for place in places])
-        """First vertex of every sculpture, (W,)."""
         self._bubble = np.array([place.bubbles.start for place in places])
         """First bubble of every sculpture, (W,)."""
-        self._stops = np.array([plan.recipe.physics.burst == "stop" for plan in plans])
         self._sight: Sight | None = None
         self._last: Sight | None = None
 
-    def look(self, sight: Sight) -> list[int]:
-        """Find the sculptures in which something may be wrong; the sight before must be as it was."""
+    def look(self, sight: Sight, suspects: NDArray[np.int32]) -> list[int]:
+        """Return the sculptures in which something may be wrong; the sight before must be as it was.
+
+        `suspects`: 1 for those with walls that went too far or are stretched too much, (W,).
+        """
         self._last, self._sight = self._sight, sight
-        last = sight.points if self._last is None else self._last.points
-        # What has failed may be anything; it stays a suspect.
-        with np.errstate(invalid="ignore", over="ignore"):
-            moved = sight.points - last
-            np.abs(moved, out=moved)
-            most = np.maximum.reduceat(moved.reshape(-1), 3 * self._vertex).astype(np.float64)
-            tightest, slackest = _range(sight.stretch, self._vertex)
-            largest, smallest = _range(sight.volume, self._bubble)
-            lowest = np.minimum.reduceat(sight.pressure, self._bubble)
-            well = (most * self._fps <= FASTEST) & (lowest > LOWEST_PRESSURE)
-            well &= ~self._stops | (tightest <= BURST_STRETCH)
-        for bound in (tightest, slackest, largest, smallest):
-            well &= np.isfinite(bound)
-        return np.flatnonzero(~well).tolist()
+        # What is no number is not higher than anything.
+        gas = (sight.pressure > LOWEST_PRESSURE) & np.isfinite(sight.volume)
+        if not suspects.any() and gas.all():
+            return []
+        return np.flatnonzero((suspects != 0) | ~np.logical_and.reduceat(gas, self._bubble)).tolist()
 
     def failure(self, world: int) -> str | None:
         """Return what is wrong with a sculpture that was last looked at, or None."""
@@ -164,9 +155,18 @@ class Lookout:
         return watch.failure(self._sight.frame(place, 0))
 
 
-def _range(values: NDArray[np.float32], first: NDArray[np.int64]) -> tuple[NDArray[np.float32], ...]:
-    """Return the highest and the lowest value of every run; no numbers where one is none."""
-    return np.maximum.reduceat(values, first), np.minimum.reduceat(values, first)
+def most_way(seconds: float) -> float:
+    """Return how far (m) a wall may go in some seconds before it is looked at closely, just below too far."""
+    return 0.999 * FASTEST * seconds
+
+
+def most_stretches(plans: Sequence[Plan], bodies: Sequence[range]) -> NDArray[np.float32]:
+    """Return how far every balloon may be stretched before it is looked at closely, (B,).
+
+    `bodies`: balloons of every plan.
+    """
+    limits = [BURST_STRETCH if plan.recipe.physics.burst == "stop" else NO_LIMIT for plan in plans]
+    return np.repeat(limits, [len(run) for run in bodies]).astype(np.float32)
 
 
 def crowded(most_hits: int) -> str:

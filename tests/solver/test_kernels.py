@@ -39,6 +39,7 @@ CHANGING = {
     "end",
     "walls",
     "pressing",
+    "most_way",
 }
 """Arguments that are no arrays of the scene."""
 

@@ -21,6 +21,7 @@ from balloon_usd.solver.mirror import Mirror
 from balloon_usd.solver.model import Told
 from balloon_usd.solver.settings import SceneSettings
 from balloon_usd.solver.sight import Sight
+from balloon_usd.solver.watch import most_stretches
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -40,6 +41,7 @@ LOOKED_AT = (
     "air",
     "ring_middle",
     "fastest",
+    "suspects",
 )
 """Arrays of which frames are made."""
 
@@ -91,6 +93,7 @@ class KosakaModel:
             contact_offset=min(b.parameters.contact_offset for b in bodies),
         )
         self.scene = kosaka_scene(bodies, worlds, settings, device)
+        self.scene.most_stretch.assign(most_stretches(plans, self._bodies))
         self._mirror = Mirror(self.scene, LOOKED_AT)
         self.stepper = KosakaStepper(self.scene, substeps, _quad_half(bodies), self._mirror)
         self.hands = _hands(self.scene)
@@ -191,6 +194,12 @@ class KosakaModel:
             air=seen["air"],
             cluster=cluster.astype(np.int32),
         )
+
+    @property
+    def suspects(self) -> NDArray[np.int32]:
+        """1 for every sculpture with walls that went too far or are stretched too much, (W,)."""
+        suspects: NDArray[np.int32] = self._seen["suspects"]
+        return suspects
 
     def failures(self) -> dict[int, str]:
         """Return what is wrong with sculptures in a way that their frames do not show."""

@@ -23,7 +23,7 @@ from balloon_usd.solver.mirror import Mirror
 from balloon_usd.solver.model import Told
 from balloon_usd.solver.settings import SceneSettings
 from balloon_usd.solver.sight import Sight
-from balloon_usd.solver.watch import crowded
+from balloon_usd.solver.watch import crowded, most_stretches
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -40,7 +40,17 @@ STRUTS_PER_JOINT = 12
 """Room for struts, per joint of the scene."""
 SHORT_OF_GAS = 0.98
 """Share of the wanted gas below which inflating counts as failed."""
-LOOKED_AT = ("x", "stretch", "pressure", "volume", "most_hits", "amount", "ring_middle", "wall_load")
+LOOKED_AT = (
+    "x",
+    "stretch",
+    "pressure",
+    "volume",
+    "most_hits",
+    "amount",
+    "ring_middle",
+    "wall_load",
+    "suspects",
+)
 """Arrays of which frames are made."""
 
 
@@ -67,6 +77,7 @@ class LatexModel:
         )
         rings = sum(len(b.rings) for b in bodies)
         self.scene = build_scene(bodies, worlds, settings, device, rings, STRUTS_PER_JOINT * rings)
+        self.scene.most_stretch.assign(most_stretches(plans, self._bodies))
         self.stepper = Stepper(self.scene, substeps)
         self.hands = LatexHands(self.scene)
         self._struts = Struts(self.scene, StrutLaw())
@@ -125,6 +136,12 @@ class LatexModel:
         seen, bubbles = self._seen, self.layout.bubbles
         gas = (seen[name][bubbles] for name in ("pressure", "volume", "wall_load"))
         return Sight(seen["x"], seen["stretch"], *gas)
+
+    @property
+    def suspects(self) -> NDArray[np.int32]:
+        """1 for every sculpture with walls that went too far or are stretched too much, (W,)."""
+        suspects: NDArray[np.int32] = self._seen["suspects"]
+        return suspects
 
     def failures(self) -> dict[int, str]:
         """Return what is wrong with sculptures in a way that their frames do not show."""
