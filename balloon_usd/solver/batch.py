@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
+from itertools import accumulate
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from balloon_usd.solver.errors import SimulationFailed
-from balloon_usd.solver.frame import Frame
+from balloon_usd.solver.sight import Extent
+from balloon_usd.solver.snapshot import Change, Snapshot
 from balloon_usd.solver.turns import turn
 from balloon_usd.solver.watch import Lookout
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Callable, Generator, Iterable, Sequence
+
+    from numpy.typing import NDArray
 
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
-    from balloon_usd.solver.model import Model, ModelMaker
-
-Outcome = Frame | SimulationFailed | None
-"""What a frame brings for a plan: the frame, its failure, or nothing as it is over."""
+    from balloon_usd.solver.model import Model, ModelMaker, Told
+    from balloon_usd.solver.sight import Sight
+    from balloon_usd.solver.snapshot import Memory
 
 
 class Batch:
@@ -39,53 +44,107 @@ class Batch:
         `ahead`: make the next frame while one is checked and given out.
         """
         self._fps = plans[0].recipe.fps
-        self._counts = tuple(frame_counts)
-        self._over = [False] * len(plans)
+        self._counts = np.array(frame_counts)
+        self._over = np.zeros(len(plans), dtype=bool)
+        """Plans that have failed."""
         self._ahead = ahead
         with turn():
             self.model: Model = model(plans, meshes, self._fps, substeps, device)
-        self._lookout = Lookout(plans, meshes, self._fps, substeps)
+        self._lookout = Lookout(plans, meshes, self.model.layout.places, self._fps, substeps)
+        self._told: Sequence[Told | None] = [None] * len(plans)
+        """What was told of every plan so far."""
 
     def __len__(self) -> int:
         """Return the number of plans."""
         return len(self._counts)
 
-    def frames(self) -> Iterator[list[Outcome]]:
-        """Yield the next frame of every plan until all are finished or have failed."""
-        try:
-            for index in range(max(self._counts)):
-                yield self._next(index)
-                if not self._goes_on(index + 1):
-                    return
-        finally:
-            # What was begun ahead ends before its arrays go.
-            self.model.rest()
+    def rest(self) -> None:
+        """Wait until nothing is under way."""
+        self.model.rest()
 
-    def _next(self, index: int) -> list[Outcome]:
-        """Return the frame of an index, after whose makers and physics those of the next have begun."""
+    def goes_on(self, index: int) -> bool:
+        """Tell whether any plan has the frame of an index."""
+        return bool(self._made(index).any())
+
+    def snapshot(self, index: int, into: Sight) -> Snapshot:
+        """Return the frame of an index, written into a sight; the makers and the physics of the next have
+        begun then.
+        """
         with turn():
             if index and not self._ahead:
                 self._advance(index)
             self.model.look()
+            sight, told, suspects = self.model.sight, self.model.told, self.model.suspects
+            causes = self.model.failures()
             # A plan that fails in this frame still takes part in the next one, unseen.
-            if self._ahead and self._goes_on(index + 1):
+            if self._ahead and self.goes_on(index + 1):
                 self._advance(index + 1)
-            self._lookout.look(self.model.sight)
-            return [self._outcome(world, index) for world in range(len(self))]
+            sight.copy_to(into)
+            for world in self._lookout.look(sight, suspects):
+                if self._made(index)[world] and (cause := self._lookout.failure(world)):
+                    causes[world] = cause
+            changes = self._changes(index, told, causes)
+        return Snapshot(index + 1, into, self._made(index), changes)
 
     def _advance(self, index: int) -> None:
         self.model.advance((index - 1) / self._fps, index / self._fps)
 
-    def _goes_on(self, index: int) -> bool:
-        return any(index < count and not over for count, over in zip(self._counts, self._over, strict=True))
+    def _made(self, index: int) -> NDArray[np.bool_]:
+        """Return which plans have the frame of an index, (plans,)."""
+        return (index < self._counts) & ~self._over
 
-    def _outcome(self, world: int, index: int) -> Outcome:
-        if self._over[world] or index >= self._counts[world]:
-            return None
-        frame = self.model.frame(world, index + 1)
-        cause = self._lookout.failure(world, frame) or self.model.failure(world)
-        if cause is None:
-            return frame
-        self._over[world] = True
-        self.model.give_up(world)
-        return SimulationFailed(frame.doing, index / self._fps, cause, index + 1)
+    def _changes(self, index: int, told: Sequence[Told], causes: dict[int, str]) -> list[Change]:
+        """Return what is new, and give up the plans that have failed, by the causes."""
+        made = self._made(index)
+        before, self._told = self._told, told
+        fresh = {k: Change(k, *now) for k, now in enumerate(told) if now != before[k] and made[k]}
+        for world, cause in causes.items():
+            if made[world]:
+                self._over[world] = True
+                self.model.give_up(world)
+                failed = SimulationFailed(told[world].doing, index / self._fps, cause, index + 1)
+                fresh[world] = Change(world, *told[world], failed)
+        return [fresh[world] for world in sorted(fresh)]
+
+
+def snapshots_of(
+    batches: Sequence[Batch],
+    memory: Memory,
+    ask: Callable[..., Iterable[Snapshot]] = map,
+) -> Generator[Snapshot]:
+    """Yield all plans of some batches together, frame by frame, until all are finished or have failed.
+
+    `memory`: gives the sight of all into which each is written; `ask`: as `map`.
+    """
+    extents = [batch.model.layout.extent for batch in batches]
+    befores = list(accumulate(extents, lambda *both: Extent.of(both), initial=extents[0].nothing))[:-1]
+    index = 0
+    try:
+        while any(batch.goes_on(index) for batch in batches):
+            whole = memory()
+            parts = [whole.part(*span) for span in zip(befores, extents, strict=True)]
+            shots = list(ask(_next, batches, parts, [index] * len(parts)))
+            yield shots[0] if len(batches) == 1 else _together(index, whole, shots)
+            index += 1
+    finally:
+        # What was begun ahead ends before its arrays go.
+        for batch in batches:
+            batch.rest()
+
+
+def _next(batch: Batch, part: Sight, index: int) -> Snapshot:
+    """Return the next snapshot of a batch; nothing is done for one whose plans are all over."""
+    if batch.goes_on(index):
+        return batch.snapshot(index, part)
+    return Snapshot(index + 1, part, np.zeros(len(batch), dtype=bool), [])
+
+
+def _together(index: int, whole: Sight, shots: Sequence[Snapshot]) -> Snapshot:
+    """Return the snapshots of batches as one."""
+    first = accumulate([len(shot.made) for shot in shots[:-1]], initial=0)
+    changes = [
+        change._replace(plan=before + change.plan)
+        for before, shot in zip(first, shots, strict=True)
+        for change in shot.changes
+    ]
+    return Snapshot(index + 1, whole, np.concatenate([shot.made for shot in shots]), changes)

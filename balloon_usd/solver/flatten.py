@@ -133,6 +133,10 @@ def chunk_arrays(scene: Scene, host: Arrays) -> None:
     """Chunks: runs of quads of one segment that a warp of lanes works on at once."""
     host["chunk_quad"], host["segment_chunk"] = chunks_of(host["segment_quad"], host["segment_quad_end"])
     host["chunk_origin"] = np.repeat(host["segment_origin"], np.diff(host["segment_chunk"]))
+    host["world_quad"], host["world_vertex"] = (
+        scene.by_world(scene.quad_start),
+        scene.by_world(scene.vertex_start),
+    )
     host["world_chunk"] = scene.by_world(host["segment_chunk"][scene.segment_start])
 
 

@@ -39,6 +39,10 @@ class Launcher:
         for kernel in kernels:
             wp.load_module(kernel.module, device=self.scene.device, block_dim=lanes)
 
+    def lanes(self, wanted: int) -> int:
+        """Return how many lanes a block has that is launched with so many: on the CPU one."""
+        return wanted if wp.get_device(self.scene.device).is_cuda else 1
+
     def launch(self, kernel: Any, dim: int | tuple[int, ...], **changing: Any) -> None:
         """Launch a kernel over `dim` threads."""
         wp.launch(kernel, dim=dim, inputs=self._inputs(kernel, changing), device=self.scene.device)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from itertools import accumulate
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from balloon_usd.solver.sight import Extent, Place
 from balloon_usd.solver.watch import FARTHEST
 
 if TYPE_CHECKING:
@@ -16,28 +18,22 @@ if TYPE_CHECKING:
     from balloon_usd.solver.scene import Scene
 
 
-class Place(NamedTuple):
-    """Where one sculpture lies."""
-
-    walls: tuple[slice, ...]
-    """Vertices of every balloon, among all vertices."""
-    bubbles: slice
-    """Its bubbles, among the bubbles of all sculptures."""
-
-
 class Layout:
     """Vertices, bubbles and rings of the sculptures of a scene."""
 
-    def __init__(self, scene: Scene, bodies: Sequence[range]) -> None:
-        """Look them up once; `bodies`: of every sculpture."""
+    def __init__(self, scene: Scene, bodies: Sequence[range], particles: Sequence[int] | None = None) -> None:
+        """Look them up once; `bodies`: of every sculpture; `particles`: air particles of every body."""
         of_world = [np.concatenate([scene.bubbles_of(b) for b in run]) for run in bodies]
         self.bubbles = np.concatenate(of_world)
         """Segments that are bubbles, sculpture by sculpture."""
-        first = np.cumsum([0, *(len(bubbles) for bubbles in of_world)]).tolist()
-        vertex = scene.vertex_start.tolist()
+        air = None if particles is None else sum(particles)
+        self.extent = Extent(int(scene.vertex_start[-1]), len(self.bubbles), air)
+        """Of all sculptures."""
+        walls = _spans(np.diff(scene.vertex_start).tolist())
+        airs = None if particles is None else _spans(particles)
         self.places = [
-            Place(tuple(slice(vertex[b], vertex[b + 1]) for b in run), slice(first[k], first[k + 1]))
-            for k, run in enumerate(bodies)
+            Place(tuple(walls[b] for b in run), bubbles, () if airs is None else tuple(airs[b] for b in run))
+            for run, bubbles in zip(bodies, _spans([len(b) for b in of_world]), strict=True)
         ]
         self._ring_world = np.repeat(scene.worlds, np.diff(scene.joint_start))
 
@@ -50,3 +46,8 @@ class Layout:
         near = (np.abs(middle[: len(self._ring_world)]) < FARTHEST).all(axis=1)
         lost[self._ring_world[~near]] = True
         return lost.tolist()
+
+
+def _spans(sizes: Sequence[int]) -> list[slice]:
+    """Return where things of these sizes lie, one after another."""
+    return [slice(end - size, end) for size, end in zip(sizes, accumulate(sizes), strict=True)]

@@ -13,8 +13,8 @@ if TYPE_CHECKING:
 
     from balloon_usd.solver.scene import Scene
 
-SIDES = 2
-"""Copies on the host: one is looked at while the other is filled."""
+SIDES = 3
+"""Copies on the host: one is looked at beside the one before it, while another is filled."""
 
 
 class Mirror:
@@ -25,6 +25,7 @@ class Mirror:
         self._device = wp.get_device(scene.device)
         self._sources = {name: scene.arrays[name] for name in names}
         self._sides = [self._empty() for _ in range(SIDES)]
+        self._views = [{name: copy.numpy() for name, copy in side.items()} for side in self._sides]
         self.side = 0
         """The copy that was filled last, or is being filled."""
         self._copied = wp.Event(self._device) if self._device.is_cuda else None
@@ -37,7 +38,7 @@ class Mirror:
         }
 
     def turn(self) -> None:
-        """Keep what was fetched last until the next turn: the other side is filled now."""
+        """Keep what was fetched in the last two turns: another side is filled now."""
         self.side = (self.side + 1) % SIDES
 
     def copy(self) -> None:
@@ -51,9 +52,9 @@ class Mirror:
             wp.record_event(self._copied)
 
     def arrays(self) -> dict[str, NDArray[Any]]:
-        """Wait for the copies and return them; after two turns they change."""
+        """Wait for the copies and return them; after three turns they change."""
         self.wait()
-        return {name: copy.numpy() for name, copy in self._sides[self.side].items()}
+        return self._views[self.side]
 
     def wait(self) -> None:
         """Wait until nothing is being copied any more, whatever the device was told since."""

@@ -2,39 +2,59 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    import numpy as np
+    from numpy.typing import NDArray
+
     from balloon_usd.balloon.detail import Detail
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
-    from balloon_usd.solver.frame import Frame
+    from balloon_usd.solver.layout import Layout
     from balloon_usd.solver.sight import Sight
+
+
+class Told(NamedTuple):
+    """What is told of a sculpture in words."""
+
+    doing: str
+    """What the hands do."""
+    undone: tuple[str, ...] = ()
+    """Locks that have slipped and joints that have come undone so far."""
 
 
 class Model(Protocol):
     """Sculptures of one physical model in one flat state, advanced together."""
 
+    layout: Layout
+    """Where every sculpture lies in its sights."""
+
     def advance(self, begin: float, end: float) -> None:
         """Let the makers act and start the physics from `begin` to `end` (s)."""
 
     def look(self) -> None:
-        """Wait for the state that was reached last; frames are made of it until the next look."""
+        """Wait for the state that was reached last, of which all that follows tells until the next look."""
 
     def rest(self) -> None:
         """Wait until nothing is under way."""
 
     @property
     def sight(self) -> Sight:
-        """What was looked at, of all sculptures."""
+        """What was looked at, of all sculptures; it stays as it is for two more looks."""
 
-    def frame(self, world: int, time_code: int) -> Frame:
-        """Return what was looked at as a frame of one sculpture."""
+    @property
+    def told(self) -> Sequence[Told]:
+        """What was told of every sculpture by then."""
 
-    def failure(self, world: int) -> str | None:
-        """Return what is wrong with a sculpture in a way that its frame does not show, or None."""
+    @property
+    def suspects(self) -> NDArray[np.int32]:
+        """1 for every sculpture with walls that went too far or are stretched too much, (W,)."""
+
+    def failures(self) -> dict[int, str]:
+        """Return what is wrong with sculptures in a way that their frames do not show."""
 
     def give_up(self, world: int) -> None:
         """Leave a sculpture alone whose run has failed."""

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from balloon_usd.solver.body import Body
     from balloon_usd.solver.settings import SceneSettings
 
+NO_LIMIT = 1.0e38
+"""Stretch that nothing has which has one."""
 SELF_DISTANCE = 1.0
 """Unstressed distance along one bubble within which its wall never meets itself, R0."""
 
@@ -111,7 +113,10 @@ def lay_meshes(scene: Scene, host: Arrays, weld_count: int) -> None:
 def _motion_arrays(scene: Scene) -> None:
     vertices, a = int(scene.vertex_start[-1]), scene.arrays
     points = np.concatenate([b.points for b in scene.bodies]).astype(np.float32)
-    a["x"], a["x_next"] = (wp.array(points, dtype=wp.vec3, device=scene.device) for _ in range(2))
+    for name in ("x", "x_next", "x_shown"):
+        a[name] = wp.array(points, dtype=wp.vec3, device=scene.device)
+    a["most_stretch"] = wp.full(len(scene.bodies), NO_LIMIT, dtype=float, device=scene.device)
+    scene.zeros("suspects", max(scene.worlds) + 1, int)
     scene.zeros("v", vertices, wp.vec3)
     scene.zeros("stretch", vertices, float)
     scene.zeros("volume", int(scene.segment_start[-1]), float)
@@ -133,7 +138,11 @@ def _contact_arrays(scene: Scene) -> None:
     scene.zeros("touching", len(scene.bodies), int)
     scene.zeros("hit_count", quads, int)
     scene.zeros("hits", (quads, HITS), int)
-    scene.zeros("most_hits", max(scene.worlds) + 1, int)
+    # Vertices that touch a wall, as twice their number and which of their walls; quads that are touched.
+    scene.zeros("pairs", TARGETS * vertices, int)
+    scene.zeros("pressed", quads, int)
+    for name in ("most_hits", "pair_count", "pressed_count"):
+        scene.zeros(name, max(scene.worlds) + 1, int)
     scene.touch.offset = scene.settings.contact_offset
     scene.touch.pressure = scene.settings.contact_pressure
     scene.touch.margin = 0.5 * scene.settings.contact_offset

@@ -13,16 +13,19 @@ import warp as wp
 
 from balloon_usd.balloon.detail import Detail, detail_named
 from balloon_usd.plan.meshing import mesh_of
-from balloon_usd.solver.batch import Batch
+from balloon_usd.solver.batch import Batch, snapshots_of
 from balloon_usd.solver.device import device_named
+from balloon_usd.solver.sight import Extent
+from balloon_usd.solver.snapshot import frames_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Generator, Iterator, Sequence
 
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
-    from balloon_usd.solver.batch import Outcome
     from balloon_usd.solver.model import Model, ModelMaker
+    from balloon_usd.solver.sight import Place
+    from balloon_usd.solver.snapshot import Memory, Outcome, Snapshot
 
 T = TypeVar("T")
 
@@ -95,22 +98,38 @@ class Simulation:
         return tuple(plan.frame_count for plan in self.plans)
 
     def frames(self) -> Iterator[list[Outcome]]:
-        """Yield the next frame of every plan until all are finished.
+        """Return an iterator of the next frame of every plan until all are finished.
 
         A plan that has failed yields its `SimulationFailed` once; a plan that is over yields None.
         """
-        if len(self._batches) == 1:
-            yield from self._batches[0].frames()
-            return
-        runs = [batch.frames() for batch in self._batches]
+        return frames_of(self.snapshots(), self.places)
+
+    @property
+    def extent(self) -> Extent:
+        """How many vertices, bubbles and particles all plans have together."""
+        return Extent.of([batch.model.layout.extent for batch in self._batches])
+
+    @property
+    def places(self) -> list[Place]:
+        """Where every plan lies in the arrays of a snapshot."""
+        found: list[Place] = []
+        before = self._batches[0].model.layout.extent.nothing
+        for layout in (batch.model.layout for batch in self._batches):
+            found += [place.after(before) for place in layout.places]
+            before = Extent.of([before, layout.extent])
+        return found
+
+    def snapshots(self, memory: Memory | None = None) -> Generator[Snapshot]:
+        """Yield flat arrays of all plans, frame by frame, until all are finished, and what has changed.
+
+        Args:
+            memory: gives the sight, made by `extent.sight`, into which the next snapshot is written; new
+                arrays if it is absent. It may wait until somebody has read what it gives once more.
+        """
+        memory = memory or self.extent.sight
         with ThreadPoolExecutor(self._threads) as threads:
             ask = map if self._threads == 1 else threads.map
-            while True:
-                found = list(ask(lambda run: next(run, None), runs))
-                if all(outcomes is None for outcomes in found):
-                    return
-                pairs = zip(self._batches, found, strict=True)
-                yield [outcome for batch, outcomes in pairs for outcome in outcomes or [None] * len(batch)]
+            yield from snapshots_of(self._batches, memory, ask)
 
 
 def model_named(name: str) -> ModelMaker:

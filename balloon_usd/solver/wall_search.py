@@ -10,7 +10,6 @@ from balloon_usd.solver.kernels.contact import (
     find_walls,
     order_hits,
     ring_radii,
-    vertex_surface,
 )
 from balloon_usd.solver.kernels.lanes import WARP
 
@@ -25,7 +24,7 @@ class WallSearch:
         self._launcher = launcher
         launcher.values["touch"] = launcher.scene.touch
         launcher.launch(find_own_walls, len(launcher.scene.x))
-        launcher.load(vertex_surface, order_hits)
+        launcher.load(order_hits)
         launcher.load(chunk_surface, ring_radii, find_walls, lanes=WARP)
 
     def measure_quads(self, x: Any) -> None:
@@ -36,7 +35,8 @@ class WallSearch:
     def find(self, x: Any) -> None:
         """Find the walls that face each other at positions `x` (V,), once the quads are measured."""
         s, launcher = self._launcher.scene, self._launcher
-        launcher.launch(vertex_surface, len(s.x))
+        s.pair_count.zero_()
+        s.pressed_count.zero_()
         launcher.launch_tiled(ring_radii, len(s.ring_first), lanes=WARP, x=x)
-        launcher.launch_tiled(find_walls, len(s.x), lanes=WARP, x=x)
+        launcher.launch_tiled(find_walls, -(-len(s.x) // launcher.lanes(WARP)), lanes=WARP, x=x)
         launcher.launch(order_hits, len(s.quads))

@@ -9,6 +9,7 @@ import numpy as np
 from balloon_usd.balloon.rubber import BURST_STRETCH
 from balloon_usd.solver.kernels.contact import HITS
 from balloon_usd.solver.remedy import steadier
+from balloon_usd.solver.scene import NO_LIMIT
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan, Strip
     from balloon_usd.solver.frame import Frame
-    from balloon_usd.solver.sight import Sight
+    from balloon_usd.solver.sight import Place, Sight
 
 FASTEST = 5.0
 """Speed that no part of a balloon reaches between two frames unless the run has gone unstable, m/s."""
@@ -115,55 +116,59 @@ class Watch:
 
 
 class Lookout:
-    """Looks at all sculptures of a flat state at once, and closely only where something is wrong."""
+    """Looks closely at those sculptures of a flat state in which something may be wrong."""
 
     def __init__(
-        self, plans: Sequence[Plan], meshes: Sequence[tuple[BalloonMesh, ...]], fps: float, substeps: int
+        self,
+        plans: Sequence[Plan],
+        meshes: Sequence[tuple[BalloonMesh, ...]],
+        places: Sequence[Place],
+        fps: float,
+        substeps: int,
     ) -> None:
+        """Look at plans that lie at these places in the sights."""
+        self._places = places
         self._watches = [Watch(plan, m, fps, substeps) for plan, m in zip(plans, meshes, strict=True)]
-        self._fps = fps
-        vertices = [sum(len(mesh.points) for mesh in m) for m in meshes]
-        self._vertex = np.cumsum([0, *vertices[:-1]])
-        """First vertex of every sculpture, (W,)."""
-        self._bubble = np.cumsum([0, *(len(plan.bubbles) for plan in plans[:-1])])
+        self._bubble = np.array([place.bubbles.start for place in places])
         """First bubble of every sculpture, (W,)."""
-        self._stops = np.array([plan.recipe.physics.burst == "stop" for plan in plans])
-        self._last: NDArray[np.float32] | None = None
-        self._suspect = np.zeros(len(plans), dtype=bool)
+        self._sight: Sight | None = None
+        self._last: Sight | None = None
 
-    def look(self, sight: Sight) -> None:
-        """Find the sculptures in which something may be wrong."""
-        last = sight.points if self._last is None else self._last
-        self._last = sight.points
-        # What has failed may be anything; it stays a suspect.
-        with np.errstate(invalid="ignore", over="ignore"):
-            moved = sight.points - last
-            np.abs(moved, out=moved)
-            most = np.maximum.reduceat(moved.reshape(-1), 3 * self._vertex).astype(np.float64)
-            tightest, slackest = _range(sight.stretch, self._vertex)
-            largest, smallest = _range(sight.volume, self._bubble)
-            lowest = np.minimum.reduceat(sight.pressure, self._bubble)
-            well = (most * self._fps <= FASTEST) & (lowest > LOWEST_PRESSURE)
-            well &= ~self._stops | (tightest <= BURST_STRETCH)
-        for bound in (tightest, slackest, largest, smallest):
-            well &= np.isfinite(bound)
-        self._suspect = ~well
+    def look(self, sight: Sight, suspects: NDArray[np.int32]) -> list[int]:
+        """Return the sculptures in which something may be wrong; the sight before must be as it was.
 
-    def failure(self, world: int, frame: Frame) -> str | None:
-        """Return what is wrong with the frame of a sculpture that was last looked at, or None."""
-        if self._suspect[world]:
-            return self._watches[world].failure(frame)
-        self._watches[world].pass_over(frame)
-        return None
+        `suspects`: 1 for those with walls that went too far or are stretched too much, (W,).
+        """
+        self._last, self._sight = self._sight, sight
+        # What is no number is not higher than anything.
+        gas = (sight.pressure > LOWEST_PRESSURE) & np.isfinite(sight.volume)
+        if not suspects.any() and gas.all():
+            return []
+        return np.flatnonzero((suspects != 0) | ~np.logical_and.reduceat(gas, self._bubble)).tolist()
+
+    def failure(self, world: int) -> str | None:
+        """Return what is wrong with a sculpture that was last looked at, or None."""
+        assert self._sight is not None, "nothing was looked at"
+        place, watch = self._places[world], self._watches[world]
+        if self._last is not None:
+            watch.pass_over(self._last.frame(place, 0))
+        return watch.failure(self._sight.frame(place, 0))
 
 
-def _range(values: NDArray[np.float32], first: NDArray[np.int64]) -> tuple[NDArray[np.float32], ...]:
-    """Return the highest and the lowest value of every run; no numbers where one is none."""
-    return np.maximum.reduceat(values, first), np.minimum.reduceat(values, first)
+def most_way(seconds: float) -> float:
+    """Return how far (m) a wall may go in some seconds before it is looked at closely, just below too far."""
+    return 0.999 * FASTEST * seconds
 
 
-def crowded(most_hits: int) -> str | None:
-    """Tell when more vertices have pressed on one face at a time than there is room for."""
-    if most_hits <= HITS:
-        return None
+def most_stretches(plans: Sequence[Plan], bodies: Sequence[range]) -> NDArray[np.float32]:
+    """Return how far every balloon may be stretched before it is looked at closely, (B,).
+
+    `bodies`: balloons of every plan.
+    """
+    limits = [BURST_STRETCH if plan.recipe.physics.burst == "stop" else NO_LIMIT for plan in plans]
+    return np.repeat(limits, [len(run) for run in bodies]).astype(np.float32)
+
+
+def crowded(most_hits: int) -> str:
+    """Tell that more vertices have pressed on one face at a time than there is room for."""
     return f"{most_hits} vertices press on one face but there is room for {HITS}: use a finer detail"

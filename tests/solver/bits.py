@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from balloon_usd.solver.batch import Outcome
 from balloon_usd.solver.frame import Frame
+from balloon_usd.solver.snapshot import Outcome
 
 
 def bits(outcome: Outcome) -> object:

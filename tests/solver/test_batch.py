@@ -9,11 +9,12 @@ from balloon_usd.balloon.detail import detail_named
 from balloon_usd.plan import plan as plan_of
 from balloon_usd.plan.meshing import mesh_of
 from balloon_usd.recipe import Recipe
-from balloon_usd.solver.batch import Batch
+from balloon_usd.solver.batch import Batch, snapshots_of
 from balloon_usd.solver.errors import SimulationFailed
 from balloon_usd.solver.frame import Frame
 from balloon_usd.solver.mirror import Mirror
 from balloon_usd.solver.simulation import model_named, simulate_many
+from balloon_usd.solver.snapshot import frames_of
 from tests.solver.bits import bits
 
 RECIPE = """
@@ -48,8 +49,13 @@ def batch_of(*plans, ahead, most=1000):
     return Batch(model_named(model), plans, meshes, counts, SUBSTEPS[model], "cpu", ahead=ahead)
 
 
+def frames_from(batch):
+    layout = batch.model.layout
+    return frames_of(snapshots_of([batch], layout.extent.sight), layout.places)
+
+
 def all_bits(batch):
-    return [[bits(outcome) for outcome in outcomes] for outcomes in batch.frames()]
+    return [[bits(outcome) for outcome in outcomes] for outcomes in frames_from(batch)]
 
 
 @pytest.mark.parametrize("physics", ["model: latex", "model: kosaka"])
@@ -62,12 +68,12 @@ def test_frames_made_ahead_are_those_made_when_asked_for(physics):
 
 def test_a_plan_that_fails_while_the_next_frame_is_made_gives_nothing_more_and_leaves_the_others_alone():
     plans = failing(), small(physics="burst: stop", seconds=3.0)
-    ahead = list(batch_of(*plans, ahead=True).frames())
+    ahead = list(frames_from(batch_of(*plans, ahead=True)))
     first = [outcomes[0] for outcomes in ahead]
     (end,) = (k for k, outcome in enumerate(first) if isinstance(outcome, SimulationFailed))
     assert "head bursts" in str(first[end])
     assert all(outcome is None for outcome in first[end + 1 :])
-    alone = [bits(outcomes[0]) for outcomes in batch_of(plans[1], ahead=False).frames()]
+    alone = [bits(outcomes[0]) for outcomes in frames_from(batch_of(plans[1], ahead=False))]
     assert [bits(outcomes[1]) for outcomes in ahead] == alone
     assert len(alone) > end + 2
 
@@ -75,7 +81,7 @@ def test_a_plan_that_fails_while_the_next_frame_is_made_gives_nothing_more_and_l
 def test_hands_do_not_reach_for_what_has_flown_apart():
     plans = small(), small(head=5)
     batch = batch_of(*plans, ahead=True)
-    acted, frames = [], batch.frames()
+    acted, frames = [], frames_from(batch)
     for maker in batch.model.makers:
         act = maker.act
         maker.act = lambda *now, act=act, maker=maker: (acted.append(maker), act(*now))
@@ -89,12 +95,12 @@ def test_hands_do_not_reach_for_what_has_flown_apart():
     assert "flown apart" in str(failed[0])
     assert acted.count(batch.model.makers[0]) <= failed[0].frame
     assert acted.count(batch.model.makers[1]) == len(given) - 1
-    alone = [bits(outcomes[0]) for outcomes in batch_of(plans[1], ahead=False).frames()]
+    alone = [bits(outcomes[0]) for outcomes in frames_from(batch_of(plans[1], ahead=False))]
     assert [bits(outcomes[1]) for outcomes in given] == alone
 
 
 def test_a_batch_ends_with_the_failure_of_its_last_plan():
-    outcomes = [o for (o,) in batch_of(failing(), ahead=True).frames()]
+    outcomes = [o for (o,) in frames_from(batch_of(failing(), ahead=True))]
     assert isinstance(outcomes[-1], SimulationFailed)
     assert all(isinstance(outcome, Frame) for outcome in outcomes[:-1])
 
@@ -102,7 +108,7 @@ def test_a_batch_ends_with_the_failure_of_its_last_plan():
 @pytest.mark.parametrize("physics", ["model: latex", "model: kosaka"])
 @pytest.mark.parametrize("ahead", [True, False])
 def test_frames_that_were_given_out_stay_as_they_were(ahead, physics):
-    given = [(f, bits(f)) for (f,) in batch_of(small(physics=physics), ahead=ahead).frames()]
+    given = [(f, bits(f)) for (f,) in frames_from(batch_of(small(physics=physics), ahead=ahead))]
     assert all(bits(frame) == then for frame, then in given)
 
 
@@ -111,7 +117,7 @@ def test_only_the_next_frame_is_made_ahead_and_none_before_the_first_unless_aske
     batch = batch_of(small(), ahead=ahead, most=4)
     counted, advance = [], batch.model.advance
     batch.model.advance = lambda *span: (counted.append(span), advance(*span))
-    frames = batch.frames()
+    frames = frames_from(batch)
     assert [(next(frames), len(counted))[1] for _ in range(3)] == begun
     assert len(list(frames)) == 1
     assert len(counted) == 3
@@ -121,7 +127,7 @@ def test_a_batch_that_is_left_early_waits_for_what_it_has_begun():
     batch = batch_of(small(), ahead=True)
     rested = []
     batch.model.rest = lambda: rested.append(True)
-    frames = batch.frames()
+    frames = frames_from(batch)
     next(frames)
     assert rested == []
     frames.close()
@@ -155,14 +161,14 @@ def test_threads_share_out_the_sculptures_of_the_kosaka_model_to_none(monkeypatc
     assert len(model.makers) == 2
 
 
-def test_what_was_fetched_stays_until_the_turn_after_the_next():
+def test_what_was_fetched_stays_for_two_more_turns():
     scene = batch_of(small(), ahead=False).model.scene
     mirror = Mirror(scene, ["x"])
     seen = []
-    for number in range(3):
+    for number in range(4):
         scene.x.fill_(float(number))
         mirror.turn()
         mirror.copy()
         seen.append(mirror.arrays()["x"])
-        assert [float(x[0, 0]) for x in seen[-2:]] == [float(k) for k in range(number + 1)][-2:]
-    assert np.shares_memory(seen[0], seen[2])
+        assert [float(x[0, 0]) for x in seen[-3:]] == [float(k) for k in range(number + 1)][-3:]
+    assert np.shares_memory(seen[0], seen[3])

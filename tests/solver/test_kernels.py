@@ -39,11 +39,12 @@ CHANGING = {
     "end",
     "walls",
     "pressing",
+    "most_way",
 }
 """Arguments that are no arrays of the scene."""
 
-ORDERLESS = ("hit_count", "most_hits", "most_near", "wp.atomic_max(fastest")
-"""Counts and maxima, which do not depend on who comes first."""
+ORDERLESS = ("hit_count", "most_hits", "most_near", "pair_count", "pressed_count", "wp.atomic_max(fastest")
+"""Counts and maxima, which do not depend on who comes first; nor does what is done with lists so counted."""
 
 CAPSULE = """\
 format: 1

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import warp as wp
 
 from balloon_usd.balloon.detail import detail_named
 from balloon_usd.plan import plan as plan_of
@@ -14,8 +15,9 @@ from balloon_usd.recipe import Recipe
 from balloon_usd.solver.errors import SimulationFailed
 from balloon_usd.solver.frame import Frame
 from balloon_usd.solver.remedy import steadier
-from balloon_usd.solver.sight import Sight
-from balloon_usd.solver.watch import Lookout, Watch
+from balloon_usd.solver.sight import Extent, Place, Sight
+from balloon_usd.solver.watch import Lookout, Watch, most_stretches, most_way
+from tests.solver.suspect_kernels import look_at_vertices
 
 RECIPE = """\
 format: 1
@@ -165,35 +167,65 @@ def copied(frame):
     )
 
 
+def lookout_over(scenes):
+    """Who looks at several sculptures that lie one after another."""
+    places, before = [], Extent(0, 0)
+    for scene in scenes:
+        own = Extent(len(scene.frame.points[0]), len(scene.frame.volume))
+        places.append(Place((slice(0, own.vertices),), slice(0, own.bubbles)).after(before))
+        before = Extent.of([before, own])
+    return Lookout([s.plan for s in scenes], [s.meshes for s in scenes], places, 24.0, 100)
+
+
+class Looks:
+    """Looks at several sculptures of one balloon each, one after another."""
+
+    def __init__(self, scenes):
+        self.lookout = lookout_over(scenes)
+        count = len(scenes)
+        self.most = most_stretches([s.plan for s in scenes], [range(k, k + 1) for k in range(count)])
+        balloon = np.repeat(np.arange(count), [len(s.frame.points[0]) for s in scenes])
+        self.balloon = wp.array(balloon, dtype=int, device="cpu")
+        points = np.concatenate([s.frame.points[0] for s in scenes])
+        self.shown = wp.array(points, dtype=wp.vec3, device="cpu")
+
+    def causes(self, frames):
+        """What is wrong with each sculpture."""
+        sight, worlds = sight_of(frames), np.arange(len(frames), dtype=np.int32)
+        suspects = wp.zeros(len(frames), dtype=int, device="cpu")
+        limits = most_way(1.0 / 24.0), wp.array(self.most, dtype=float, device="cpu")
+        walls = wp.array(sight.points, dtype=wp.vec3, device="cpu"), wp.array(sight.stretch, device="cpu")
+        given = [self.balloon, wp.array(worlds, device="cpu"), *limits, *walls, self.shown, suspects]
+        wp.launch(look_at_vertices, len(sight.points), inputs=given, device="cpu")
+        found = self.lookout.look(sight, suspects.numpy())
+        return [self.lookout.failure(k) if k in found else None for k in range(len(frames))]
+
+
 @pytest.mark.parametrize("spoil", WRONG)
 @pytest.mark.parametrize("bubble", ["nose", "tail"])
 def test_a_look_at_all_sculptures_finds_the_one_in_which_something_is_wrong(spoil, bubble):
     scenes = [Scene("physics: {burst: stop}\n") for _ in range(3)]
-    lookout = Lookout([s.plan for s in scenes], [s.meshes for s in scenes], 24.0, 100)
+    looks = Looks(scenes)
     frames = [copied(s.frame) for s in scenes]
-    lookout.look(sight_of(frames))
-    assert [lookout.failure(k, frame) for k, frame in enumerate(frames)] == [None] * 3
+    assert looks.causes(frames) == [None] * 3
     frames = [copied(frame) for frame in frames]
     spoil(frames[1], scenes[1].of(bubble))
     scenes[1].watch.failure(scenes[1].frame)
     cause = scenes[1].watch.failure(frames[1])
-    lookout.look(sight_of(frames))
-    assert [lookout.failure(k, frame) for k, frame in enumerate(frames)] == [None, cause, None]
+    assert looks.causes(frames) == [None, cause, None]
     assert cause is not None
     # What has failed is nobody else's failure in the frames that follow.
     frames = [copied(frame) for frame in frames]
-    lookout.look(sight_of(frames))
-    assert [lookout.failure(k, frames[k]) for k in (0, 2)] == [None, None]
+    assert looks.causes(frames)[::2] == [None, None]
 
 
 def test_a_first_frame_that_is_no_number_is_found_among_others():
     scenes = [Scene() for _ in range(2)]
-    lookout = Lookout([s.plan for s in scenes], [s.meshes for s in scenes], 24.0, 100)
     frames = [copied(s.frame) for s in scenes]
     frames[0].points[0][:] = np.inf
-    lookout.look(sight_of(frames))
-    assert lookout.failure(0, frames[0]).startswith("balloon main has flown apart")
-    assert lookout.failure(1, frames[1]) is None
+    lost, well = Looks(scenes).causes(frames)
+    assert lost.startswith("balloon main has flown apart")
+    assert well is None
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,6 @@ import warp as wp
 
 from balloon_usd.solver.kernels.at import float_at, int_at, int_in, vec2_at, vec3_at, vec4i_at
 from balloon_usd.solver.kernels.lanes import (
-    lanes_least,
     lanes_max3,
     lanes_most,
     lanes_sum,
@@ -40,6 +39,10 @@ OWN = wp.constant(256)
 """Most quads before a vertex, and after it, that are known as its own."""
 FAR = wp.constant(1.0e6)
 """Farther than any wall, m."""
+NONE = wp.constant(1 << 30)
+"""Beyond any index."""
+ROUNDED = wp.constant(1.001)
+"""What is left out together must not be within reach of anyone by rounding."""
 NORMAL_DAMPING = wp.constant(0.3)
 """Damping of the approach, as a share of what would stop the vertex in one substep."""
 
@@ -90,28 +93,21 @@ def chunk_surface(
         chunk_high[chunk] = high
 
 
-@wp.kernel
-def vertex_surface(
-    corners: wp.array[wp.vec4i],
-    quad_area: wp.array[wp.vec3],
-    normal: wp.array[wp.vec3],
-    area: wp.array[float],
-):
-    """Write the outward unit normal and the share of the wall's area (m2) of every vertex."""
-    i = wp.tid()
+@wp.func
+def surface_of_vertex(i: int, corners: wp.array[wp.vec4i], quad_area: wp.array[wp.vec3]):
+    """Return the outward vector area (m2) of the wall about a vertex, and the vertex's share of it (m2)."""
     total = wp.vec3(0.0)
     size = float(0.0)
     row = int(i)
     while row >= 0:
-        slots = corners[row]
+        slots = vec4i_at(corners, row)
         for k in range(4):
             if slots[k] >= 0:
-                a = quad_area[slots[k] // 4]
+                a = vec3_at(quad_area, slots[k] // 4)
                 total += a
                 size += 0.25 * wp.length(a)
         row = -2 - slots[3]
-    normal[i] = wp.normalize(total)
-    area[i] = size
+    return total, size
 
 
 @wp.kernel
@@ -343,11 +339,65 @@ def weigh_wall(
     return near, nearest
 
 
+@wp.func
+def close_quads(base: int, first: int, end: int, p: wp.vec3, reach: float, quad_middle: wp.array[wp.vec3]):
+    """Return the bits, counted from quad `base`, of those quads whose middles are within reach (m) of a
+    point.
+    """
+    bits = int(0)
+    for q in range(first, end):
+        d = p - vec3_at(quad_middle, q)
+        if wp.dot(d, d) < reach * reach:
+            bits |= 1 << (q - base)
+    return bits
+
+
+@wp.func
+def enter_walls(
+    i: int,
+    p: wp.vec3,
+    found: wp.vec2i,
+    before: wp.vec2i,
+    quads: wp.array[wp.vec4i],
+    quad_segment: wp.array[int],
+    x: wp.array[wp.vec3],
+    target: wp.array2d[int],
+    contact_place: wp.array[wp.vec2],
+    contact_force: wp.array2d[float],
+    slip: wp.array2d[wp.vec3],
+    hit_count: wp.array[int],
+    hits: wp.array2d[int],
+):
+    """Enter the walls that a vertex was found to touch in their lists, with what it has slipped on those that
+    it touched before.
+    """
+    slip0 = slip[i, 0]
+    slip1 = slip[i, 1]
+    for k in range(2):
+        kept = wp.vec3(0.0)
+        if found[k] >= 0:
+            if before[0] >= 0 and quad_segment[before[0]] == quad_segment[found[k]]:
+                kept = slip0
+            elif before[1] >= 0 and quad_segment[before[1]] == quad_segment[found[k]]:
+                kept = slip1
+            c = quads[found[k]]
+            contact_place[2 * i + k] = nearest_on_patch(x[c[0]], x[c[1]], x[c[2]], x[c[3]], p)
+            slot = wp.atomic_add(hit_count, found[k], 1)
+            if slot < MOST_HITS:
+                hits[found[k], slot] = 2 * i + k
+        else:
+            put(contact_force, i, k, wp.vec3(0.0))
+        target[i, k] = found[k]
+        slip[i, k] = kept
+
+
 @wp.kernel
 def find_walls(
     world_chunk: wp.array[int],
+    world_vertex: wp.array[int],
     chunk_quad: wp.array[int],
     quads: wp.array[wp.vec4i],
+    corners: wp.array[wp.vec4i],
     quad_segment: wp.array[int],
     quad_ring: wp.array[int],
     quad_place: wp.array[wp.vec3],
@@ -366,170 +416,163 @@ def find_walls(
     quad_area: wp.array[wp.vec3],
     chunk_low: wp.array[wp.vec3],
     chunk_high: wp.array[wp.vec3],
+    ring_radius: wp.array[float],
     normal: wp.array[wp.vec3],
     area: wp.array[float],
-    ring_radius: wp.array[float],
     target: wp.array2d[int],
     contact_place: wp.array[wp.vec2],
     contact_force: wp.array2d[float],
     slip: wp.array2d[wp.vec3],
     hit_count: wp.array[int],
     hits: wp.array2d[int],
+    pair_count: wp.array[int],
+    pairs: wp.array[int],
 ):
-    """Choose for every vertex the nearest facing quads, of different bubbles, and enter it in their lists; a
-    warp of lanes each on a GPU.
+    """Choose for every vertex the nearest facing quads, of different bubbles, and enter it in their lists;
+    write its outward unit normal and its share of the wall's area (m2).
+
+    On a GPU a warp of lanes for as many neighbours: what none of them reaches, they leave out together.
     """
-    i, lane = wp.tid()
-    lanes = wp.block_dim()
+    group, lane = wp.tid()
+    i = group * wp.block_dim() + lane
+    spare = i >= x.shape[0]
+    i = wp.min(i, x.shape[0] - 1)
     p = x[i]
-    n = normal[i]
     mine = vertex_balloon[i]
     # The bubble of a vertex; a ring between two bubbles belongs to neither.
     home = vertex_segment[i]
     place = vertex_place[i]
-    apart = touch.apart * balloon_radius[mine]
     own = vertex_own[i]
+    apart = touch.apart * balloon_radius[mine]
     depth = DEPTH_LIMIT * ring_radius[vertex_ring[i]]
-    reach = REACH * wp.sqrt(area[i]) + touch.offset + touch.margin
-    # What this lane has found.
+    world = balloon_world[mine]
+    outward, size = surface_of_vertex(i, corners, quad_area)
+    n = wp.normalize(outward)
+    normal[i] = n
+    area[i] = size
+    reach = REACH * wp.sqrt(size) + touch.offset + touch.margin
     near = wp.vec2(reach, reach)
     nearest = wp.vec2i(-1, -1)
-    candidate = int(0)
-    waiting = int(0)
-    world = balloon_world[mine]
+    first = world_chunk[world]
     last = world_chunk[world + 1]
-    if touching[mine] == 0:
-        last = 0
-    begin = world_chunk[world]
-    while begin < last:
-        mine_too = int(0)
-        if begin + lane < last:
-            low = vec3_at(chunk_low, begin + lane)
-            high = vec3_at(chunk_high, begin + lane)
+    # A box about all that is within reach; neighbours may reach a little farther than each of them.
+    low = p - wp.vec3(ROUNDED * reach)
+    high = p + wp.vec3(ROUNDED * reach)
+    own_of_all = own
+    if spare or touching[mine] == 0:
+        first = NONE
+        last = -NONE
+        low = wp.vec3(FAR)
+        high = wp.vec3(-FAR)
+        own_of_all = wp.vec2i(-NONE, NONE)
+    low = -lanes_max3(-low)
+    high = lanes_max3(high)
+    own_of_all = wp.vec2i(lanes_most(own_of_all[0]), -lanes_most(-own_of_all[1]))
+    begin = -lanes_most(-first)
+    end = lanes_most(last)
+    while begin < end:
+        some = int(0)
+        if begin + lane < end:
+            chunk_l = vec3_at(chunk_low, begin + lane)
+            chunk_h = vec3_at(chunk_high, begin + lane)
             # Most are far away along the balloon already.
-            if low[0] - p[0] < reach and p[0] - high[0] < reach:
-                off = wp.max(wp.max(low - p, p - high), wp.vec3(0.0))
-                if wp.dot(off, off) < reach * reach:
-                    mine_too = 1
-        chunks = lanes_that(mine_too)
+            if chunk_l[0] < high[0] and chunk_h[0] > low[0]:
+                if (
+                    chunk_l[1] < high[1]
+                    and chunk_h[1] > low[1]
+                    and chunk_l[2] < high[2]
+                    and chunk_h[2] > low[2]
+                ):
+                    if own_of_all[0] > int_at(chunk_quad, begin + lane) or own_of_all[1] < int_at(
+                        chunk_quad, begin + lane + 1
+                    ):
+                        some = 1
+        chunks = lanes_that(some)
         while chunks != 0:
             chunk = begin + lowest(chunks)
             chunks &= chunks - 1
-            first = int_at(chunk_quad, chunk)
-            end = int_at(chunk_quad, chunk + 1)
+            base = int_at(chunk_quad, chunk)
+            first_quad = int(base)
+            end_quad = int_at(chunk_quad, chunk + 1)
             # Its own at one end of them are left out.
-            if own[0] <= first:
-                first = wp.max(first, own[1])
-            if own[1] >= end:
-                end = wp.min(end, own[0])
-            for q in range(first, end, lanes):
-                close = int(0)
-                if q + lane < end:
-                    d = p - vec3_at(quad_middle, q + lane)
-                    close = wp.where(wp.dot(d, d) < reach * reach, 1, 0)
-                some = lanes_that(close)
-                # Each lane takes one of those that are close: to weigh takes long, and few are.
-                while some != 0:
-                    if lane == waiting:
-                        candidate = q + lowest(some)
-                    some &= some - 1
-                    waiting += 1
-                    if waiting == lanes:
-                        near, nearest = weigh_wall(
-                            candidate,
-                            near,
-                            nearest,
-                            mine,
-                            home,
-                            place,
-                            apart,
-                            depth,
-                            n,
-                            p,
-                            touch,
-                            quads,
-                            quad_segment,
-                            quad_ring,
-                            quad_place,
-                            quad_balloon,
-                            x,
-                            quad_middle,
-                            quad_area,
-                            ring_radius,
-                        )
-                        waiting = 0
-        begin += lanes
-    if lane < waiting:
-        near, nearest = weigh_wall(
-            candidate,
-            near,
-            nearest,
-            mine,
-            home,
-            place,
-            apart,
-            depth,
-            n,
-            p,
-            touch,
-            quads,
-            quad_segment,
-            quad_ring,
-            quad_place,
-            quad_balloon,
-            x,
-            quad_middle,
-            quad_area,
-            ring_radius,
-        )
+            if own[0] <= base:
+                first_quad = wp.max(first_quad, own[1])
+            if own[1] >= end_quad:
+                end_quad = wp.min(end_quad, own[0])
+            off = wp.max(wp.max(vec3_at(chunk_low, chunk) - p, p - vec3_at(chunk_high, chunk)), wp.vec3(0.0))
+            close = int(0)
+            if chunk >= first and chunk < last and wp.dot(off, off) < reach * reach:
+                close = close_quads(base, first_quad, end_quad, p, reach, quad_middle)
+            # Together as long as anyone has one: to weigh takes long.
+            while lanes_that(wp.where(close != 0, 1, 0)) != 0:
+                if close != 0:
+                    near, nearest = weigh_wall(
+                        base + lowest(close),
+                        near,
+                        nearest,
+                        mine,
+                        home,
+                        place,
+                        apart,
+                        depth,
+                        n,
+                        p,
+                        touch,
+                        quads,
+                        quad_segment,
+                        quad_ring,
+                        quad_place,
+                        quad_balloon,
+                        x,
+                        quad_middle,
+                        quad_area,
+                        ring_radius,
+                    )
+                    close &= close - 1
+        begin += wp.block_dim()
+    before = wp.vec2i(int_in(target, i, 0), int_in(target, i, 1))
     # Most vertices touch nothing, and did not before.
-    before0 = int_in(target, i, 0)
-    before1 = int_in(target, i, 1)
-    if lanes_that(wp.where(nearest[0] >= 0, 1, 0)) == 0 and before0 < 0 and before1 < 0:
+    if spare or (nearest[0] < 0 and before[0] < 0 and before[1] < 0):
         return
-    # The nearest of all lanes, and the nearest of another bubble than that.
-    found = wp.vec2i(-1, -1)
-    least = lanes_least(near[0])
-    found[0] = lanes_most(wp.where(near[0] == least, nearest[0], -1))
-    if found[0] >= 0:
-        second = int(0)
-        if nearest[0] >= 0 and quad_segment[nearest[0]] == quad_segment[found[0]]:
-            second = 1
-        least = lanes_least(near[second])
-        found[1] = lanes_most(wp.where(near[second] == least, nearest[second], -1))
-    if lane > 0:
-        return
-    slip0 = slip[i, 0]
-    slip1 = slip[i, 1]
+    enter_walls(
+        i,
+        p,
+        nearest,
+        before,
+        quads,
+        quad_segment,
+        x,
+        target,
+        contact_place,
+        contact_force,
+        slip,
+        hit_count,
+        hits,
+    )
     for k in range(2):
-        kept = wp.vec3(0.0)
-        if found[k] >= 0:
-            if before0 >= 0 and quad_segment[before0] == quad_segment[found[k]]:
-                kept = slip0
-            elif before1 >= 0 and quad_segment[before1] == quad_segment[found[k]]:
-                kept = slip1
-            c = quads[found[k]]
-            contact_place[2 * i + k] = nearest_on_patch(x[c[0]], x[c[1]], x[c[2]], x[c[3]], p)
-            slot = wp.atomic_add(hit_count, found[k], 1)
-            if slot < MOST_HITS:
-                hits[found[k], slot] = 2 * i + k
-        else:
-            put(contact_force, i, k, wp.vec3(0.0))
-        target[i, k] = found[k]
-        slip[i, k] = kept
+        if nearest[k] >= 0:
+            pairs[2 * world_vertex[world] + wp.atomic_add(pair_count, world, 1)] = 2 * i + k
 
 
 @wp.kernel
 def order_hits(
-    quad_world: wp.array[int], hit_count: wp.array[int], most_hits: wp.array[int], hits: wp.array2d[int]
+    quad_world: wp.array[int],
+    world_quad: wp.array[int],
+    hit_count: wp.array[int],
+    most_hits: wp.array[int],
+    hits: wp.array2d[int],
+    pressed_count: wp.array[int],
+    pressed: wp.array[int],
 ):
     """Sort every quad's list, so that sums do not depend on which thread came first; remember the longest
-    list.
+    list, and which quads have any.
     """
     q = wp.tid()
     count = hit_count[q]
     if count > 0:
-        wp.atomic_max(most_hits, quad_world[q], count)
+        world = quad_world[q]
+        pressed[world_quad[world] + wp.atomic_add(pressed_count, world, 1)] = q
+        wp.atomic_max(most_hits, world, count)
         count = wp.min(count, MOST_HITS)
         hit_count[q] = count
         for k in range(1, count):
@@ -542,8 +585,8 @@ def order_hits(
 
 
 @wp.func
-def press_wall(
-    i: int,
+def limits_of_pair(
+    pair: int,
     quads: wp.array[wp.vec4i],
     mass: wp.array[float],
     touch: Touch,
@@ -554,68 +597,87 @@ def press_wall(
     quad_area: wp.array[wp.vec3],
     target: wp.array2d[int],
     hit_count: wp.array[int],
+):
+    """Return what stays the same between two searches for a vertex that touches a quad: the quad's vertices,
+    the stiffness (N/m), the damping (N s/m), the friction, and how far beside the quad it is held (m).
+    """
+    i = pair >> 1
+    q = int_in(target, i, pair & 1)
+    c = vec4i_at(quads, q)
+    lightest = wp.min(
+        float_at(mass, i),
+        wp.min(
+            wp.min(float_at(mass, c[0]), float_at(mass, c[1])),
+            wp.min(float_at(mass, c[2]), float_at(mass, c[3])),
+        ),
+    )
+    crowd = wp.max(CROWD * float(int_at(hit_count, q)), 1.0)
+    stiffness = wp.min(
+        touch.pressure * float_at(area, i) / touch.offset, STABLE * lightest / (dt * dt * crowd)
+    )
+    damping = NORMAL_DAMPING * lightest / (dt * crowd)
+    beside = 2.0 * SIDE_SLIP * wp.sqrt(wp.length(vec3_at(quad_area, q)))
+    return c, wp.vec4(stiffness, damping, float_at(friction, int_at(vertex_balloon, i)), beside)
+
+
+@wp.func
+def press_wall(
+    pair: int,
+    c: wp.vec4i,
+    limits: wp.vec4,
+    offset: float,
+    dt: float,
     x: wp.array[wp.vec3],
     v: wp.array[wp.vec3],
     slip: wp.array2d[wp.vec3],
     contact_force: wp.array2d[float],
     contact_place: wp.array[wp.vec2],
 ):
-    """Write the contact force (N) on a touching vertex and where on the quad that it touches."""
-    for k in range(2):
-        q = int_in(target, i, k)
-        if q >= 0:
-            c = vec4i_at(quads, q)
-            p = vec3_seen(x, i)
-            x0 = vec3_seen(x, c[0])
-            x1 = vec3_seen(x, c[1])
-            x2 = vec3_seen(x, c[2])
-            x3 = vec3_seen(x, c[3])
-            # Read before it is known whether they are needed: then nothing waits for them.
-            speed = vec3_seen(v, i)
-            v0 = vec3_seen(v, c[0])
-            v1 = vec3_seen(v, c[1])
-            v2 = vec3_seen(v, c[2])
-            v3 = vec3_seen(v, c[3])
-            # It slides little in a substep: one step from where it was is enough.
-            place = nearer_on_patch(x0, x1, x2, x3, p, vec2_at(contact_place, 2 * i + k))
-            s = patch_shares(place)
-            gap = p - (s[0] * x0 + s[1] * x1 + s[2] * x2 + s[3] * x3)
-            face = wp.normalize(wp.cross(x2 - x0, x3 - x1))
-            height = wp.dot(gap, face)
-            overlap = touch.offset - height
-            f = wp.vec3(0.0)
-            moved = wp.vec3(0.0)
-            if overlap > 0.0 and wp.length(gap - height * face) < 2.0 * SIDE_SLIP * wp.sqrt(
-                wp.length(vec3_at(quad_area, q))
-            ):
-                lightest = wp.min(
-                    float_at(mass, i),
-                    wp.min(
-                        wp.min(float_at(mass, c[0]), float_at(mass, c[1])),
-                        wp.min(float_at(mass, c[2]), float_at(mass, c[3])),
-                    ),
-                )
-                crowd = wp.max(CROWD * float(int_at(hit_count, q)), 1.0)
-                stiffness = wp.min(
-                    touch.pressure * float_at(area, i) / touch.offset, STABLE * lightest / (dt * dt * crowd)
-                )
-                going = speed - (s[0] * v0 + s[1] * v1 + s[2] * v2 + s[3] * v3)
-                approach = wp.dot(going, face)
-                near = wp.min(overlap / touch.offset, 1.0)
-                damping = NORMAL_DAMPING * lightest / (dt * crowd)
-                push = wp.max(stiffness * overlap - damping * near * approach, 0.0)
-                along = going - approach * face
-                moved = slip[i, k] + along * dt
-                moved = moved - wp.dot(moved, face) * face
-                grip = STICK * stiffness
-                hold = float_at(friction, int_at(vertex_balloon, i)) * push / grip
-                far = wp.length(moved)
-                if far > hold:
-                    moved = moved * (hold / far)
-                f = push * face - grip * moved
-            slip[i, k] = moved
-            put(contact_force, i, k, f)
-            contact_place[2 * i + k] = place
+    """Write the contact force (N) on a vertex that touches a quad, and where on the quad.
+
+    `pair`: twice the vertex, and which of its walls; `c`, `limits`: of `limits_of_pair`.
+    """
+    i = pair >> 1
+    k = pair & 1
+    p = vec3_seen(x, i)
+    x0 = vec3_seen(x, c[0])
+    x1 = vec3_seen(x, c[1])
+    x2 = vec3_seen(x, c[2])
+    x3 = vec3_seen(x, c[3])
+    # Read before it is known whether they are needed: then nothing waits for them.
+    speed = vec3_seen(v, i)
+    v0 = vec3_seen(v, c[0])
+    v1 = vec3_seen(v, c[1])
+    v2 = vec3_seen(v, c[2])
+    v3 = vec3_seen(v, c[3])
+    slipped = slip[i, k]
+    # It slides little in a substep: one step from where it was is enough.
+    place = nearer_on_patch(x0, x1, x2, x3, p, vec2_at(contact_place, pair))
+    s = patch_shares(place)
+    gap = p - (s[0] * x0 + s[1] * x1 + s[2] * x2 + s[3] * x3)
+    face = wp.normalize(wp.cross(x2 - x0, x3 - x1))
+    height = wp.dot(gap, face)
+    overlap = offset - height
+    f = wp.vec3(0.0)
+    moved = wp.vec3(0.0)
+    if overlap > 0.0 and wp.length(gap - height * face) < limits[3]:
+        stiffness = limits[0]
+        going = speed - (s[0] * v0 + s[1] * v1 + s[2] * v2 + s[3] * v3)
+        approach = wp.dot(going, face)
+        near = wp.min(overlap / offset, 1.0)
+        push = wp.max(stiffness * overlap - limits[1] * near * approach, 0.0)
+        along = going - approach * face
+        moved = slipped + along * dt
+        moved = moved - wp.dot(moved, face) * face
+        grip = STICK * stiffness
+        hold = limits[2] * push / grip
+        far = wp.length(moved)
+        if far > hold:
+            moved = moved * (hold / far)
+        f = push * face - grip * moved
+    slip[i, k] = moved
+    put(contact_force, i, k, f)
+    contact_place[pair] = place
 
 
 @wp.func
@@ -642,8 +704,6 @@ def press_quad_back(
 ):
     """Take from the corners of a quad what the vertices that touch it felt, forces and torques."""
     count = int_at(hit_count, q)
-    if count == 0:
-        return
     c = vec4i_at(quads, q)
     x0 = vec3_seen(x, c[0])
     x1 = vec3_seen(x, c[1])

@@ -60,7 +60,7 @@ def ring_mean(first: int, n: int, lane: int, lanes: int, x: wp.array[wp.vec3]):
     c = wp.vec3(0.0)
     for k in range(lane, n, lanes):
         c += vec3_seen(x, first + k) - origin
-    return origin + lanes_sum3(c) / float(n)
+    return origin + lanes_sum3(c, lanes) / float(n)
 
 
 @wp.func
@@ -88,8 +88,8 @@ def keep_order(
         at = vec2_at(corner, first + k)
         a += at[0] * arm
         b += at[1] * arm
-    a = lanes_sum3(a)
-    b = lanes_sum3(b)
+    a = lanes_sum3(a, lanes)
+    b = lanes_sum3(b, lanes)
     # In its plane it is turned so that the forces have no torque at all.
     axes = nearest_axes(a, b)
     p = axes * wp.vec2(1.0, 0.0)
@@ -226,7 +226,7 @@ def yield_to_core(
     total = wp.vec3(0.0)
     for k in range(lane, n, lanes):
         total += force_of_cores(first + k, last + k, keeps, off_next, off_last, core_order, core_push)
-    thrust -= lanes_sum3(total) / float(n)
+    thrust -= lanes_sum3(total, lanes) / float(n)
     for k in range(lane, n, lanes):
         i = first + k
         f = force_of_cores(i, last + k, keeps, off_next, off_last, core_order, core_push)

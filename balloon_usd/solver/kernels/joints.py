@@ -141,7 +141,7 @@ def measure_open_ring(
     if int_at(joint_parts, j) == 1 and float_at(radius_to, j) == 0.0:
         first = int_at(joint_first, j)
         n = int_at(joint_around, j)
-        area = lanes_sum3(ring_fan(first, n, vec3_seen(ring_middle, j), lane, lanes, x))
+        area = lanes_sum3(ring_fan(first, n, vec3_seen(ring_middle, j), lane, lanes, x), lanes)
         if lane == 0:
             put_vec3(ring_area, j, area)
 
@@ -157,6 +157,7 @@ def pull_on_end(strut: int, pull: wp.vec3):
 @wp.func
 def move_joint(
     j: int,
+    idle: bool,
     lane: int,
     lanes: int,
     corners: wp.array[wp.vec4i],
@@ -204,10 +205,11 @@ def move_joint(
     the hand feels.
 
     Places in m, vector areas in m2, speeds in m/s, loads in N. Every lane has its own vertices; `x_next`
-    keeps them where it has several.
+    keeps them where it has several. `idle`: only keep the other half of the warp company.
     """
     first = int_at(joint_first, j)
     n = int_at(joint_around, j)
+    mine = wp.where(idle, 0, n)
     parts = int_at(joint_parts, j)
     mode = int_at(hand, j)
     closed = float(0.0)
@@ -243,7 +245,7 @@ def move_joint(
     va = wp.vec3(0.0)
     vb = wp.vec3(0.0)
     own = wp.vec3(0.0)
-    for k in range(lane, n, lanes):
+    for k in range(lane, mine, lanes):
         i = first + k
         f = force_on_vertex(
             i, side, inside, outside, corners, quad_segment, contact_force, corner_force, lift
@@ -268,7 +270,7 @@ def move_joint(
         strut = int_in(joint_struts, j, k)
         pull = vec3_seen(strut_force, wp.max(wp.abs(strut) - 1, 0))
         force += pull_on_end(strut, pull)
-    sums = lanes_sum_all(force, c, w, a, b, va, vb, own)
+    sums = lanes_sum_all(force, c, w, a, b, va, vb, own, lanes)
     force = sums[0]
     c = sums[1] / float(n)
     w = sums[2] / float(n)
@@ -295,7 +297,7 @@ def move_joint(
             normal = wp.cross(axes * wp.vec2(1.0, 0.0), axes * wp.vec2(0.0, 1.0))
             area = (0.5 * float(n) * sine * closed * closed) * normal
     lanes_meet()
-    for k in range(lane, n, lanes):
+    for k in range(lane, mine, lanes):
         i = first + k
         if lanes < n:
             p = vec3_at(x_next, i)
@@ -308,7 +310,7 @@ def move_joint(
             d = c + arm
         put_vec3(x, i, home + (d + shift))
         put_vec3(v, i, s)
-    if lane == 0:
+    if lane == 0 and not idle:
         put_vec3(ring_middle, j, home + (c + shift))
         put_vec3(ring_speed, j, w + kick)
         put_vec3(hand_load, j, load)
@@ -337,14 +339,14 @@ def measure_rings(
     c = wp.vec3(0.0)
     for k in range(lane, n, lanes):
         c += vec3_seen(x, first + k)
-    c = lanes_sum3(c) / float(n)
+    c = lanes_sum3(c, lanes) / float(n)
     a = wp.vec3(0.0)
     b = wp.vec3(0.0)
     for k in range(lane, n, lanes):
         a += vec2_at(corner, first + k)[0] * (vec3_seen(x, first + k) - c)
         b += vec2_at(corner, first + k)[1] * (vec3_seen(x, first + k) - c)
-    axes = nearest_axes(lanes_sum3(a), lanes_sum3(b))
-    area = lanes_sum3(ring_fan(first, n, c, lane, lanes, x))
+    axes = nearest_axes(lanes_sum3(a, lanes), lanes_sum3(b, lanes))
+    area = lanes_sum3(ring_fan(first, n, c, lane, lanes, x), lanes)
     if lane == 0:
         put_vec3(ring_middle, j, c)
         put_vec3(ring_area, j, area)
@@ -365,6 +367,7 @@ def pair_shift(here: wp.vec3, there: wp.vec3, share: float, gap: float, reach: f
 @wp.func
 def weld_joint_to_others(
     j: int,
+    idle: bool,
     lane: int,
     lanes: int,
     joint_weld: wp.array[int],
@@ -383,27 +386,26 @@ def weld_joint_to_others(
     weld_shift: wp.array[wp.vec3],
 ):
     """Keep the neck of a joint beside the others of its weld, each pair at least its gap (m) and at most its
-    reach (m) apart; write how far it moves (m).
+    reach (m) apart; write how far it moves (m). `idle`: only keep the other half of the warp company.
     """
     g = int_at(joint_weld, j) - 1
     first = int_at(joint_first, j)
     n = int_at(joint_around, j)
-    mode = int_at(hand, j)
     mine = float_at(joint_mass, j)
     here = vec3_at(ring_middle, j)
-    if g >= 0 and held(mode) == 0:
-        size = int_at(weld_size, g)
-        gap = float_at(weld_gap, g)
-        reach = float_at(weld_reach, g)
-        shift = wp.vec3(0.0)
-        for m in range(lane, size, lanes):
-            other = int_in(weld_joint, g, m)
-            mass = float_at(joint_mass, other)
-            share = wp.where(held(int_at(hand, other)) == 1, 1.0, mass / (mine + mass))
-            shift += pair_shift(
-                here, vec3_at(ring_middle, other), wp.where(other == j, 0.0, share), gap, reach
-            )
-        shift = lanes_sum3(shift) / wp.max(float(size - 1), 1.0)
+    free = g >= 0 and held(int_at(hand, j)) == 0 and not idle
+    g = wp.max(g, 0)
+    size = wp.where(free, int_at(weld_size, g), 0)
+    gap = float_at(weld_gap, g)
+    reach = float_at(weld_reach, g)
+    shift = wp.vec3(0.0)
+    for m in range(lane, size, lanes):
+        other = int_in(weld_joint, g, m)
+        mass = float_at(joint_mass, other)
+        share = wp.where(held(int_at(hand, other)) == 1, 1.0, mass / (mine + mass))
+        shift += pair_shift(here, vec3_at(ring_middle, other), wp.where(other == j, 0.0, share), gap, reach)
+    shift = lanes_sum3(shift, lanes) / wp.max(float(size - 1), 1.0)
+    if free:
         for m in range(lane, n, lanes):
             put_vec3(x, first + m, vec3_at(x, first + m) + shift)
             put_vec3(v, first + m, vec3_at(v, first + m) + shift / dt)

@@ -8,6 +8,9 @@ from balloon_usd.solver.kernels.native import native
 
 WARP = 32
 """Lanes of a warp."""
+HALF = 16
+"""Lanes of half a warp."""
+ALL = wp.constant(WARP)
 FEW = 8
 """Lanes that sum what is too little for a warp."""
 
@@ -40,15 +43,16 @@ def few_sum(value: float) -> float:
     return value
 
 
-@native(
-    _OVER_LANES.format(
-        lanes=WARP,
-        type="wp::vec_t<3, float>",
-        add="for (int k = 0; k < 3; ++k) total[k] += __shfl_xor_sync(0xffffffffu, total[k], step);",
-    ),
-)
-def lanes_sum3(value: wp.vec3) -> wp.vec3:
-    """Return the sum over the lanes of a warp, in a fixed order."""
+@native("""
+wp::vec_t<3, float> total = value;
+#if defined(__CUDA_ARCH__)
+for (int step = lanes / 2; step > 0; step >>= 1)
+    for (int k = 0; k < 3; ++k) total[k] += __shfl_xor_sync(0xffffffffu, total[k], step);
+#endif
+return total;
+""")
+def lanes_sum3(value: wp.vec3, lanes: int) -> wp.vec3:  # noqa: ARG001  # in the native code
+    """Return the sum over a warp, or over each half of it, so many `lanes`, in a fixed order."""
     return value
 
 
@@ -63,7 +67,7 @@ const wp::vec_t<3, float>* values[] = {&a, &b, &c, &d, &e, &f, &g, &h};
 for (int row = 0; row < 8; ++row)
     for (int k = 0; k < 3; ++k) total.data[row][k] = values[row]->c[k];
 #if defined(__CUDA_ARCH__)
-for (int step = 16; step > 0; step >>= 1)
+for (int step = lanes / 2; step > 0; step >>= 1)
     for (int row = 0; row < 8; ++row)
         for (int k = 0; k < 3; ++k)
             total.data[row][k] += __shfl_xor_sync(0xffffffffu, total.data[row][k], step);
@@ -72,9 +76,17 @@ return total;
 """
 )
 def lanes_sum_all(
-    a: wp.vec3, b: wp.vec3, c: wp.vec3, d: wp.vec3, e: wp.vec3, f: wp.vec3, g: wp.vec3, h: wp.vec3
+    a: wp.vec3,
+    b: wp.vec3,
+    c: wp.vec3,
+    d: wp.vec3,
+    e: wp.vec3,
+    f: wp.vec3,
+    g: wp.vec3,
+    h: wp.vec3,
+    lanes: int,  # noqa: ARG001  # in the native code
 ) -> Vectors:
-    """Return the sums of eight vectors over the lanes of a warp, in a fixed order: in the time of one."""
+    """Return the sums of eight vectors over a warp, or each half, in a fixed order: in the time of one."""
     return Vectors(*a, *b, *c, *d, *e, *f, *g, *h)
 
 
@@ -107,22 +119,12 @@ def lanes_that(yes: int) -> int:
 #if defined(__CUDA_ARCH__)
 return __ffs(bits) - 1;
 #else
-return 0;
+return __builtin_ctz(bits);
 #endif
 """)
 def lowest(bits: int) -> int:
-    """Return the first of some lanes, given as bits that are not all 0."""
+    """Return the first of some bits that are not all 0, such as those of lanes."""
     return bits
-
-
-@native(
-    _OVER_LANES.format(
-        lanes=WARP, type="float", add="total = fminf(total, __shfl_xor_sync(0xffffffffu, total, step));"
-    ),
-)
-def lanes_least(value: float) -> float:
-    """Return the smallest value over the lanes of a warp."""
-    return value
 
 
 @native(
@@ -133,6 +135,33 @@ def lanes_least(value: float) -> float:
 def lanes_most(value: int) -> int:
     """Return the largest value over the lanes of a warp."""
     return value
+
+
+@native("""
+#if defined(__CUDA_ARCH__)
+return __popc(bits);
+#else
+return __builtin_popcount(bits);
+#endif
+""")
+def bits_in(bits: int) -> int:
+    """Return how many bits are set."""
+    return bits
+
+
+@wp.func
+def bit_of_rank(bits: int, rank: int):
+    """Return which bit has a rank, from 0, among those that are set."""
+    left = int(bits)
+    for _ in range(rank):
+        left &= left - 1
+    return lowest(left)
+
+
+@wp.func
+def joint_lanes():
+    """Return how many lanes of a warp move a joint: all, or half of them where that is known to be enough."""
+    return ALL
 
 
 @native("return WP_TILE_BLOCK_DIM;")

@@ -13,6 +13,7 @@ from balloon_usd.solver.kernels.rubber import (
     softening_factor,
 )
 from balloon_usd.solver.kernels.seen import vec3_seen
+from balloon_usd.solver.kernels.suspects import look_at_vertex
 
 MIN_STRETCH = wp.constant(0.05)
 """Smallest stretch that enters a rubber law (1): a collapsed quad must not divide by zero."""
@@ -275,10 +276,18 @@ def vertex_stretch(
     corners: wp.array[wp.vec4i],
     quads: wp.array[wp.vec4i],
     to_rest: wp.array[wp.mat22],
+    vertex_balloon: wp.array[int],
+    balloon_world: wp.array[int],
+    most_way: float,
+    most_stretch: wp.array[float],
     x: wp.array[wp.vec3],
     stretch: wp.array[float],
+    x_shown: wp.array[wp.vec3],
+    suspects: wp.array[int],
 ):
-    """Write the largest principal stretch of the wall at every vertex, the mean over its quads."""
+    """Write the largest principal stretch of the wall at every vertex, the mean over its quads, and mark the
+    sculptures in which something may be wrong.
+    """
     i = wp.tid()
     total = float(0.0)
     count = float(0.0)
@@ -290,4 +299,6 @@ def vertex_stretch(
                 total += stretch_of_quad(slots[k] // 4, quads, to_rest, x)
                 count += 1.0
         row = -2 - slots[3]
-    put_float(stretch, i, total / wp.max(count, 1.0))
+    mean = total / wp.max(count, 1.0)
+    put_float(stretch, i, mean)
+    look_at_vertex(i, mean, vertex_balloon, balloon_world, most_way, most_stretch, x, x_shown, suspects)

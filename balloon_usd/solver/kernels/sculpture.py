@@ -4,8 +4,16 @@ other, in place of a launch for each law.
 
 import warp as wp
 
-from balloon_usd.solver.kernels.at import int_at, int_in, put_float, put_vec3, vec3_at
-from balloon_usd.solver.kernels.contact import Touch, press_quad_back, press_wall
+from balloon_usd.solver.kernels.at import (
+    int_at,
+    int_in,
+    put_float,
+    put_vec3,
+    vec3_at,
+    vec4_at,
+    vec4i_at,
+)
+from balloon_usd.solver.kernels.contact import Touch, limits_of_pair, press_quad_back, press_wall
 from balloon_usd.solver.kernels.core import cores_may_pack, press_core, yield_to_core
 from balloon_usd.solver.kernels.fingers import Finger, press_finger
 from balloon_usd.solver.kernels.gas import Air, advance_gas, shares_of_chunks, volume_of_fans
@@ -28,14 +36,16 @@ from balloon_usd.solver.kernels.joints import (
     weld_joint_to_others,
 )
 from balloon_usd.solver.kernels.lanes import (
+    ALL,
     FEW,
-    WARP,
+    bit_of_rank,
+    bits_in,
     block_lanes,
     block_meets,
     blocks_meet,
     few_sum,
+    joint_lanes,
     lanes_sum,
-    lowest,
 )
 from balloon_usd.solver.kernels.membrane import wall_of_quad
 from balloon_usd.solver.kernels.motion import Spin, move_vertex
@@ -48,7 +58,6 @@ wp.set_module_options(
     {"cpu_compiler_flags": f"{wp.config.cpu_compiler_flags or '-march=native'} -ffp-contract=fast"}
 )
 
-ALL = wp.constant(WARP)
 PLACE = wp.constant(PLACE_BYTES)
 FORCE = wp.constant(FORCE_BYTES)
 FEW_LANES = wp.constant(FEW)
@@ -158,6 +167,10 @@ def advance_sculptures(
     ring_radius: wp.array[float],
     target: wp.array2d[int],
     hit_count: wp.array[int],
+    pair_count: wp.array[int],
+    pairs: wp.array[int],
+    pressed_count: wp.array[int],
+    pressed: wp.array[int],
     v: wp.array[wp.vec3],
     slip: wp.array2d[wp.vec3],
     contact_force: wp.array2d[float],
@@ -177,6 +190,8 @@ def advance_sculptures(
     peak_energy: wp.array[float],
     x_next: wp.array[wp.vec3],
     chunk_share: wp.array[float],
+    pair_corners: wp.array[wp.vec4i],
+    pair_limits: wp.array[wp.vec4],
     gates: wp.array[int],
 ):
     """Advance every sculpture from substep `begin` to `end` of its frame.
@@ -195,6 +210,9 @@ def advance_sculptures(
     gang = wp.min(ALL, block_size)
     one = lane % gang
     few = wp.min(FEW_LANES, block_size)
+    # Lanes that move a joint, and how many such are in a warp.
+    team = wp.min(joint_lanes(), block_size)
+    teams = gang // team
     warps = lanes // gang
     warp = me // gang
     block_warps = block_size // gang
@@ -218,6 +236,28 @@ def advance_sculptures(
     core_begin = int_at(world_core, w)
     core_end = wp.where(walls == 1, int_at(world_core, w + 1), core_begin)
     welds = int_at(world_welds, w)
+    own_joints = joints_of_block(joint_begin + one, joint_begin, joint_end, block, joint_blocks, joint_leader)
+    pair_begin = 2 * vertex_begin
+    pair_end = pair_begin + int_at(pair_count, w)
+    pressed_end = quad_begin + int_at(pressed_count, w)
+    if walls == 1:
+        # Each lane reads in every substep what it wrote itself.
+        for at in range(pair_begin + lanes - 1 - me, pair_end, lanes):
+            touched, limits = limits_of_pair(
+                int_at(pairs, at),
+                quads,
+                mass,
+                touch,
+                friction,
+                vertex_balloon,
+                dt,
+                area,
+                quad_area,
+                target,
+                hit_count,
+            )
+            pair_corners[at] = touched
+            pair_limits[at] = limits
     take_room()
     faces = quad_end - quad_begin
     places = PLACE * (vertex_end - vertex_begin)
@@ -298,19 +338,13 @@ def advance_sculptures(
                 ring_area,
             )
         if walls == 1:
-            for i in range(vertex_begin + lanes - 1 - me, vertex_end, lanes):
+            for at in range(pair_begin + lanes - 1 - me, pair_end, lanes):
                 press_wall(
-                    i,
-                    quads,
-                    mass,
-                    touch,
-                    friction,
-                    vertex_balloon,
+                    int_at(pairs, at),
+                    vec4i_at(pair_corners, at),
+                    vec4_at(pair_limits, at),
+                    touch.offset,
                     dt,
-                    area,
-                    quad_area,
-                    target,
-                    hit_count,
                     x_here,
                     v_here,
                     slip,
@@ -393,13 +427,20 @@ def advance_sculptures(
                 )
         if other >= 0:
             if walls == 1:
-                for q in range(quad_begin + other, quad_end, others):
+                # From the other end: the first lanes see to the gas.
+                for at in range(quad_begin + others - 1 - other, pressed_end, others):
                     press_quad_back(
-                        q, quads, hit_count, hits, contact_force, contact_place, x_here, force_here
+                        int_at(pressed, at),
+                        quads,
+                        hit_count,
+                        hits,
+                        contact_force,
+                        contact_place,
+                        x_here,
+                        force_here,
                     )
             slots = joint_struts.shape[1]
-            # From the other end: those that press no wall back.
-            for at in range(joint_begin * slots + others - 1 - other, joint_end * slots, others):
+            for at in range(joint_begin * slots + other, joint_end * slots, others):
                 strut = int_in(joint_struts, at // slots, at % slots)
                 if strut > 0:
                     load_strut(
@@ -434,58 +475,59 @@ def advance_sculptures(
                 )
         goal += crew
         blocks_meet(gates, w, crew, goal, lane)
-        rank = int(0)
         for base in range(joint_begin, joint_end, gang):
-            mine = joints_of_block(base + one, joint_begin, joint_end, block, joint_blocks, joint_leader)
-            while mine != 0:
-                if rank % block_warps == block_warp:
-                    move_joint(
-                        base + lowest(mine),
-                        one,
-                        gang,
-                        corners,
-                        vertex_balloon,
-                        quad_segment,
-                        vertex_along,
-                        joint_first,
-                        joint_around,
-                        joint_parts,
-                        joint_beside,
-                        joint_struts,
-                        corner,
-                        mass,
-                        weight,
-                        joint_mass,
-                        gravity,
-                        drag,
-                        dt,
-                        frame_seconds,
-                        fraction,
-                        spin,
-                        hand,
-                        hand_from,
-                        hand_to,
-                        hand_free,
-                        hand_force,
-                        hand_stiffness,
-                        radius_from,
-                        radius_to,
-                        contact_force,
-                        force_here,
-                        lift_here,
-                        pressure,
-                        strut_force,
-                        x_next,
-                        x_here,
-                        v_here,
-                        ring_middle,
-                        ring_area,
-                        ring_axes,
-                        ring_speed,
-                        hand_load,
-                    )
-                mine &= mine - 1
-                rank += 1
+            mine = int(own_joints)
+            if base > joint_begin:
+                mine = joints_of_block(base + one, joint_begin, joint_end, block, joint_blocks, joint_leader)
+            last = bits_in(mine) - 1
+            for first_rank in range(teams * block_warp, last + 1, teams * block_warps):
+                rank = first_rank + one // team
+                move_joint(
+                    base + bit_of_rank(mine, wp.min(rank, last)),
+                    rank > last,
+                    lane % team,
+                    team,
+                    corners,
+                    vertex_balloon,
+                    quad_segment,
+                    vertex_along,
+                    joint_first,
+                    joint_around,
+                    joint_parts,
+                    joint_beside,
+                    joint_struts,
+                    corner,
+                    mass,
+                    weight,
+                    joint_mass,
+                    gravity,
+                    drag,
+                    dt,
+                    frame_seconds,
+                    fraction,
+                    spin,
+                    hand,
+                    hand_from,
+                    hand_to,
+                    hand_free,
+                    hand_force,
+                    hand_stiffness,
+                    radius_from,
+                    radius_to,
+                    contact_force,
+                    force_here,
+                    lift_here,
+                    pressure,
+                    strut_force,
+                    x_next,
+                    x_here,
+                    v_here,
+                    ring_middle,
+                    ring_area,
+                    ring_axes,
+                    ring_speed,
+                    hand_load,
+                )
         for i in range(vertex_begin + lanes - 1 - me, vertex_end, lanes):
             if int_at(vertex_joint, i) < 0:
                 move_vertex(
@@ -511,32 +553,35 @@ def advance_sculptures(
         if welds > 0:
             # All joints of a weld are one block's.
             block_meets()
-            rank = int(0)
             for base in range(joint_begin, joint_end, gang):
-                mine = joints_of_block(base + one, joint_begin, joint_end, block, joint_blocks, joint_leader)
-                while mine != 0:
-                    if rank % block_warps == block_warp:
-                        weld_joint_to_others(
-                            base + lowest(mine),
-                            one,
-                            gang,
-                            joint_weld,
-                            weld_joint,
-                            weld_size,
-                            weld_reach,
-                            weld_gap,
-                            joint_first,
-                            joint_around,
-                            joint_mass,
-                            hand,
-                            dt,
-                            ring_middle,
-                            x_here,
-                            v_here,
-                            weld_shift,
-                        )
-                    mine &= mine - 1
-                    rank += 1
+                mine = int(own_joints)
+                if base > joint_begin:
+                    mine = joints_of_block(
+                        base + one, joint_begin, joint_end, block, joint_blocks, joint_leader
+                    )
+                last = bits_in(mine) - 1
+                for first_rank in range(teams * block_warp, last + 1, teams * block_warps):
+                    rank = first_rank + one // team
+                    weld_joint_to_others(
+                        base + bit_of_rank(mine, wp.min(rank, last)),
+                        rank > last,
+                        lane % team,
+                        team,
+                        joint_weld,
+                        weld_joint,
+                        weld_size,
+                        weld_reach,
+                        weld_gap,
+                        joint_first,
+                        joint_around,
+                        joint_mass,
+                        hand,
+                        dt,
+                        ring_middle,
+                        x_here,
+                        v_here,
+                        weld_shift,
+                    )
             block_meets()
             for j in range(joint_begin + lane, joint_end, block_size):
                 if block_of_joint(j, joint_begin, joint_blocks, joint_leader) == block:

@@ -2,6 +2,8 @@
 
 import warp as wp
 
+from balloon_usd.solver.kernels.suspects import look_at_vertex
+
 SHORTEST = wp.constant(1.0e-9)
 """Length below which a spring has no direction (m)."""
 
@@ -141,10 +143,16 @@ def limit_elongation(
 def spring_stretch(
     spring_ends: wp.array[wp.vec4i],
     natural: wp.array[wp.vec4],
+    vertex_balloon: wp.array[int],
+    balloon_world: wp.array[int],
+    most_way: float,
+    most_stretch: wp.array[float],
     x: wp.array[wp.vec3],
     stretch: wp.array[float],
+    x_shown: wp.array[wp.vec3],
+    suspects: wp.array[int],
 ):
-    """Write the largest stretch of the springs at every vertex."""
+    """Write the largest stretch of the springs at every vertex; mark where something may be wrong."""
     i = wp.tid()
     ends = spring_ends[i]
     lengths = natural[i]
@@ -153,3 +161,4 @@ def spring_stretch(
         if ends[k] >= 0:
             most = wp.max(most, wp.length(x[ends[k]] - x[i]) / lengths[k])
     stretch[i] = most
+    look_at_vertex(i, most, vertex_balloon, balloon_world, most_way, most_stretch, x, x_shown, suspects)

@@ -9,7 +9,6 @@ import numpy as np
 
 from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.solver.body import body_ranges, places_beside
-from balloon_usd.solver.frame import Frame
 from balloon_usd.solver.hands import Hands
 from balloon_usd.solver.kosaka.body import KosakaBody, kosaka_body
 from balloon_usd.solver.kosaka.clusters import Clusters
@@ -19,8 +18,10 @@ from balloon_usd.solver.kosaka.scene import KosakaScene, kosaka_scene
 from balloon_usd.solver.kosaka.stepper import KosakaStepper
 from balloon_usd.solver.layout import Layout
 from balloon_usd.solver.mirror import Mirror
+from balloon_usd.solver.model import Told
 from balloon_usd.solver.settings import SceneSettings
 from balloon_usd.solver.sight import Sight
+from balloon_usd.solver.watch import most_stretches
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -40,6 +41,7 @@ LOOKED_AT = (
     "air",
     "ring_middle",
     "fastest",
+    "suspects",
 )
 """Arrays of which frames are made."""
 
@@ -61,9 +63,8 @@ ROOM_TO_GROW = 1.25
 
 
 class _Shown(NamedTuple):
-    """What the makers and the clusters had come to when the state was looked at."""
+    """What the clusters had come to when the state was looked at."""
 
-    doing: list[str]
     of_segment: NDArray[np.int64]
     """Cluster of every segment, (S,)."""
     of_air: NDArray[np.int32]
@@ -92,6 +93,7 @@ class KosakaModel:
             contact_offset=min(b.parameters.contact_offset for b in bodies),
         )
         self.scene = kosaka_scene(bodies, worlds, settings, device)
+        self.scene.most_stretch.assign(most_stretches(plans, self._bodies))
         self._mirror = Mirror(self.scene, LOOKED_AT)
         self.stepper = KosakaStepper(self.scene, substeps, _quad_half(bodies), self._mirror)
         self.hands = _hands(self.scene)
@@ -100,18 +102,15 @@ class KosakaModel:
             KosakaMaker(plan, self.scene, self.hands, run.start)
             for plan, run in zip(plans, self._bodies, strict=True)
         ]
-        self._layout = Layout(self.scene, self._bodies)
         self._seen: dict[str, NDArray[Any]] = {}
-        self._sight: Sight | None = None
         starts = self.scene.air_start
-        self._airs = [tuple(slice(starts[b], starts[b + 1]) for b in run) for run in self._bodies]
-        """Particles of every balloon of every sculpture."""
+        self.layout = Layout(self.scene, self._bodies, np.diff(starts).tolist())
         sizes = [starts[run.stop] - starts[run.start] for run in self._bodies]
-        self._first_bubble = np.repeat([place.bubbles.start for place in self._layout.places], sizes)
+        self._first_bubble = np.repeat([place.bubbles.start for place in self.layout.places], sizes)
         """First bubble of the sculpture of every particle."""
+        self.told: list[Told] = []
+        """What was told of every sculpture when the state was looked at."""
         self._shown = self._come_to()
-        self._air = np.zeros((0, 3), dtype=np.float32)
-        self._cluster = np.zeros(0, dtype=np.int32)
         self._frames = 0
         self._moved = 0.0
         """Way of the fastest air since the last search, in the distance that lists look ahead."""
@@ -126,7 +125,7 @@ class KosakaModel:
         middle = self._seen["ring_middle"].copy()
         self.hands.see(self._seen)
         self.hands.lift_fingers()
-        for maker, lost in zip(self.makers, self._layout.astray(middle), strict=True):
+        for maker, lost in zip(self.makers, self.layout.astray(middle), strict=True):
             if not lost:
                 maker.act(begin, end, middle)
         self.hands.upload()
@@ -167,16 +166,15 @@ class KosakaModel:
         return int(handled or self._frames % LOST_EVERY == 0)
 
     def look(self) -> None:
-        """Wait for the state that was reached last; frames are made of it until the next look."""
+        """Wait for the state that was reached last, of which all that follows tells until the next look."""
         if self._frames == 0:
             self.stepper.look()
         self._seen = self._mirror.arrays()
         self._shown = self._come_to()
-        self._sight = None
+        self.told = [Told(maker.doing) for maker in self.makers]
 
     def _come_to(self) -> _Shown:
-        doing = [maker.doing for maker in self.makers]
-        return _Shown(doing, self.clusters.of_segment, self.clusters.of_air)
+        return _Shown(self.clusters.of_segment, self.clusters.of_air)
 
     def rest(self) -> None:
         """Wait until nothing is under way."""
@@ -184,40 +182,37 @@ class KosakaModel:
 
     @property
     def sight(self) -> Sight:
-        """What was looked at, of all sculptures."""
-        if self._sight is None:
-            seen, bubbles = self._seen, self._layout.bubbles
-            pressure = seen["cluster_pressure"][self._shown.of_segment[bubbles]]
-            self._sight = Sight(seen["x"].copy(), seen["stretch"].copy(), pressure, seen["volume"][bubbles])
-            self._air = seen["air"].copy()
-            cluster = np.searchsorted(bubbles, self._shown.of_air) - self._first_bubble
-            self._cluster = cluster.astype(np.int32)
-        return self._sight
-
-    def frame(self, world: int, time_code: int) -> Frame:
-        """Return what was looked at as a frame of one sculpture."""
-        sight, place, airs = self.sight, self._layout.places[world], self._airs[world]
-        return Frame(
-            time_code,
-            tuple([sight.points[span] for span in place.walls]),
-            tuple([sight.stretch[span] for span in place.walls]),
-            sight.pressure[place.bubbles],
-            sight.volume[place.bubbles],
-            self._shown.doing[world],
-            air=tuple([self._air[span] for span in airs]),
-            cluster=tuple([self._cluster[span] for span in airs]),
+        """What was looked at, of all sculptures; it stays as it is for two more looks."""
+        seen, bubbles = self._seen, self.layout.bubbles
+        pressure = seen["cluster_pressure"][self._shown.of_segment[bubbles]]
+        cluster = np.searchsorted(bubbles, self._shown.of_air) - self._first_bubble
+        return Sight(
+            seen["x"],
+            seen["stretch"],
+            pressure,
+            seen["volume"][bubbles],
+            air=seen["air"],
+            cluster=cluster.astype(np.int32),
         )
 
-    def failure(self, world: int) -> str | None:
-        """Return what is wrong with a sculpture in a way that its frame does not show, or None."""
-        near = int(self._seen["most_near"][world])
-        if near == 0:
-            return None
-        return f"about {near} air particles and faces meet, more than there is room for: space them wider"
+    @property
+    def suspects(self) -> NDArray[np.int32]:
+        """1 for every sculpture with walls that went too far or are stretched too much, (W,)."""
+        suspects: NDArray[np.int32] = self._seen["suspects"]
+        return suspects
+
+    def failures(self) -> dict[int, str]:
+        """Return what is wrong with sculptures in a way that their frames do not show."""
+        most_near = self._seen["most_near"]
+        return {world: _too_near(int(most_near[world])) for world in np.flatnonzero(most_near).tolist()}
 
     def give_up(self, world: int) -> None:
         """Leave a sculpture alone whose run has failed."""
         self.hands.give_up(self._bodies[world])
+
+
+def _too_near(near: int) -> str:
+    return f"about {near} air particles and faces meet, more than there is room for: space them wider"
 
 
 def _hands(scene: KosakaScene) -> Hands:

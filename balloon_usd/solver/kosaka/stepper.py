@@ -25,6 +25,7 @@ from balloon_usd.solver.kernels.walls import part_walls
 from balloon_usd.solver.launch import Launcher
 from balloon_usd.solver.search_grid import SearchGrid
 from balloon_usd.solver.wall_search import WallSearch
+from balloon_usd.solver.watch import most_way
 
 if TYPE_CHECKING:
     from balloon_usd.solver.kosaka.scene import KosakaScene
@@ -56,6 +57,7 @@ class KosakaStepper:
         values: dict[str, Any] = {
             "dt": dt,
             "frame_seconds": dt * substeps,
+            "most_way": most_way(dt * substeps),
             "substeps": float(substeps),
             "margin": scene.margin,
             "quad_half": quad_half,
@@ -96,6 +98,7 @@ class KosakaStepper:
         copy.
         """
         segments = len(self.scene.segment_quad)
+        self.scene.suspects.zero_()
         self._launch(spring_stretch, len(self.scene.x))
         self._launcher.launch_tiled(segment_volumes, segments, lanes=MANY_LANES)
         self._launcher.launch_tiled(cluster_pressures, segments, lanes=MANY_LANES)

@@ -11,7 +11,7 @@ import numpy as np
 import warp as wp
 
 from balloon_usd.solver.kernels.home import FORCE_BYTES, NEAR, PLACE_BYTES
-from balloon_usd.solver.kernels.lanes import WARP
+from balloon_usd.solver.kernels.lanes import HALF, WARP
 from balloon_usd.solver.kernels.sculpture import advance_sculptures
 from balloon_usd.solver.kernels.seen import ALONE
 from balloon_usd.solver.latex.quick_kernel import BESIDE, quick_kernel, room_inside
@@ -37,8 +37,6 @@ class Crew:
         scene.zeros("chunk_share", len(scene.chunk_low), float)
         for name, starts in (
             ("balloon", np.arange(len(scene.bodies) + 1)),
-            ("quad", scene.quad_start),
-            ("vertex", scene.vertex_start),
             ("segment", scene.segment_start),
             ("joint", scene.joint_start),
         ):
@@ -49,7 +47,9 @@ class Crew:
         self._kernel = advance_sculptures
         if device.is_cuda:
             cores = any(body.packs for body in scene.bodies)
-            self._kernel = quick_kernel(self.lanes, room_inside(device), cores=cores)
+            around = int(scene.joint_around.numpy().max())
+            joint = HALF if around <= HALF else WARP
+            self._kernel = quick_kernel(self.lanes, room_inside(device), cores=cores, joint=joint)
         scene.zeros("gates", worlds, int)
 
     def advance(

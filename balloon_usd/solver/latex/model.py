@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.plan.meshing import joint_places
 from balloon_usd.solver.body import body_ranges, places_beside
-from balloon_usd.solver.frame import Frame
+from balloon_usd.solver.kernels.contact import HITS
 from balloon_usd.solver.latex.body import LatexBody, tube_body
 from balloon_usd.solver.latex.hands import LatexHands
 from balloon_usd.solver.latex.leak import Leak
@@ -20,9 +20,10 @@ from balloon_usd.solver.latex.stepper import Stepper
 from balloon_usd.solver.latex.struts import StrutLaw, Struts
 from balloon_usd.solver.layout import Layout
 from balloon_usd.solver.mirror import Mirror
+from balloon_usd.solver.model import Told
 from balloon_usd.solver.settings import SceneSettings
 from balloon_usd.solver.sight import Sight
-from balloon_usd.solver.watch import crowded
+from balloon_usd.solver.watch import crowded, most_stretches
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -39,16 +40,18 @@ STRUTS_PER_JOINT = 12
 """Room for struts, per joint of the scene."""
 SHORT_OF_GAS = 0.98
 """Share of the wanted gas below which inflating counts as failed."""
-LOOKED_AT = ("x", "stretch", "pressure", "volume", "most_hits", "amount", "ring_middle", "wall_load")
+LOOKED_AT = (
+    "x",
+    "stretch",
+    "pressure",
+    "volume",
+    "most_hits",
+    "amount",
+    "ring_middle",
+    "wall_load",
+    "suspects",
+)
 """Arrays of which frames are made."""
-
-
-class _Shown(NamedTuple):
-    """What a maker had come to when the state was looked at."""
-
-    doing: str
-    undone: tuple[str, ...]
-    just_inflated: bool
 
 
 class LatexModel:
@@ -74,6 +77,7 @@ class LatexModel:
         )
         rings = sum(len(b.rings) for b in bodies)
         self.scene = build_scene(bodies, worlds, settings, device, rings, STRUTS_PER_JOINT * rings)
+        self.scene.most_stretch.assign(most_stretches(plans, self._bodies))
         self.stepper = Stepper(self.scene, substeps)
         self.hands = LatexHands(self.scene)
         self._struts = Struts(self.scene, StrutLaw())
@@ -83,11 +87,12 @@ class LatexModel:
         ]
         self._leak = Leak(plans, self.scene, self.hands, self._bodies)
         self._mirror = Mirror(self.scene, LOOKED_AT)
-        self._layout = Layout(self.scene, self._bodies)
+        self.layout = Layout(self.scene, self._bodies)
         self._seen: dict[str, NDArray[Any]] = {}
-        self._sight: Sight | None = None
-        self._load = np.zeros(0, dtype=np.float32)
-        self._shown: list[_Shown] = []
+        self.told: list[Told] = []
+        """What was told of every sculpture when the state was looked at."""
+        self._inflated: list[int] = []
+        """Sculptures whose last balloon had just got its gas then."""
         self._fetch()
 
     @staticmethod
@@ -100,7 +105,7 @@ class LatexModel:
         middle = self._seen["ring_middle"].copy()
         self.hands.see(self._seen)
         self.hands.lift_fingers()
-        astray = self._layout.astray(middle)
+        astray = self.layout.astray(middle)
         for maker, lost in zip(self.makers, astray, strict=True):
             if not lost:
                 maker.act(begin, end, middle)
@@ -116,10 +121,10 @@ class LatexModel:
         self.stepper.look(self._mirror, contact=bool(self.hands.touching.any()))
 
     def look(self) -> None:
-        """Wait for the state that was reached last; frames are made of it until the next look."""
+        """Wait for the state that was reached last, of which all that follows tells until the next look."""
         self._seen = self._mirror.arrays()
-        self._shown = [_Shown(m.doing, m.torsion.undone, m.just_inflated) for m in self.makers]
-        self._sight = None
+        self.told = [Told(m.doing, m.torsion.undone) for m in self.makers]
+        self._inflated = [world for world, m in enumerate(self.makers) if m.just_inflated]
 
     def rest(self) -> None:
         """Wait until nothing is under way."""
@@ -127,32 +132,24 @@ class LatexModel:
 
     @property
     def sight(self) -> Sight:
-        """What was looked at, of all sculptures."""
-        if self._sight is None:
-            seen, bubbles = self._seen, self._layout.bubbles
-            self._sight = Sight(
-                seen["x"].copy(), seen["stretch"].copy(), seen["pressure"][bubbles], seen["volume"][bubbles]
-            )
-            self._load = seen["wall_load"][bubbles]
-        return self._sight
+        """What was looked at, of all sculptures; it stays as it is for two more looks."""
+        seen, bubbles = self._seen, self.layout.bubbles
+        gas = (seen[name][bubbles] for name in ("pressure", "volume", "wall_load"))
+        return Sight(seen["x"], seen["stretch"], *gas)
 
-    def frame(self, world: int, time_code: int) -> Frame:
-        """Return what was looked at as a frame of one sculpture."""
-        sight, place = self.sight, self._layout.places[world]
-        return Frame(
-            time_code,
-            tuple([sight.points[span] for span in place.walls]),
-            tuple([sight.stretch[span] for span in place.walls]),
-            sight.pressure[place.bubbles],
-            sight.volume[place.bubbles],
-            self._shown[world].doing,
-            self._load[place.bubbles],
-            self._shown[world].undone,
-        )
+    @property
+    def suspects(self) -> NDArray[np.int32]:
+        """1 for every sculpture with walls that went too far or are stretched too much, (W,)."""
+        suspects: NDArray[np.int32] = self._seen["suspects"]
+        return suspects
 
-    def failure(self, world: int) -> str | None:
-        """Return what is wrong with a sculpture in a way that its frame does not show, or None."""
-        return crowded(int(self._seen["most_hits"][world])) or self._short_of_gas(world)
+    def failures(self) -> dict[int, str]:
+        """Return what is wrong with sculptures in a way that their frames do not show."""
+        found = {world: cause for world in self._inflated if (cause := self._short_of_gas(world))}
+        most_hits = self._seen["most_hits"]
+        return found | {
+            world: crowded(int(most_hits[world])) for world in np.flatnonzero(most_hits > HITS).tolist()
+        }
 
     def give_up(self, world: int) -> None:
         """Leave a sculpture alone whose run has failed."""
@@ -160,8 +157,6 @@ class LatexModel:
 
     def _short_of_gas(self, world: int) -> str | None:
         """Tell when inflating has ended without the gas that the plan asks for."""
-        if not self._shown[world].just_inflated:
-            return None
         for b in self._bodies[world]:
             got = float(self._seen["amount"][self.scene.bubbles_of(b)].sum())
             if got < SHORT_OF_GAS * self.hands.pump_goal[b]:

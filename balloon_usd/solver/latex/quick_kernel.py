@@ -9,6 +9,7 @@ from typing import Any
 import warp as wp
 
 from balloon_usd.solver.kernels.home import NEAR
+from balloon_usd.solver.kernels.lanes import HALF, WARP
 from balloon_usd.solver.kernels.sculpture import advance_sculptures
 
 BESIDE = 2
@@ -23,16 +24,19 @@ def room_inside(device: wp.Device) -> int:
 
 
 @cache
-def quick_kernel(lanes: int, room: int, *, cores: bool) -> Any:
+def quick_kernel(lanes: int, room: int, *, cores: bool, joint: int = WARP) -> Any:
     """Return the kernel with approximate divisions and roots: half of the code of exact ones is for numbers
     that cannot occur, and a GPU has to fetch it all in every substep.
 
     `lanes`: of a block; those beside each other share the registers of a processor. `room`: bytes inside a
-    processor that a block takes where its sculpture is at home. `cores`: whether any neck may pack.
+    processor that a block takes where its sculpture is at home. `cores`: whether any neck may pack. `joint`:
+    lanes that move a joint, all of a warp or half of them.
     """
     beside = 1 if lanes == NEAR else BESIDE
     make = wp.kernel(module="unique", module_options={"fast_math": True}, launch_bounds=(lanes, beside))
     others = {} if cores else {"cores_may_pack": _nothing_packs()}
+    if joint < WARP:
+        others["joint_lanes"] = _half_a_warp()
     if lanes == NEAR:
         others["take_room"] = _room_taker(room)
     # The same code, in which some names mean other functions.
@@ -63,3 +67,14 @@ def _nothing_packs() -> Any:
         return 0
 
     return cores_may_pack
+
+
+def _half_a_warp() -> Any:
+    """Return the function that says that half a warp moves a joint."""
+
+    @wp.func
+    def joint_lanes() -> int:
+        """Return so many."""
+        return int(wp.static(HALF))
+
+    return joint_lanes

@@ -112,6 +112,8 @@ def _state_arrays(scene: LatexScene, strut_count: int) -> None:
     scene.zeros("wall_load", segments, float)
     for name in ("amount", "flow"):
         scene.zeros(name, segments, wp.float64)
+    scene.zeros("pair_corners", len(a["pairs"]), wp.vec4i)
+    scene.zeros("pair_limits", len(a["pairs"]), wp.vec4)
     scene.zeros("corner_force", (4 * 3, quads), float)
     scene.zeros("lift", (4 * 3, quads), float)
     for name in ("chamber_first", "chamber_last"):

@@ -12,6 +12,7 @@ from balloon_usd.solver.kernels.wall_load import wall_loads
 from balloon_usd.solver.latex.crew import Crew
 from balloon_usd.solver.launch import Launcher
 from balloon_usd.solver.wall_search import WallSearch
+from balloon_usd.solver.watch import most_way
 
 if TYPE_CHECKING:
     from balloon_usd.solver.latex.scene import LatexScene
@@ -30,6 +31,7 @@ class Stepper:
         self.substeps = substeps
         dt = scene.settings.dt
         values: dict[str, Any] = {"dt": dt, "frame_seconds": dt * substeps, "air": scene.air}
+        values["most_way"] = most_way(dt * substeps)
         self._search_every = max(1, round(SEARCH_SECONDS / dt))
         self._launcher = Launcher(scene, values)
         self._launch = self._launcher.launch
@@ -64,6 +66,7 @@ class Stepper:
         """Write the largest principal stretch of every vertex and the force with which other walls press on
         every segment, and copy.
         """
+        self.scene.suspects.zero_()
         self._launch(vertex_stretch, len(self.scene.x))
         if contact:
             self._launcher.launch_tiled(wall_loads, len(self.scene.segment_quad), lanes=WARP)

@@ -1,0 +1,65 @@
+"""Snapshots: what a simulation of many plans gives out at one time, as flat arrays and what has changed."""
+
+from __future__ import annotations
+
+from contextlib import closing
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+from balloon_usd.solver.errors import SimulationFailed
+from balloon_usd.solver.frame import Frame
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Generator, Iterator, Sequence
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from balloon_usd.solver.sight import Place, Sight
+
+    Memory = Callable[[], Sight]
+    """Gives the sight into which the next snapshot is written."""
+
+Outcome = Frame | SimulationFailed | None
+"""What a frame brings for a plan: the frame, its failure, or nothing as it is over."""
+
+
+class Change(NamedTuple):
+    """What is new of one plan."""
+
+    plan: int
+    doing: str
+    """What the hands do."""
+    undone: tuple[str, ...]
+    """Locks that have slipped and joints that have come undone so far."""
+    failed: SimulationFailed | None = None
+    """Why there is nothing more of this plan."""
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """All plans at one time."""
+
+    time_code: int
+    """Number of the frame, from 1."""
+    sight: Sight
+    """The arrays of all plans, one after another. What stands there of a plan that is over means nothing."""
+    made: NDArray[np.bool_]
+    """Whether every plan has this frame, (plans,): it is neither over nor failed."""
+    changes: Sequence[Change]
+    """Of the plans of which something is new; of all in the first snapshot."""
+
+
+def frames_of(snapshots: Generator[Snapshot], places: Sequence[Place]) -> Iterator[list[Outcome]]:
+    """Yield what every snapshot brings for each plan, whose arrays lie at these places."""
+    doing = [""] * len(places)
+    undone: list[tuple[str, ...]] = [()] * len(places)
+    with closing(snapshots):
+        for shot in snapshots:
+            failed = {change.plan: change.failed for change in shot.changes}
+            for change in shot.changes:
+                doing[change.plan], undone[change.plan] = change.doing, change.undone
+            yield [
+                shot.sight.frame(place, shot.time_code, doing[k], undone[k]) if made else failed.get(k)
+                for k, (place, made) in enumerate(zip(places, shot.made.tolist(), strict=True))
+            ]
