@@ -15,7 +15,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from balloon_usd.batch.frame_layout import FrameLayout
+    from balloon_usd.solver.sight import Extent, Sight
 
 SLOT_BYTES = 2 * 2**20
 """Frames that travel together: more would make the first ones late [B]."""
@@ -35,9 +35,10 @@ class RingShape:
     slots: int = SLOTS
 
     @classmethod
-    def for_frames(cls, frame_bytes: int) -> RingShape:
-        """Choose how many frames of a size travel together."""
-        return cls(min(MOST_FRAMES, max(1, SLOT_BYTES // max(frame_bytes, 1))), frame_bytes)
+    def of(cls, extent: Extent) -> RingShape:
+        """Choose how many frames of so much travel together."""
+        size = frame_bytes(extent)
+        return cls(min(MOST_FRAMES, max(1, SLOT_BYTES // max(size, 1))), size)
 
     @property
     def size(self) -> int:
@@ -60,10 +61,9 @@ class SharedMemory:
             self.handle = descriptor
             self._map = mmap.mmap(descriptor, size)
 
-    def numbers(self) -> NDArray[np.float32]:
-        """Return all of it as float32."""
-        whole: NDArray[Any] = np.frombuffer(self._map, dtype=np.uint8)
-        return whole[: len(whole) // 4 * 4].view(np.float32)
+    def bytes(self) -> NDArray[np.uint8]:
+        """Return all of it."""
+        return np.frombuffer(self._map, dtype=np.uint8)
 
     def close(self) -> None:
         """Close the descriptor; the memory goes with the last array that shows it."""
@@ -85,13 +85,34 @@ def _anonymous_file(size: int) -> int:
 class FrameRing:
     """Frames of a batch in shared memory."""
 
-    def __init__(self, layout: FrameLayout, shape: RingShape, memory: SharedMemory) -> None:
-        """Show the frames that lie in a memory."""
-        self.layout = layout
+    def __init__(self, extent: Extent, shape: RingShape, memory: SharedMemory) -> None:
+        """Show the frames of so much that lie in a memory."""
         self.shape = shape
-        self._numbers = memory.numbers()
+        self._extent = extent
+        self._bytes = memory.bytes()
 
-    def room(self, slot: int, number: int) -> NDArray[np.float32]:
-        """Return the room (numbers,) of a frame, counted from 0 in its slot."""
-        begin = (slot * self.shape.frames + number) * self.layout.numbers
-        return self._numbers[begin : begin + self.layout.numbers]
+    def sight(self, slot: int, number: int) -> Sight:
+        """Return the arrays of a frame, counted from 0 in its slot."""
+        free = (slot * self.shape.frames + number) * self.shape.frame_bytes
+
+        def make(shape: tuple[int, ...], kind: Any) -> NDArray[Any]:
+            nonlocal free
+            array: NDArray[Any] = np.ndarray(shape, kind, self._bytes, free)
+            free += array.nbytes
+            return array
+
+        return self._extent.sight(make)
+
+
+def frame_bytes(extent: Extent) -> int:
+    """Return the size of a frame of so much [B]."""
+    size = 0
+
+    def make(shape: tuple[int, ...], kind: Any) -> NDArray[Any]:
+        nonlocal size
+        array: NDArray[Any] = np.empty(shape, kind)
+        size += array.nbytes
+        return array
+
+    extent.sight(make)
+    return size

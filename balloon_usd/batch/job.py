@@ -24,6 +24,8 @@ class Job:
     """Known at its end."""
     kills: int = 0
     """How often a process was killed that had this job alone."""
+    device: str = ""
+    """Simulated it, once its stage is made."""
     frames: int = 0
     """Frames that were simulated in the present try."""
 

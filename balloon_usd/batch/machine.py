@@ -16,6 +16,8 @@ VERTEX_BYTES = 6000
 """Device memory for a vertex of a batch, with all that goes with it [B]."""
 SHARE_OF_MEMORY = 0.4
 """Share of a device's free memory that one simulator may fill."""
+MOST_DRAWERS = 4
+"""Processes that draw contact sheets beside a GPU: each holds a context of it, some 300 MB."""
 RECIPES_PER_WRITER = 4
 """Recipes below which another writer does not pay for its start."""
 MOST_WRITERS = 32
@@ -42,15 +44,15 @@ class Device:
         """Whether many sculptures advance on it together."""
         return self.processors > 0
 
-    def together(self, vertices: int, waiting: int) -> int:
-        """Return how many sculptures of so many vertices each make a batch, when so many wait for it."""
+    def together(self, vertices: int, recipes: int) -> int:
+        """Return how many sculptures of so many vertices each make a batch, of so many recipes in all."""
         if not self.is_gpu:
             return 1
         fitting = int(SHARE_OF_MEMORY * self.free_bytes) // (VERTEX_BYTES * max(vertices, 1))
-        batches = -(-waiting // TOGETHER)
-        if batches == 1 and waiting >= ENOUGH_FOR_TWO:
+        batches = -(-recipes // TOGETHER)
+        if batches == 1 and recipes >= ENOUGH_FOR_TWO:
             batches = 2
-        return max(1, min(-(-waiting // batches), fitting))
+        return max(1, min(-(-recipes // batches), fitting))
 
 
 @dataclass(frozen=True)
@@ -71,6 +73,10 @@ class Machine:
         wanted = -(-recipes // RECIPES_PER_WRITER)
         most = max(1, min(MOST_WRITERS, self.cores - SIMULATORS_PER_GPU - 1, -(-3 * self.cores // 4)))
         return max(1, min(wanted, most))
+
+    def drawers(self, recipes: int) -> int:
+        """Return how many processes draw contact sheets of so many recipes, where a GPU simulates."""
+        return max(1, min(MOST_DRAWERS, self.cores // 4, -(-recipes // RECIPES_PER_WRITER)))
 
     def simulators(self, device: Device, batches: int) -> int:
         """Return how many simulators a device gets for so many batches."""

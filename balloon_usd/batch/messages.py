@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from balloon_usd.batch.facts import Facts, Refusal
-    from balloon_usd.batch.frame_layout import Counts
     from balloon_usd.batch.frame_ring import RingShape
     from balloon_usd.batch.order import Order
+    from balloon_usd.solver.sight import Extent, Place
 
 
 class Role(Enum):
@@ -18,6 +18,8 @@ class Role(Enum):
 
     SIMULATOR = "simulator"
     WRITER = "writer"
+    DRAWER = "drawer"
+    """A writer that only draws contact sheets: it holds a context of the GPU, and keeps no frames waiting."""
 
 
 class Trouble(Enum):
@@ -118,16 +120,16 @@ class Begin:
 
     batch: int
     parts: tuple[Part, ...]
-    device: str
-    """Draws the contact sheets."""
 
 
 @dataclass(frozen=True)
 class LaidOut:
-    """From a simulator: sizes of the frames to come."""
+    """From a simulator: how its frames will lie in memory."""
 
     batch: int
-    counts: tuple[Counts, ...]
+    extent: Extent
+    places: tuple[Place, ...]
+    """Where every sculpture lies in a frame."""
 
 
 @dataclass(frozen=True)
@@ -135,7 +137,8 @@ class Ring:
     """To a simulator and its writers: where the frames lie; the handle of the memory follows."""
 
     batch: int
-    counts: tuple[Counts, ...]
+    extent: Extent
+    places: tuple[Place, ...]
     shape: RingShape
     name: str = ""
     """Of the memory, on Windows."""
@@ -201,13 +204,38 @@ class Made:
     files: dict[str, str]
     """SHA-256 by path below the output folder; the stage that people open comes first."""
     products: dict[str, tuple[str, ...]]
-    """Files of the stage, the shot, the report and the contact sheet."""
+    """Files of the stage, the shot and the report."""
     frames: int
     size: int
     """Of the stage's files [B]."""
     summary: dict[str, object]
     seconds: float
     """From its first frame to its last file."""
+
+    def with_sheet(self, files: dict[str, str]) -> Made:
+        """Return the same with a contact sheet."""
+        return replace(self, files=self.files | files, products=self.products | {"sheet": tuple(files)})
+
+
+@dataclass(frozen=True)
+class Draw:
+    """To a writer or drawer."""
+
+    job: int
+    stage: str
+    """File that is drawn."""
+    name: str
+    """Of the sculpture."""
+    device: str
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """From a writer or drawer: a contact sheet is on disk."""
+
+    job: int
+    files: dict[str, str]
+    """SHA-256 by path below the output folder."""
 
 
 @dataclass(frozen=True)

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
+from collections import Counter, defaultdict
 from typing import TYPE_CHECKING
 
 from balloon_usd.batch import record as records
-from balloon_usd.batch.frame_layout import FrameLayout
 from balloon_usd.batch.frame_ring import RingShape, SharedMemory
 from balloon_usd.batch.job import BatchRun, Job
 from balloon_usd.batch.machine import Device
 from balloon_usd.batch.messages import (
     Begin,
     Copied,
+    Draw,
+    Drawn,
     Drop,
     Frames,
     Free,
@@ -75,6 +76,8 @@ class Scheduler:
         """Simulators at work, with the numbers of their batches."""
         self._load: dict[Worker, int] = defaultdict(int)
         """Jobs of every writer."""
+        self._drawing: dict[int, tuple[Worker, Made]] = {}
+        """Who draws the contact sheet of a job."""
         self._failed_starts = 0
         self._next = 0
         self._done = self._failed = 0
@@ -89,6 +92,9 @@ class Scheduler:
         for worker in self._pool.of(Role.SIMULATOR):
             if worker.ready:
                 self._add_device(worker)
+        if self._order.preview and any(device.is_gpu for device in self._devices.values()):
+            for _ in range(self._machine.drawers(len(self._jobs))):
+                self._pool.start(Role.DRAWER)
         self._watch.begun(self._device_names(), sum(job.known.frames for job in self._jobs.values()))
         while self._done + self._failed < len(self._jobs):
             self._hand_out()
@@ -114,6 +120,9 @@ class Scheduler:
             self._not_made(self._jobs[message.job], message.trouble, message.why)
         elif isinstance(message, Simulated):
             self._simulated(worker, message)
+        elif isinstance(message, Drawn):
+            _, made = self._drawing.pop(message.job)
+            self._finish(self._jobs[message.job], made.with_sheet(message.files))
         else:
             raise TypeError(f"a worker said {type(message).__name__}")
 
@@ -121,7 +130,7 @@ class Scheduler:
 
     def _started(self, worker: Worker, told: Started) -> None:
         worker.told = told
-        if worker.role is Role.WRITER:
+        if worker.role is not Role.SIMULATOR:
             return
         if told.problem:
             self._pool.remove(worker)
@@ -183,7 +192,9 @@ class Scheduler:
                 self._pool.start(Role.SIMULATOR, device.name)
 
     def _together(self, device: Device) -> int:
-        together = device.together(self._waiting.vertices, max(len(self._waiting), 1))
+        # All devices share the recipes, so that none is idle at the end.
+        share = -(-len(self._jobs) // max(len(self._devices), 1))
+        together = device.together(self._waiting.vertices, share)
         return min(self._most[device.name], together)
 
     def _begin(self, simulator: Worker, jobs: Sequence[Job]) -> None:
@@ -202,17 +213,16 @@ class Scheduler:
         self._busy[simulator] = number
         simulator.send(Simulate(number, tuple(parts)))
         for writer, own in by_writer.items():
-            writer.send(Begin(number, tuple(own), simulator.device))
+            writer.send(Begin(number, tuple(own)))
 
     # Frames.
 
     def _lay_out(self, run: BatchRun, told: LaidOut) -> None:
-        layout = FrameLayout(told.counts)
-        shape = RingShape.for_frames(layout.frame_bytes)
+        shape = RingShape.of(told.extent)
         memory = SharedMemory(shape.size)
         try:
             name = memory.handle if isinstance(memory.handle, str) else ""
-            ring = Ring(run.number, told.counts, shape, name)
+            ring = Ring(run.number, told.extent, told.places, shape, name)
             for worker in (run.simulator, *run.writers):
                 worker.send_ring(ring, memory)
         finally:
@@ -248,8 +258,25 @@ class Scheduler:
 
     def _made(self, made: Made) -> None:
         job = self._jobs[made.job]
-        device = self._leave(job)
-        self._end(job, records.done(job.file, job.known, self._order, device, made))
+        writer = next(run.writer[job.number] for run in self._runs.values() if job.number in run.writer)
+        job.device = self._leave(job)
+        if self._order.preview:
+            self._draw(made, writer)
+        else:
+            self._finish(job, made)
+
+    def _draw(self, made: Made, writer: Worker) -> None:
+        """Let a contact sheet be drawn, by the writer of the stage where there are no drawers."""
+        drawers = self._pool.of(Role.DRAWER) or [writer]
+        busy = Counter(worker for worker, _ in self._drawing.values())
+        drawer = min(drawers, key=lambda one: busy[one])
+        job = self._jobs[made.job]
+        self._drawing[made.job] = (drawer, made)
+        stage = str(self._order.stage(job.known.name))
+        drawer.send(Draw(made.job, stage, job.known.name, job.device))
+
+    def _finish(self, job: Job, made: Made) -> None:
+        self._end(job, records.done(job.file, job.known, self._order, job.device, made))
 
     def _not_made(self, job: Job, trouble: Trouble, why: str) -> None:
         if job.record is not None:
@@ -257,7 +284,8 @@ class Scheduler:
         for run in self._runs.values():
             if job.number in run.writer and trouble is not Trouble.FAILED:
                 run.simulator.send(Drop(run.number, (job.number,)))
-        device = self._leave(job)
+        device = self._leave(job) or job.device
+        self._drawing.pop(job.number, None)
         self._end(
             job,
             Record(
@@ -342,6 +370,7 @@ class Scheduler:
             for run in list(self._runs.values()):
                 lost += self._lose_writer(run, worker)
             self._load.pop(worker, None)
+            lost += self._lose_sheets(worker)
         self._try_again(lost, f"the {worker.role.value} process was killed twice ({how})", Trouble.KILLED)
         self._forget_finished()
 
@@ -366,6 +395,16 @@ class Scheduler:
         for job in lost:
             self._forget_frames(job)
         return lost
+
+    def _lose_sheets(self, drawer: Worker) -> list[Job]:
+        """Take back jobs whose contact sheets are not drawn; their stages are made again, too."""
+        numbers = [number for number, (worker, _) in self._drawing.items() if worker is drawer]
+        for number in numbers:
+            del self._drawing[number]
+            self._forget_frames(self._jobs[number])
+        if drawer.role is Role.DRAWER:
+            self._pool.start(Role.DRAWER)
+        return [self._jobs[number] for number in numbers]
 
     def _forget_frames(self, job: Job) -> None:
         self._watch.advanced("", -job.frames, self._count())

@@ -1,4 +1,4 @@
-"""One sculpture in the making: its stage, its report and its contact sheet."""
+"""One sculpture in the making: its stage and its report."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ from balloon_usd.balloon.rubber import BURST_STRETCH
 from balloon_usd.batch.messages import Made
 from balloon_usd.files.hashes import hashes_of
 from balloon_usd.plan.meshing import mesh_of
-from balloon_usd.preview.error import PreviewError
 from balloon_usd.report import History, write_report
 from balloon_usd.solver.tally import Tally
 from balloon_usd.stage import StageWriter
@@ -31,10 +30,10 @@ if TYPE_CHECKING:
 class Sculpture:
     """Takes the frames of one sculpture, and makes files of them."""
 
-    def __init__(self, part: Part, plan: Plan, order: Order, device: str) -> None:
-        """Prepare for a plan; `device` draws its contact sheet."""
+    def __init__(self, part: Part, plan: Plan, order: Order) -> None:
+        """Prepare for a plan."""
         self.part = part
-        self._plan, self._order, self._device = plan, order, device
+        self._plan, self._order = plan, order
         level = detail_named(order.detail)
         meshes = tuple(mesh_of(strip, level) for strip in plan.strips.values())
         self._codes = order.frames.within(plan.frame_count)
@@ -65,7 +64,6 @@ class Sculpture:
         Raises:
             StageError: the stage cannot be written.
             ReportError: the report cannot be written.
-            PreviewError: the contact sheet cannot be written.
         """
         self._tally.add(frame)
         if frame.time_code in self._codes:
@@ -82,16 +80,13 @@ class Sculpture:
             "stage": written.files[:1],
             "shot": shots,
             "report": (),
-            "sheet": (),
         }
         if self._order.report:
             facts = provenance_of(self._plan.recipe)
             products["report"] = write_report(
                 self._history, folder, detail=self._order.detail, provenance=facts
             )
-        if self._order.preview:
-            products["sheet"] = (self._draw(written.files[0]),)
-        files = (*written.files, *products["report"], *products["sheet"])
+        files = (*written.files, *products["report"])
         return Made(
             self.part.job,
             hashes_of(folder, files),
@@ -101,18 +96,6 @@ class Sculpture:
             self._summary(written),
             time.perf_counter() - self._begun,
         )
-
-    def _draw(self, stage: Path) -> Path:
-        from balloon_usd.preview import draw_contact_sheet  # noqa: PLC0415
-        from balloon_usd.solver.device import start_warp  # noqa: PLC0415
-
-        start_warp()
-        sheet = self._order.sheet(self._plan.recipe.name)
-        try:
-            return draw_contact_sheet(stage, sheet, device=self._device)
-        except RuntimeError as error:
-            # What Warp says of a device without memory, or that is gone.
-            raise PreviewError(f"{sheet} cannot be drawn: {error}") from error
 
     def _summary(self, written: WrittenStage) -> dict[str, object]:
         """What the run came to, in numbers that a table shows."""

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import time
 import traceback
+from contextlib import closing
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from balloon_usd.batch.channel import receive_ring
-from balloon_usd.batch.frame_layout import Counts, FrameLayout
 from balloon_usd.batch.frame_ring import FrameRing
 from balloon_usd.batch.messages import (
     Drop,
@@ -22,15 +24,18 @@ from balloon_usd.batch.messages import (
 from balloon_usd.batch.reading import RecipeChanged, planned
 from balloon_usd.recipe.problem import RecipeError
 from balloon_usd.solver import simulation as solver
-from balloon_usd.solver.errors import DeviceUnavailable, SimulationFailed
-from balloon_usd.solver.frame import Frame
+from balloon_usd.solver.errors import DeviceUnavailable
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
     from multiprocessing.connection import Connection
 
+    from numpy.typing import NDArray
+
     from balloon_usd.batch.messages import Part, Start
-    from balloon_usd.solver.batch import Outcome
+    from balloon_usd.solver.sight import Sight
+    from balloon_usd.solver.simulation import Simulation
+    from balloon_usd.solver.snapshot import Change, Snapshot
 
 LONGEST_WAIT = 0.2
 """Frames travel after this time even if their slot has room for more (s)."""
@@ -97,7 +102,7 @@ class Simulator:
             return _problem(task.batch, error)
         return Simulated(task.batch)
 
-    def _simulation(self, parts: Sequence[Part]) -> solver.Simulation:
+    def _simulation(self, parts: Sequence[Part]) -> Simulation:
         plans = [planned(part) for part in parts]
         return solver.simulate_many(plans, detail=self._order.detail, device=self._device)
 
@@ -108,65 +113,62 @@ class _Run:
     def __init__(self, connection: Connection[Any, Any], task: Simulate) -> None:
         self._connection = connection
         self._batch = task.batch
-        self._last = [part.last for part in task.parts]
-        self._wanted = [True] * len(task.parts)
+        self._last = np.array([part.last for part in task.parts])
+        self._wanted = np.ones(len(task.parts), dtype=np.bool_)
         self._place = {part.job: place for place, part in enumerate(task.parts)}
-        self._told: list[tuple[str, ...]] = [()] * len(task.parts)
+        self._doing = [""] * len(task.parts)
+        self._undone: list[tuple[str, ...]] = [()] * len(task.parts)
         self._ring: FrameRing | None = None
         self._free: list[int] = []
         self._slot: _Slot | None = None
 
-    def frames(self, simulation: solver.Simulation) -> None:
+    def frames(self, simulation: Simulation) -> None:
         """Pass frames on until every sculpture has its last one, or has failed."""
-        for outcomes in simulation.frames():
-            self._attend()
-            self._pass_on(outcomes)
-            if not any(self._wanted):
-                break
+        self._connection.send(LaidOut(self._batch, simulation.extent, tuple(simulation.places)))
+        with closing(simulation.snapshots(self._memory)) as snapshots:
+            for snapshot in snapshots:
+                self._attend()
+                self._take(snapshot)
+                if not self._wanted.any():
+                    break
         self._flush()
 
-    def _pass_on(self, outcomes: Sequence[Outcome]) -> None:
-        made = next((outcome for outcome in outcomes if isinstance(outcome, Frame)), None)
-        if made is None and not any(isinstance(outcome, SimulationFailed) for outcome in outcomes):
-            return
-        slot = self._open_slot(outcomes, made)
-        for place, outcome in enumerate(outcomes):
-            if not self._wanted[place]:
-                continue
-            if isinstance(outcome, SimulationFailed):
-                slot.failed[place] = (slot.first + slot.count, str(outcome))
-                self._wanted[place] = False
-            elif outcome is not None:
-                self._put(slot, place, outcome)
+    def _memory(self) -> Sight:
+        """Return where the next frame goes; wait for a slot if none is free."""
+        while self._ring is None or (self._slot is None and not self._free):
+            self._hear(self._connection.recv())
+        if self._slot is None:
+            self._slot = _Slot(self._free.pop())
+        return self._ring.sight(self._slot.number, self._slot.count)
+
+    def _take(self, snapshot: Snapshot) -> None:
+        """Take note of the frame that was written last."""
+        slot, code = self._slot, snapshot.time_code
+        assert slot is not None, "a frame was written into a slot"
+        slot.first = slot.first or code
+        for change in snapshot.changes:
+            self._note(slot, code, change)
+        self._wanted &= snapshot.made & (code < self._last)
         slot.count += 1
-        slot.doing = _doing(made, sum(self._wanted)) or slot.doing
+        slot.doing = self._told(snapshot.made) or slot.doing
         if self._ring is None or slot.count == self._ring.shape.frames or slot.age > LONGEST_WAIT:
             self._flush()
 
-    def _put(self, slot: _Slot, place: int, frame: Frame) -> None:
-        assert self._ring is not None, "a slot is open"
-        self._ring.layout.put(self._ring.room(slot.number, slot.count), place, frame)
-        if frame.undone != self._told[place]:
-            self._told[place] = frame.undone
-            slot.undone.setdefault(frame.time_code, {})[place] = frame.undone
-        if frame.time_code == self._last[place]:
-            self._wanted[place] = False
+    def _note(self, slot: _Slot, code: int, change: Change) -> None:
+        place = change.plan
+        self._doing[place] = change.doing
+        if change.failed is not None and self._wanted[place]:
+            slot.failed[place] = (code, str(change.failed))
+        if change.undone != self._undone[place]:
+            self._undone[place] = change.undone
+            slot.undone.setdefault(code, {})[place] = change.undone
 
-    def _open_slot(self, outcomes: Sequence[Outcome], made: Frame | None) -> _Slot:
-        """Return the slot that is being filled; wait for a free one if none is."""
-        if self._slot is None:
-            if self._ring is None:
-                self._lay_out(outcomes)
-            while self._ring is None or not self._free:
-                self._hear(self._connection.recv())
-            first = made.time_code if made is not None else 1
-            self._slot = _Slot(self._free.pop(), first)
-        return self._slot
-
-    def _lay_out(self, outcomes: Sequence[Outcome]) -> None:
-        nothing = Counts((), 0)
-        counts = [Counts.of(frame) if isinstance(frame, Frame) else nothing for frame in outcomes]
-        self._connection.send(LaidOut(self._batch, tuple(counts)))
+    def _told(self, made: NDArray[np.bool_]) -> str:
+        """Say what the hands do, of the first sculpture that moves when there are several."""
+        if not made.any():
+            return ""
+        doing, running = self._doing[int(np.argmax(made))], int(made.sum())
+        return doing if len(made) == 1 else f"{running} sculptures, {doing}"
 
     def _attend(self) -> None:
         """Hear what has been said meanwhile; raises `EOFError` when the scheduler is gone."""
@@ -180,7 +182,7 @@ class _Run:
         elif isinstance(message, Ring):
             memory = receive_ring(self._connection, message)
             if message.batch == self._batch:
-                self._ring = FrameRing(FrameLayout(message.counts), message.shape, memory)
+                self._ring = FrameRing(message.extent, message.shape, memory)
                 self._free = list(range(message.shape.slots))
             memory.close()
         elif isinstance(message, Drop):
@@ -192,24 +194,23 @@ class _Run:
     def _drop(self, jobs: Sequence[int]) -> None:
         for job in jobs or self._place:
             self._wanted[self._place[job]] = False
-        if not any(self._wanted):
+        if not self._wanted.any():
             raise _Dropped
 
     def _flush(self) -> None:
         """Let the frames travel that are in the open slot."""
         slot, self._slot = self._slot, None
-        if slot is not None:
-            self._connection.send(
-                Frames(self._batch, slot.number, slot.first, slot.count, slot.doing, slot.undone, slot.failed)
-            )
+        if slot is not None and slot.count:
+            told = (slot.first, slot.count, slot.doing, slot.undone, slot.failed)
+            self._connection.send(Frames(self._batch, slot.number, *told))
 
 
 class _Slot:
     """A slot of the ring that is being filled."""
 
-    def __init__(self, number: int, first: int) -> None:
+    def __init__(self, number: int) -> None:
         self.number = number
-        self.first = first
+        self.first = 0
         """Time code of its first frame."""
         self.count = 0
         self.doing = ""
@@ -221,13 +222,6 @@ class _Slot:
     def age(self) -> float:
         """Time since it was opened (s)."""
         return time.monotonic() - self._opened
-
-
-def _doing(frame: Frame | None, running: int) -> str:
-    """Say what the hands do, of the first that moves when there are several."""
-    if frame is None:
-        return ""
-    return frame.doing if running <= 1 else f"{running} sculptures, {frame.doing}"
 
 
 def _problem(batch: int, error: Exception) -> Simulated:

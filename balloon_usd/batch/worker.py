@@ -22,7 +22,7 @@ def work(connection: Connection[Any, Any]) -> None:
     """Do what comes over the connection, until its other end is closed."""
     start = connection.recv()
     assert isinstance(start, Start), "a worker is told first what it is for"
-    if start.role is Role.WRITER:
+    if start.role is not Role.SIMULATOR:
         signal.signal(signal.SIGTERM, _terminate)
     worker = _worker(connection, start)
     try:

@@ -1,4 +1,4 @@
-"""The writer process: frames from shared memory into stages, reports and contact sheets."""
+"""The writer process: frames from shared memory into stages and reports, stages into contact sheets."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 from balloon_usd.batch.channel import receive_ring
 from balloon_usd.batch.facts import Refusal, survey
-from balloon_usd.batch.frame_layout import FrameLayout
 from balloon_usd.batch.frame_ring import FrameRing
 from balloon_usd.batch.leftovers import remove_leftovers
 from balloon_usd.batch.messages import (
     Begin,
     Copied,
+    Draw,
     Drop,
     Frames,
     NotMade,
@@ -26,6 +26,7 @@ from balloon_usd.batch.messages import (
 )
 from balloon_usd.batch.reading import RecipeChanged, planned
 from balloon_usd.batch.sculpture import Sculpture
+from balloon_usd.batch.sheet import draw
 from balloon_usd.files.hashes import are_whole
 from balloon_usd.preview.error import PreviewError
 from balloon_usd.recipe.problem import RecipeError
@@ -37,8 +38,10 @@ if TYPE_CHECKING:
 
     from balloon_usd.batch.facts import Facts
     from balloon_usd.batch.messages import Made, Part, Start
+    from balloon_usd.solver.frame import Frame
+    from balloon_usd.solver.sight import Place
 
-EXPECTED = (StageError, ReportError, PreviewError, RecipeChanged, RecipeError)
+EXPECTED = (StageError, ReportError, RecipeChanged, RecipeError)
 """What may go wrong with a sculpture without a mistake in this program."""
 
 
@@ -68,6 +71,8 @@ class Writer:
                 self._take(message)
             elif isinstance(message, Drop):
                 self._drop(message)
+            elif isinstance(message, Draw):
+                self._draw(message)
             else:
                 raise TypeError(f"a writer was told {type(message).__name__}")
 
@@ -98,20 +103,21 @@ class Writer:
         batch = self._batches[begin.batch] = _Batch()
         for part in begin.parts:
             try:
-                self._start(part, batch, begin.device)
+                self._start(part, batch)
             except Exception as error:  # no sculpture takes another one along
                 self._give_up(batch, part, error)
 
-    def _start(self, part: Part, batch: _Batch, device: str) -> None:
+    def _start(self, part: Part, batch: _Batch) -> None:
         plan = planned(part)
         remove_leftovers(self._order.folder, plan.recipe.name)
-        sculpture = batch.sculptures[part.place] = Sculpture(part, plan, self._order, device)
+        sculpture = batch.sculptures[part.place] = Sculpture(part, plan, self._order)
         sculpture.start()
 
     def _open_ring(self, ring: Ring) -> None:
         memory = receive_ring(self._connection, ring)
         if batch := self._batches.get(ring.batch):
-            batch.ring = FrameRing(FrameLayout(ring.counts), ring.shape, memory)
+            batch.ring = FrameRing(ring.extent, ring.shape, memory)
+            batch.places = ring.places
         memory.close()
 
     def _take(self, frames: Frames) -> None:
@@ -120,18 +126,7 @@ class Writer:
         if batch is None or batch.ring is None:
             self._connection.send(Copied(frames.batch, frames.slot))
             return
-        taken = {
-            place: [
-                batch.ring.layout.get(
-                    batch.ring.room(frames.slot, number),
-                    place,
-                    frames.first + number,
-                    sculpture.undone_at(frames.first + number, frames.undone),
-                )
-                for number in range(self._wanted(sculpture, frames))
-            ]
-            for place, sculpture in batch.sculptures.items()
-        }
+        taken = {place: batch.copies(sculpture, frames) for place, sculpture in batch.sculptures.items()}
         self._connection.send(Copied(frames.batch, frames.slot))
         for place, found in taken.items():
             self._write(batch, place, found)
@@ -140,14 +135,6 @@ class Writer:
                 sculpture.stop()
         if not batch.sculptures:
             del self._batches[frames.batch]
-
-    @staticmethod
-    def _wanted(sculpture: Sculpture, frames: Frames) -> int:
-        """Return how many of some frames show a sculpture."""
-        end = min(frames.first + frames.count, sculpture.part.last + 1)
-        if failed := frames.failed.get(sculpture.part.place):
-            end = min(end, failed[0])
-        return max(0, end - frames.first)
 
     def _write(self, batch: _Batch, place: int, frames: list[Any]) -> None:
         sculpture = batch.sculptures[place]
@@ -171,6 +158,14 @@ class Writer:
             text = "".join(traceback.format_exception(error))
             self._connection.send(NotMade(part.job, Trouble.UNFORESEEN, f"{part.file}: {text}"))
 
+    def _draw(self, asked: Draw) -> None:
+        try:
+            self._connection.send(draw(asked, self._order))
+        except PreviewError as error:
+            self._connection.send(NotMade(asked.job, Trouble.NOT_WRITTEN, f"{asked.name}: {error}"))
+        except Exception:  # no sculpture takes another one along
+            self._connection.send(NotMade(asked.job, Trouble.UNFORESEEN, traceback.format_exc()))
+
     def _drop(self, drop: Drop) -> None:
         batch = self._batches.get(drop.batch)
         if batch is None:
@@ -190,3 +185,18 @@ class _Batch:
         self.sculptures: dict[int, Sculpture] = {}
         """By their places in the batch."""
         self.ring: FrameRing | None = None
+        self.places: tuple[Place, ...] = ()
+
+    def copies(self, sculpture: Sculpture, frames: Frames) -> list[Frame]:
+        """Return copies of those of some frames that show a sculpture."""
+        assert self.ring is not None, "frames come after their ring"
+        place = sculpture.part.place
+        end = min(frames.first + frames.count, sculpture.part.last + 1)
+        if failed := frames.failed.get(place):
+            end = min(end, failed[0])
+        found = []
+        for code in range(frames.first, end):
+            sight = self.ring.sight(frames.slot, code - frames.first)
+            undone = sculpture.undone_at(code, frames.undone)
+            found.append(sight.frame(self.places[place], code, undone=undone).copy())
+        return found

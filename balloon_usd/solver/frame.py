@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -36,3 +36,16 @@ class Frame:
     """Air particles of every balloon, (P, 3) float32, m; empty where the air is no particles."""
     cluster: tuple[NDArray[np.int32], ...] = ()
     """Bubble of every particle, (P,) int32 in plan order; an undivided run has the number of its first."""
+
+    def copy(self) -> Frame:
+        """Return the same in arrays of its own."""
+        return replace(
+            self,
+            points=tuple([points.copy() for points in self.points]),
+            stretch=tuple([stretch.copy() for stretch in self.stretch]),
+            pressure=self.pressure.copy(),
+            volume=self.volume.copy(),
+            contact=None if self.contact is None else self.contact.copy(),
+            air=tuple([air.copy() for air in self.air]),
+            cluster=tuple([cluster.copy() for cluster in self.cluster]),
+        )

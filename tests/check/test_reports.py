@@ -14,8 +14,8 @@ from pxr import Sdf, Usd, UsdGeom
 from balloon_usd.check import check_file, document_of, text_of
 from balloon_usd.check.frozen import frames_to_freeze, frozen
 from balloon_usd.check.noise import BROKE_DOWN, REPEATED, SPECULATIVE, UNKNOWN_NODE, why_not_counted
-from balloon_usd.stage import write_stage
 from balloon_usd.files.lock import hold
+from balloon_usd.stage import write_stage
 from balloon_usd.stage.workspace import LOCK
 from tests import interruptible
 from tests.check.layered_damages import MAIN, edited, first_row, sample, unbound

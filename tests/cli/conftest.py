@@ -8,12 +8,10 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-FAKE = Path(__file__).parents[1] / "fake_solver"
-sys.path.insert(0, str(FAKE))
-
-from fake_solver import FakeSolver
-
 from balloon_usd.cli import main
+from tests.fake_solver.fake_solver import FakeSolver
+
+FAKE = Path(__file__).parents[1] / "fake_solver"
 
 RECIPE = """\
 format: 1

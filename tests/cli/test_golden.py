@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import pytest
 
-
 LIST = """\
 format: 1
 stages:

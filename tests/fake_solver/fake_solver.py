@@ -7,6 +7,7 @@ import os
 import pickle
 import signal
 import time
+from itertools import accumulate, pairwise
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,8 @@ from balloon_usd.balloon.detail import detail_named
 from balloon_usd.plan.meshing import mesh_of
 from balloon_usd.solver.errors import SimulationFailed
 from balloon_usd.solver.frame import Frame
+from balloon_usd.solver.sight import Extent, Place
+from balloon_usd.solver.snapshot import Change, Snapshot
 
 FRAMES = 6
 HERE = Path(__file__).parent
@@ -32,6 +35,40 @@ class FakeSimulation:
         self.device = device
         self.solver = solver
         self.substeps = 100
+
+    @property
+    def extent(self):
+        vertices = sum(len(mesh.points) for meshes in self.meshes for mesh in meshes)
+        return Extent(vertices, sum(len(plan.bubbles) for plan in self.plans))
+
+    @property
+    def places(self):
+        found, vertices, bubbles = [], 0, 0
+        for plan, meshes in zip(self.plans, self.meshes, strict=True):
+            ends = [*accumulate((len(mesh.points) for mesh in meshes), initial=vertices)]
+            walls = tuple(slice(*span) for span in pairwise(ends))
+            found.append(Place(walls, slice(bubbles, bubbles + len(plan.bubbles))))
+            vertices, bubbles = ends[-1], bubbles + len(plan.bubbles)
+        return found
+
+    def snapshots(self, memory=None):
+        places = self.places
+        for code, outcomes in enumerate(self.frames(), start=1):
+            sight = (memory or self.extent.sight)()
+            changes = []
+            for world, (outcome, place) in enumerate(zip(outcomes, places, strict=True)):
+                if isinstance(outcome, SimulationFailed):
+                    changes.append(Change(world, "pinch: nose", (), outcome))
+                elif outcome is not None:
+                    changes.append(Change(world, outcome.doing, outcome.undone))
+                    there = sight.frame(place, code)
+                    for kind in ("points", "stretch"):
+                        for array, other in zip(getattr(there, kind), getattr(outcome, kind), strict=True):
+                            array[...] = other
+                    there.pressure[...], there.volume[...] = outcome.pressure, outcome.volume
+                    there.contact[...] = 0.0
+            made = np.array([isinstance(outcome, Frame) for outcome in outcomes])
+            yield Snapshot(code, sight, made, changes)
 
     def frames(self):
         try:

@@ -23,7 +23,7 @@ def _fill_disk(_):
     replace = pathlib.Path.replace
 
     def full(path, target):
-        if os.path.basename(target) == os.environ.get("FAKE_FULL_DISK"):
+        if pathlib.Path(target).name == os.environ.get("FAKE_FULL_DISK"):
             raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(path))
         return replace(path, target)
 
