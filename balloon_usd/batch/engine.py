@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Self, TypeVar
 
 from balloon_usd.batch import record as records
 from balloon_usd.batch.facts import Facts, Refusal
@@ -44,59 +44,70 @@ def run_batch(
             cannot be written.
     """
     told = watch or Silence()
-    with _Engine(order, machine or Machine(usable_cores()), told) as engine:
+    with Engine(order, machine or Machine(usable_cores()), told) as engine:
         return engine.make([str(recipe) for recipe in recipes])
 
 
-class _Engine:
-    """One run of a batch."""
+class Engine:
+    """One run of a batch on this machine."""
 
     def __init__(self, order: Order, machine: Machine, watch: Watch) -> None:
-        self._order, self._machine, self._watch = order, machine, watch
+        """Prepare; used in a `with` block, at whose end all its processes are gone."""
+        self.order, self.machine, self.watch = order, machine, watch
         self._pool = Pool(order)
 
-    def __enter__(self) -> _Engine:
+    def __enter__(self) -> Self:
+        """Start nothing yet."""
         return self
 
     def __exit__(self, *_: object) -> None:
+        """End all workers; those that have begun something remove it."""
         self._pool.close()
 
     def make(self, files: Sequence[str]) -> list[Record]:
-        """Survey, verify and make recipes."""
-        self._start_workers(len(files))
+        """Survey, verify and make recipes; see `run_batch`."""
+        self.start_workers(len(files))
         jobs = [Job(number, file) for number, file in enumerate(files)]
         self._survey(jobs)
         _refuse_shared_names(jobs)
         accepted = [job for job in jobs if job.record is None]
         refused = [job.record for job in jobs if job.record is not None]
-        self._watch.surveyed([job.known for job in accepted], refused)
-        try:
-            self._make_accepted(jobs, accepted)
-        except OSError as error:
-            raise BatchError(f"{error.filename or self._order.folder}: {error.strerror or error}") from error
+        self.watch.surveyed([job.known for job in accepted], refused)
+        if accepted:
+            try:
+                self._make_accepted(jobs, accepted)
+            except OSError as error:
+                where = error.filename or self.order.folder
+                raise BatchError(f"{where}: {error.strerror or error}") from error
         return [job.record for job in jobs if job.record is not None]
 
     def _make_accepted(self, jobs: Sequence[Job], accepted: Sequence[Job]) -> None:
-        if not accepted:
-            return
-        journal = Journal(self._order.folder)
+        journal = Journal(self.order.folder)
         for job in jobs:
             if job.record is not None:
                 journal.add(job.record)
         todo = self._not_there_yet(accepted, journal)
         if todo:
-            self._wait_for_simulator()
-            Scheduler(todo, self._order, self._machine, self._pool, journal, self._watch).run()
+            self.make_all(todo, journal)
         journal.put_in_order(job.file for job in jobs)
 
-    def _start_workers(self, recipes: int) -> None:
+    def start_workers(self, recipes: int) -> None:
         """Start what is needed in any case, so that it gets ready while recipes are read."""
-        for device in self._machine.devices:
+        for device in self.machine.devices:
             self._pool.start(Role.SIMULATOR, device)
-        for _ in range(self._machine.writers(recipes)):
+        self.start_writers(recipes)
+
+    def start_writers(self, recipes: int) -> None:
+        """Start as many writers as so many recipes keep busy."""
+        for _ in range(self.machine.writers(recipes)):
             self._pool.start(Role.WRITER)
 
-    def _wait_for_simulator(self) -> None:
+    def make_all(self, jobs: Sequence[Job], journal: Journal) -> None:
+        """Make jobs that are surveyed and not there yet; every one has its record then."""
+        self._wait_for_simulators()
+        Scheduler(jobs, self.order, self.machine, self._pool, journal, self.watch).run()
+
+    def _wait_for_simulators(self) -> None:
         """Wait until the simulators that were started first can work, on every device that was asked for.
 
         Raises:
@@ -142,7 +153,7 @@ class _Engine:
             found.name,
             Status.REFUSED,
             records.made_of(found.provenance) if found.provenance else {},
-            records.options_of(self._order),
+            records.options_of(self.order),
             error="\n".join(found.problems),
         )
 
@@ -162,18 +173,18 @@ class _Engine:
                 if whole and record is not None:
                     job = by_number[number]
                     job.record = records.skipped(record, job.file)
-                    self._watch.ended(job.record)
+                    self.watch.ended(job.record)
 
         self._ask(asked, Verified, hear)
         return [job for job in accepted if job.record is None]
 
     def _record_of(self, job: Job, journal: Journal) -> Record | None:
         """Return the record of what is there already, if that is just what is asked for."""
-        record = None if self._order.force else journal.of(job.known.name)
+        record = None if self.order.force else journal.of(job.known.name)
         # Results of a GPU and of the CPU differ in their last digits: one that was asked for must be it.
-        kinds = {device.split(":")[0] for device in self._machine.devices} & {"cpu", "cuda"}
+        kinds = {device.split(":")[0] for device in self.machine.devices} & {"cpu", "cuda"}
         kind = kinds.pop() if len(kinds) == 1 else ""
-        return record if record is not None and record.fits(job.known, self._order, kind) else None
+        return record if record is not None and record.fits(job.known, self.order, kind) else None
 
     def _ask(self, questions: deque[Q], kind: type[T], hear: Callable[[T], None]) -> None:
         """Ask writers, each one question at a time, until all are answered."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from contextlib import contextmanager, suppress
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from balloon_usd.batch.record import Record, Status
@@ -15,7 +16,6 @@ if sys.platform != "win32":
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
-    from pathlib import Path
 
 FILE_NAME = "batch.jsonl"
 
@@ -79,14 +79,19 @@ def _by_key(records: Iterable[Record]) -> dict[tuple[str, str], Record]:
     found: dict[tuple[str, str], Record] = {}
     for record in records:
         # A recipe that is made at last was perhaps refused before.
-        found.pop(("recipe", record.recipe), None)
+        found.pop(_file(record), None)
         found[_key(record)] = record
     return found
 
 
 def _key(record: Record) -> tuple[str, str]:
     """Return by what a later record takes the place of this one: what was made by its name."""
-    return ("name", record.name) if record.status is Status.DONE else ("recipe", record.recipe)
+    return ("name", record.name) if record.status is Status.DONE else _file(record)
+
+
+def _file(record: Record) -> tuple[str, str]:
+    """Return the key of a recipe's file, however it was named."""
+    return ("recipe", str(Path(record.recipe).absolute()))
 
 
 def _ends_a_line(descriptor: int, size: int) -> bool:

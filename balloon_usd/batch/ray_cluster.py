@@ -48,7 +48,7 @@ def ray_cluster(address: str | None) -> Iterator[ModuleType]:
     """
     ray = import_ray()
     if address is not None:
-        _require_ray_at(address)
+        require_ray_at(address)
     here = {} if address is not None else {"object_store_memory": STORE_BYTES}
     try:
         ray.init(
@@ -89,7 +89,7 @@ def import_ray() -> ModuleType:
     return ray
 
 
-def _require_ray_at(address: str) -> None:
+def require_ray_at(address: str) -> None:
     """Check that something at the address answers as Ray does.
 
     Raises:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from balloon_usd.batch.ray_cluster import one_line, ray_cluster
-from balloon_usd.batch.ray_machines import Needs, require_machines
+from balloon_usd.batch.ray_machines import Needs, require_machines, usual_needs
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -33,7 +33,11 @@ class Ended:
 
 
 def make_on_cluster(
-    chunks: Iterable[Sequence[str]], make: Make, needs: Needs, folder: Path, address: str | None = None
+    chunks: Iterable[Sequence[str]],
+    make: Make,
+    needs: Needs | None,
+    folder: Path,
+    address: str | None = None,
 ) -> Iterator[Ended]:
     """Make chunks of recipes on a Ray cluster and yield each as it ends.
 
@@ -44,7 +48,7 @@ def make_on_cluster(
         chunks: absolute paths of recipes.
         make: is pickled.
         needs: of a task. CUDA_VISIBLE_DEVICES names the GPUs that are its own, and is left alone where it
-            needs none.
+            needs none. None takes one GPU and its share of the processors, or one processor without GPUs.
         folder: where `make` writes, absolute; all machines must see it, as they must see the recipes.
         address: HOST:PORT of the cluster; None starts one on this machine.
 
@@ -52,6 +56,7 @@ def make_on_cluster(
         ClusterError: the cluster cannot be used, or a machine of it; one line a problem.
     """
     with ray_cluster(address) as ray:
+        needs = needs or usual_needs(ray)
         require_machines(ray, needs, folder)
         task = _task(ray, make, needs)
         waiting = {task.remote(list(chunk)): tuple(chunk) for chunk in chunks}

@@ -38,6 +38,13 @@ class Needs:
         return " and ".join(named)
 
 
+def usual_needs(ray: ModuleType) -> Needs:
+    """Return one GPU with its share of the processors, or one processor where there are no GPUs."""
+    has = ray.cluster_resources()
+    gpus, cpus = has.get("GPU", 0), has.get("CPU", 1)
+    return Needs(max(1, int(cpus // gpus)), 1) if gpus >= 1 else Needs()
+
+
 def require_machines(ray: ModuleType, needs: Needs, folder: Path) -> None:
     """Check that the cluster can do the work and that every machine of it is set up alike.
 

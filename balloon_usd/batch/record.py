@@ -60,14 +60,11 @@ class Record:
         """Return the line of `batch.jsonl`."""
         return json.dumps(asdict(self), ensure_ascii=False) + "\n"
 
-    @classmethod
-    def read(cls, line: str) -> Record | None:
+    @staticmethod
+    def read(line: str) -> Record | None:
         """Return what a line says; None for one that is cut short or from elsewhere."""
         try:
-            told = json.loads(line)
-            told["status"] = Status(told["status"])
-            told["products"] = {key: tuple(files) for key, files in told["products"].items()}
-            return cls(**told)
+            return record_of(json.loads(line))
         except (ValueError, TypeError, KeyError, AttributeError):
             return None
 
@@ -85,6 +82,12 @@ class Record:
             and (not device or self.device.split(":")[0] == device)
             and asked <= {key for key, files in self.products.items() if files}
         )
+
+
+def record_of(told: dict[str, Any]) -> Record:
+    """Return the record that a dictionary tells of, as `dataclasses.asdict` makes one."""
+    products = {key: tuple(files) for key, files in told["products"].items()}
+    return Record(**{**told, "status": Status(told["status"]), "products": products})
 
 
 def made_of(provenance: dict[str, str]) -> dict[str, str]:

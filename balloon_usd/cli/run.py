@@ -17,12 +17,17 @@ from balloon_usd.cli.frame_range import frame_range
 from balloon_usd.cli.sources import recipe_files
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from balloon_usd.batch.record import Record
+    from balloon_usd.batch.watch import Watch
+
+    Engine = Callable[[Sequence[Path], Order, tuple[str, ...], int | None, Watch], list[Record]]
+    """Makes recipes on devices with so many jobs, and tells a watch how far it is."""
 
 DETAILS = ("draft", "preview", "full")
 PROGRESS = ("bar", "lines")
+ENGINES = ("local", "ray")
 MOST_JOBS = 4096
 
 
@@ -57,6 +62,18 @@ MOST_JOBS = 4096
     metavar="N",
     help="Processor cores to use. Default: all that there are.",
 )
+@click.option(
+    "--engine",
+    type=click.Choice(ENGINES),
+    default=ENGINES[0],
+    show_default=True,
+    help="This machine, or a Ray cluster that shares the folders; needs the extra [cluster].",
+)
+@click.option(
+    "--address",
+    metavar="HOST:PORT",
+    help="Of the cluster, with --engine ray. Default: start one on this machine.",
+)
 @click.option("--flat", is_flag=True, help="Write one NAME.usdc instead of the folder NAME with its layers.")
 @click.option("--usdz", is_flag=True, help="Write one NAME.usdz instead, for AR viewers: y up, no textures.")
 @click.option(
@@ -89,6 +106,8 @@ def run(
     detail: str,
     devices: tuple[str, ...],
     jobs: int | None,
+    engine: str,
+    address: str | None,
     flat: bool,
     usdz: bool,
     look: str | None,
@@ -110,6 +129,8 @@ def run(
     OUTPUT/NAME.report.png, where NAME is the recipe's name, and OUTPUT/batch.jsonl, a line for each recipe.
     --flat and --usdz write one file instead.
     """
+    if address is not None and engine != "ray":
+        raise Failure("--address: only with --engine ray", ExitCode.BAD_INPUT)
     require_form(flat=flat, usdz=usdz, look=look, shot=shot)
     order = Order(
         output,
@@ -123,28 +144,59 @@ def run(
         report=not no_report,
         force=force,
     )
-    records = _make(recipe_files(recipes), order, devices, jobs, lines=progress == "lines")
-    _end(records)
+    made = _on_cluster(address) if engine == "ray" else _here
+    _end(_make(made, recipe_files(recipes), order, devices, jobs, lines=progress == "lines"))
 
 
 def _make(
-    files: Sequence[Path], order: Order, devices: tuple[str, ...], jobs: int | None, *, lines: bool
+    made: Engine,
+    files: Sequence[Path],
+    order: Order,
+    devices: tuple[str, ...],
+    jobs: int | None,
+    *,
+    lines: bool,
 ) -> list[Record]:
-    from balloon_usd.batch.engine import run_batch  # noqa: PLC0415
-    from balloon_usd.batch.machine import Machine, usable_cores  # noqa: PLC0415
-    from balloon_usd.batch.scheduler import BatchError  # noqa: PLC0415
     from balloon_usd.cli.batch_progress import BatchProgress  # noqa: PLC0415
     from balloon_usd.cli.summary import print_summary  # noqa: PLC0415
 
     begin = time.perf_counter()
-    machine = Machine(jobs or usable_cores(), devices)
     with BatchProgress(order, lines=lines) as progress:
-        try:
-            records = run_batch(files, order, machine, progress)
-        except BatchError as error:
-            raise Failure(str(error), ExitCode.BAD_INPUT) from error
+        records = made(files, order, devices, jobs, progress)
     print_summary(records, order, time.perf_counter() - begin, progress.device)
     return records
+
+
+def _here(
+    files: Sequence[Path], order: Order, devices: tuple[str, ...], jobs: int | None, watch: Watch
+) -> list[Record]:
+    """Make recipes on this machine."""
+    from balloon_usd.batch.engine import run_batch  # noqa: PLC0415
+    from balloon_usd.batch.machine import Machine, usable_cores  # noqa: PLC0415
+    from balloon_usd.batch.scheduler import BatchError  # noqa: PLC0415
+
+    try:
+        return run_batch(files, order, Machine(jobs or usable_cores(), devices), watch)
+    except BatchError as error:
+        raise Failure(str(error), ExitCode.BAD_INPUT) from error
+
+
+def _on_cluster(address: str | None) -> Engine:
+    """Return what makes recipes on a Ray cluster."""
+    from balloon_usd.batch.cluster import run_on_cluster  # noqa: PLC0415
+    from balloon_usd.batch.machine import Machine  # noqa: PLC0415
+    from balloon_usd.batch.ray_cluster import ClusterError  # noqa: PLC0415
+    from balloon_usd.batch.scheduler import BatchError  # noqa: PLC0415
+
+    def made(
+        files: Sequence[Path], order: Order, devices: tuple[str, ...], jobs: int | None, watch: Watch
+    ) -> list[Record]:
+        try:
+            return run_on_cluster(files, order, Machine(jobs or 1, devices), address, watch)
+        except (BatchError, ClusterError) as error:
+            raise Failure(str(error), ExitCode.BAD_INPUT) from error
+
+    return made
 
 
 def _end(records: Sequence[Record]) -> None:
