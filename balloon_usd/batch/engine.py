@@ -93,7 +93,7 @@ class Engine:
 
     def start_workers(self, recipes: int) -> None:
         """Start what is needed in any case, so that it gets ready while recipes are read."""
-        for device in self.machine.devices:
+        for device in self.machine.first_simulators(recipes):
             self._pool.start(Role.SIMULATOR, device)
         self.start_writers(recipes)
 
@@ -125,8 +125,14 @@ class Engine:
             if message.problem:
                 raise BatchError(message.problem)
             if worker.role is Role.SIMULATOR and worker.device == "all":
-                for other in message.devices[1:]:
-                    self._pool.start(Role.SIMULATOR, other)
+                self._start_others(message.devices[1:])
+
+    def _start_others(self, devices: Sequence[str]) -> None:
+        """Start a simulator on each device that has none yet."""
+        there = {worker.device for worker in self._pool.of(Role.SIMULATOR)}
+        for device in devices:
+            if device not in there:
+                self._pool.start(Role.SIMULATOR, device)
 
     # Questions to writers.
 

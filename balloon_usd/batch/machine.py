@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
+import sys
 from dataclasses import dataclass
+from pathlib import Path
 
 SIMULATORS_PER_GPU = 2
 """While one sees to the hands of its sculptures, the other has the device."""
@@ -28,6 +30,15 @@ def usable_cores() -> int:
     """Return how many cores of the CPU this process may use."""
     affinity = getattr(os, "sched_getaffinity", None)
     return len(affinity(0)) if affinity else os.cpu_count() or 1
+
+
+GPU_DRIVERS = (Path("/dev/nvidiactl"), Path("/dev/dxg"))
+"""What the driver of CUDA devices brings on Linux, and on Linux below Windows."""
+
+
+def _has_gpu() -> bool:
+    """Whether there may be a CUDA device; asking CUDA itself takes half a second."""
+    return sys.platform == "win32" or any(driver.exists() for driver in GPU_DRIVERS)
 
 
 @dataclass(frozen=True)
@@ -67,6 +78,12 @@ class Machine:
     def may_fall_back(self) -> bool:
         """Whether the CPU takes over from a GPU that is gone."""
         return self.devices == ("auto",)
+
+    def first_simulators(self, recipes: int) -> tuple[str, ...]:
+        """Return the devices of simulators that so many recipes need in any case, before devices are known."""
+        if self.devices == ("cpu",) or (self.devices == ("auto",) and not _has_gpu()):
+            return self.devices * min(self.cores, recipes)
+        return self.devices * (SIMULATORS_PER_GPU if recipes >= ENOUGH_FOR_TWO * len(self.devices) else 1)
 
     def writers(self, recipes: int) -> int:
         """Return how many writers so many recipes keep busy: at most one for two cores, or for a GPU more."""

@@ -151,7 +151,9 @@ class _Run:
         self._wanted &= snapshot.made & (code < self._last)
         slot.count += 1
         slot.doing = self._told(snapshot.made) or slot.doing
-        if self._ring is None or slot.count == self._ring.shape.frames or slot.age > LONGEST_WAIT:
+        # The first frame is not kept waiting: somebody may look out for it.
+        full = self._ring is None or slot.count == self._ring.shape.frames
+        if full or slot.age > LONGEST_WAIT or code == 1:
             self._flush()
 
     def _note(self, slot: _Slot, code: int, change: Change) -> None:

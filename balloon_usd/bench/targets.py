@@ -59,6 +59,12 @@ READING = Target(20.0, " s", least=False)
 """Check of a stage of 40 000 vertices and 1000 frames, and its diff with another."""
 MEMORY = Target(1.1, " x memory", least=False)
 """Memory for all frames, in that for a tenth of them."""
+BATCH_ON_DISK = Target(8000.0, RATE)
+"""256 draft dogs on an H200 with 16 cores: frames on disk, from the start of the process to its end."""
+DOG_ON_DISK = Target(500.0, RATE)
+"""One draft dog on an H200: frames on disk between the first and the last."""
+CORES_SHARE = 0.95
+"""Share of the cores' full throughput that a run on all of them reaches."""
 PROCESSES_SHARE = 0.9
 """Share of the cores' full throughput that as many processes reach."""
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import click
 from click.core import ParameterSource
 
+from balloon_usd.cli.bench_batch import bench_batch
 from balloon_usd.cli.bench_peers import PINCHES, VERTICES, bench_peers, peer_names
 from balloon_usd.cli.bench_rows import (
     bench_first_frame,
@@ -28,6 +29,7 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     "processes": ("detail", "frames"),
     "peers": ("vertices", "pinch"),
     "stage": ("frames",),
+    "batch": ("detail", "copies", "frames"),
 }
 """Options of everything else that is measured."""
 
@@ -54,6 +56,7 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     help="So many processes at once instead, against one.",
 )
 @click.option("--stage", is_flag=True, help="Writing, checking and comparing stages instead.")
+@click.option("--batch", is_flag=True, help="Whole runs instead, from recipes to verified stages on disk.")
 @click.option(
     "--peer",
     "peers",
@@ -86,6 +89,7 @@ def bench(
     first_frame: bool,
     processes: int | None,
     stage: bool,
+    batch: bool,
     peers: tuple[str, ...] | None,
     vertices: str,
     pinch: str,
@@ -110,6 +114,8 @@ def bench(
             bench_first_frame(detail, used)
         elif processes is not None:
             bench_processes(processes, detail, used, frames)
+        elif batch:
+            bench_batch(copies, detail, used, frames)
         else:
             bench_table(model, detail, copies, used, frames)
 
@@ -124,7 +130,7 @@ def _refuse_what_does_not_apply() -> None:
     chosen = [name for name in OPTIONS if name in given]
     if len(chosen) > 1:
         raise Failure(
-            "--mixed, --first-frame, --processes, --stage and --peer are measured one at a time",
+            "--mixed, --first-frame, --processes, --stage, --batch and --peer are measured one at a time",
             ExitCode.BAD_INPUT,
         )
     used = OPTIONS[chosen[0]] if chosen else TABLE
