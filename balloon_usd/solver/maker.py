@@ -59,6 +59,8 @@ class Maker(ABC):
         self._text = ""
         self.told = Told("")
         """What is told of the sculpture."""
+        self._brought = False
+        """Whether a chain is brought somewhere in the coming frame."""
         self._moves = [(move.start, move.end, move) for move in plan.choreography.moves]
         self._performers: dict[type[Move], _Performer] = {
             Gather: self._gather,
@@ -92,13 +94,13 @@ class Maker(ABC):
     def _perform(self, begin: float, end: float, middle: Floats) -> None:
         self._frame = round(end * self._fps)
         self._span = (begin, end)
-        first = self._done
-        for k in range(first, len(self._moves)):
+        self._brought = False
+        for k in range(self._done, len(self._moves)):
             start, over, move = self._moves[k]
             if start >= end:
                 break
-            if k > first:
-                # One move begins where another has brought the rings.
+            if self._brought:
+                # A move begins where another has brought the rings.
                 self.hands.settle()
             fresh = k not in self._began
             if fresh:
@@ -141,6 +143,7 @@ class Maker(ABC):
             self.hands.touch(self.body.values())
             self._gathered[k] = self._begin_gathering(move, middle)
         self.hands.bring(self._gathered[k].pose(smooth(share)))
+        self._brought = True
 
     def _begin_gathering(self, move: Gather, middle: Floats) -> Gathering:
         """Take hold of the corners of a chain and of what is beside it."""

@@ -12,7 +12,7 @@ from balloon_usd.balloon.bubble_shape import tail_volume_per_rest_length, tube_v
 from balloon_usd.balloon.tube_theory import maxwell_state, pressure_maximum
 from balloon_usd.plan.choreography import Inflate, LetGo, Pinch, Spin
 from balloon_usd.plan.closing import smooth
-from balloon_usd.solver.latex.friction import friction_pairs
+from balloon_usd.solver.latex.friction import Friction
 from balloon_usd.solver.latex.memory import set_bend
 from balloon_usd.solver.latex.torsion import Torsion
 from balloon_usd.solver.maker import ALONG, Maker
@@ -35,8 +35,6 @@ PUMP_RAMP = 0.2
 """Share of that time in which the pump starts, and stops."""
 TAIL_STIFFNESS = 200.0
 """Stiffness of the hand that leads the flat tail while the balloon is blown up, N/m: soft, it only steers."""
-FORWARD = ALONG.astype(np.float32)
-"""The same direction as places are kept."""
 SPIN_CLEAR = 1e-6
 """What lies farther than this beyond a joint turns with the balloon, m."""
 SOFTENING_SECONDS = 0.1
@@ -54,7 +52,8 @@ class LatexMaker(Maker):
     ) -> None:
         super().__init__(plan, scene, hands, first_body)
         self.struts = struts
-        self.torsion = Torsion(plan, scene, hands, self._ring, self.body)
+        self._friction = Friction(plan, self._ring)
+        self.torsion = Torsion(plan, scene, hands, self._ring, self.body, self._friction)
         self._fronts: dict[str, tuple[int, float]] = {}
         """Ring that leads the tail of every balloon, and how far (m) a flow of one mol/s drives it in a frame
         along with the front.
@@ -84,7 +83,7 @@ class LatexMaker(Maker):
         if fresh:
             if move.for_good:
                 self.torsion.let_go(self.struts)
-            self.struts.hold(friction_pairs(self.plan, self.hands, self._ring))
+            self.struts.hold(self._friction.pairs(self.hands))
 
     def _inflate(self, _: int, move: Inflate, share: float, fresh: bool, middle: Floats) -> None:
         b, shape = self.body[move.balloon], self.plan.strips[move.balloon].shape
@@ -145,10 +144,11 @@ class LatexMaker(Maker):
             longer = float(self.scene.air.molar_energy) * (state.bulged.b - state.thin.b)
             self._fronts[balloon] = tip, longer / (pressure * gained * self.plan.recipe.fps)
         tip, step = self._fronts[balloon]
-        goal = self.hands.goal[tip]
-        start = goal + FORWARD * (middle[tip] - goal).dot(FORWARD)
-        self.hands.start[tip] = start
-        self.hands.goal[tip] = start + FORWARD * (flow * step)
+        start, goal = self.hands.start[tip], self.hands.goal[tip]
+        start[:] = goal
+        # Forward is the first coordinate.
+        start[0] += middle[tip, 0] - goal[0]
+        goal[0] = start[0] + np.float32(flow * step)
         if flow == 0.0:
             self.hands.free[tip] = ALONG
 
