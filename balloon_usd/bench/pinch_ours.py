@@ -7,14 +7,12 @@ import time
 from typing import TYPE_CHECKING
 
 import numpy as np
-import warp as wp
 
 from balloon_usd.balloon.rubber import rubber_named
 from balloon_usd.bench.pinch_task import FPS, GAUGE, PINCHED, RADIUS, PinchRun
 from balloon_usd.bench.pinch_wall import blown_up, rest_points, wall_thickness
 from balloon_usd.solver.body import RingSpec
 from balloon_usd.solver.kernels.gas import OPEN_PASSAGE
-from balloon_usd.solver.kernels.motion import Spin
 from balloon_usd.solver.latex.body import LatexBody
 from balloon_usd.solver.latex.hands import LatexHands
 from balloon_usd.solver.latex.scene import build_scene
@@ -82,12 +80,15 @@ class PinchedTube:
 
     def _turn(self, rate: float) -> None:
         """Turn both ends at a rate (rad/s) in this frame, against each other."""
-        spin = Spin()
-        spin.point = wp.vec3(*self.scene.ring_middle.numpy()[len(self.neck) // 2])
-        spin.beyond = self._beyond
-        spin.axis, spin.back_axis = wp.vec3(1.0, 0.0, 0.0), wp.vec3(-1.0, 0.0, 0.0)
-        spin.rate = spin.back_rate = rate
-        self.hands.spin(0, spin)
+        self.hands.spin(
+            0,
+            point=self.scene.ring_middle.numpy()[len(self.neck) // 2],
+            beyond=self._beyond,
+            axis=(1.0, 0.0, 0.0),
+            back_axis=(-1.0, 0.0, 0.0),
+            rate=rate,
+            back_rate=rate,
+        )
 
 
 def tube_body(task: PinchTask) -> LatexBody:

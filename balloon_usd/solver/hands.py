@@ -8,17 +8,28 @@ import numpy as np
 from numpy.typing import NDArray
 
 from balloon_usd.plan.welding import MOST_WELDED
-from balloon_usd.solver.kernels.fingers import Finger
+from balloon_usd.solver.gathering import pose_chains
 from balloon_usd.solver.kernels.joints import CLASP_MODE, GRIP_MODE, LEAD_MODE
-from balloon_usd.solver.parcel import Parcel
+from balloon_usd.solver.parcel import Letter, Parcel
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
+    from balloon_usd.solver.gathering import Pose
     from balloon_usd.solver.scene import Scene
 
 Floats = NDArray[np.float32]
 
+WELDS = (
+    "weld_joint",
+    "weld_size",
+    "weld_reach",
+    "weld_gap",
+    "joint_weld",
+    "joint_leader",
+    "world_welds",
+)
+"""Arrays that change when joints are welded or parted."""
 LEAD_FORCE = 6.0
 """Largest force of a hand that leads a bubble, N: a light push."""
 LEAD_STIFFNESS = 800.0
@@ -52,7 +63,7 @@ class Hands:
         self.radius_goal = self.radius.copy()
         self.touching = np.zeros(len(scene.bodies), dtype=np.int32)
         """Balloons whose walls may touch something: those that have been folded."""
-        self.fingers = [Finger() for _ in scene.bodies]
+        self.fingers = scene.fingers.numpy().copy()
         self.drag = scene.drag.numpy().copy()
         """Air drag of every balloon, 1/s."""
         self.finger_share = np.zeros(len(scene.x), dtype=np.float32)
@@ -64,6 +75,7 @@ class Hands:
         self.rings = (scene.joint_first.numpy(), scene.joint_around.numpy())
         """First vertex of every ring, and how many it has."""
         self._parcel: Parcel | None = None
+        self._letters = {name: Letter(scene, name) for name in self._now_and_then()}
         self._due: dict[str, Any] = {}
         """What has changed since the last upload, by the names of the arrays."""
         self._welded = False
@@ -73,7 +85,15 @@ class Hands:
         """The weld that holds a joint."""
         self._weld_sizes: dict[tuple[int, ...], tuple[float, float]] = {}
         """Gap and reach (m) of every weld so far."""
+        self.releases = 0
+        """How often hands have let go."""
+        self._poses: list[Pose] = []
+        """Chains that are brought somewhere in the coming frame."""
         self._ring_world = np.repeat(scene.worlds, np.diff(scene.joint_start))
+
+    def _now_and_then(self) -> tuple[str, ...]:
+        """Return the names of the arrays that change in few frames."""
+        return ("fingers", "finger_share", *WELDS)
 
     def see(self, seen: Mapping[str, NDArray[Any]]) -> None:
         """Take note of how things are, by the names of arrays of the scene."""
@@ -104,28 +124,24 @@ class Hands:
     def set_drag(self, balloon: int, rate: float) -> None:
         """Set the air drag of a balloon (1/s)."""
         self.drag[balloon] = rate
-        self._due["drag"] = self.drag
 
     def touch(self, balloons: Iterable[int]) -> None:
         """Let the walls of these balloons touch from now on."""
-        fresh = [b for b in balloons if not self.touching[b]]
-        if fresh:
-            self.touching[fresh] = 1
-            self._due["touching"] = self.touching
+        self.touching[list(balloons)] = 1
 
     def give_up(self, balloons: Iterable[int]) -> None:
         """Leave balloons alone whose run has failed."""
         self.touching[list(balloons)] = 0
-        self._due["touching"] = self.touching
 
-    def set_finger(self, balloon: int, finger: Finger, share: Floats) -> None:
+    def set_finger(self, balloon: int, share: Floats, **finger: Any) -> None:
         """Put a finger on a balloon for the coming frame.
 
-        `share`: of its force on every vertex of that balloon, (V,), adding up to 1.
+        `share`: of its force on every vertex of that balloon, (V,), adding up to 1; `finger`: fields of a
+        `Finger`.
         """
         s = self.scene
         self.finger_share[s.vertex_start[balloon] : s.vertex_start[balloon + 1]] = share
-        self.fingers[balloon] = finger
+        fill_row(self.fingers, balloon, finger)
         self.pressing = True
         self._due["fingers"], self._due["finger_share"] = self.fingers, self.finger_share
 
@@ -138,6 +154,17 @@ class Hands:
     def let_go(self, joints: NDArray[np.int64]) -> None:
         """Take the hands from these rings."""
         self.mode[joints] = 0
+        self.releases += 1
+
+    def bring(self, pose: Pose) -> None:
+        """Bring the rings of a chain somewhere in the coming frame, with those of other chains."""
+        self._poses.append(pose)
+
+    def settle(self) -> None:
+        """Set the goals of the chains that are brought somewhere."""
+        if self._poses:
+            pose_chains(self.goal, self._poses)
+            self._poses.clear()
 
     def weld(self, joints: tuple[int, ...]) -> None:
         """Hold joints together from now on, with everything already welded to them.
@@ -174,11 +201,13 @@ class Hands:
         Raises:
             ValueError: more welds than there is room for.
         """
+        self.settle()
         if self._welded:
             self._upload_welds()
             self._welded = False
         for name, changed in self._due.items():
-            self.scene.arrays[name].assign(changed)
+            self._letters[name].open()[...] = changed
+            self._letters[name].send()
         self._due.clear()
         goals = self._goals()
         if self._parcel is None:
@@ -196,6 +225,8 @@ class Hands:
             "hand_stiffness": self.stiffness,
             "radius_from": self.radius,
             "radius_to": self.radius_goal,
+            "touching": self.touching,
+            "drag": self.drag,
         }
 
     def arrived(self) -> None:
@@ -223,16 +254,8 @@ class Hands:
         leader[joints] = joints[first][weld]
         gap[:count], reach[:count] = np.array([self._weld_size(g) for g in self.welds]).reshape(-1, 2).T
         of_world = np.bincount(self._ring_world[joints[first]], minlength=max(s.worlds) + 1)
-        for name, values in (
-            ("weld_joint", joint),
-            ("weld_size", size),
-            ("weld_reach", reach),
-            ("weld_gap", gap),
-            ("joint_weld", of_joint),
-            ("joint_leader", leader),
-            ("world_welds", of_world.astype(np.int32)),
-        ):
-            s.arrays[name].assign(values)
+        values = joint, size, reach, gap, of_joint, leader, of_world
+        self._due.update(zip(WELDS, values, strict=True))
 
     def _weld_size(self, group: tuple[int, ...]) -> tuple[float, float]:
         """Return the gap between two joints of a weld and the reach of them all, m."""
@@ -240,3 +263,11 @@ class Hands:
             gap = 2.0 * float(self.neck[list(group)].mean())
             self._weld_sizes[group] = gap, gap / float(np.sin(np.pi / max(len(group), 2)))
         return self._weld_sizes[group]
+
+
+def fill_row(rows: NDArray[Any], at: int, fields: Mapping[str, Any]) -> None:
+    """Set the fields of one row; those that are not given are 0."""
+    row = np.zeros((), dtype=rows.dtype)
+    for name, value in fields.items():
+        row[name] = value
+    rows[at] = row

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import warp as wp
 from numpy.typing import NDArray
 
 from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.plan.choreography import Bend, Bring, Gather, LetGo, Move, Push, Weld
 from balloon_usd.plan.closing import ClosingChain, smooth
-from balloon_usd.solver.kernels.fingers import Finger
+from balloon_usd.solver.gathering import Gathering
+from balloon_usd.solver.model import Told
 from balloon_usd.solver.push import FINGER_STIFFNESS, Patch, patch_under, press_profile
 
 if TYPE_CHECKING:
@@ -23,33 +23,11 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float32]
 
+# Index of the move, the move, how much of it is over, whether it begins, and where all rings are.
+_Performer = Callable[[int, Any, float, bool, Floats], None]
+
 ALONG = np.array([1.0, 0.0, 0.0])
 """Direction from the knot to the tip."""
-
-
-@dataclass(frozen=True)
-class _Gathering:
-    """A chain of bubbles that is being closed, and what it found when that began; places in m."""
-
-    corners: list[int]
-    """Joints of the chain, from its first to the held one."""
-    before: list[int]
-    """Joints of what is already made."""
-    began: NDArray[np.float64]
-    """Where the corners were."""
-    places_before: NDArray[np.float64]
-    """Where what is already made was."""
-    chain: ClosingChain
-    off: NDArray[np.float64]
-    """How far the corners were off a straight chain."""
-    cheeks: NDArray[np.int64]
-    """Rings inside its bubbles, (C,)."""
-    sides: NDArray[np.int64]
-    """The side of the chain that each is on."""
-    straight: NDArray[np.float64]
-    """How far each was off the middle of its side, (C, 3)."""
-    bulge: NDArray[np.float64]
-    """How far each shall be off it in the end, (C, 1)."""
 
 
 class Maker(ABC):
@@ -57,6 +35,7 @@ class Maker(ABC):
 
     def __init__(self, plan: Plan, scene: Scene, hands: Hands, first_body: int) -> None:
         self.plan = plan
+        self._fps = plan.recipe.fps
         self.scene = scene
         self.hands = hands
         names = list(plan.strips)
@@ -64,10 +43,10 @@ class Maker(ABC):
         self._ring = self._global_rings()
         self._began: dict[int, NDArray[np.float64]] = {}
         """What a move found when it began, by index of the move."""
-        self._gathered: dict[int, _Gathering] = {}
+        self._gathered: dict[int, Gathering] = {}
         """Chains that are being closed, by index of the move."""
-        self._steadied: dict[int, list[int]] = {}
-        """Joints that are kept from swinging round a ring."""
+        self._steadied: dict[int, int] = {}
+        """How often hands had let go when the joints round a ring were last kept from swinging."""
         self._patches: dict[int, Patch] = {}
         """Where fingers press, by index of the move."""
         self._pressed: dict[int, float] = {}
@@ -78,6 +57,20 @@ class Maker(ABC):
         self._span = (0.0, 0.0)
         """Beginning and end of the coming frame, s."""
         self._text = ""
+        self.told = Told("")
+        """What is told of the sculpture."""
+        self._brought = False
+        """Whether a chain is brought somewhere in the coming frame."""
+        self._moves = [(move.start, move.end, move) for move in plan.choreography.moves]
+        self._performers: dict[type[Move], _Performer] = {
+            Gather: self._gather,
+            Bring: self._bring,
+            Bend: self._bend,
+            Push: self._push,
+            Weld: self._weld,
+            LetGo: self._let_go,
+        }
+        """Who performs a kind of move; what has nobody is waited for."""
 
     def _global_rings(self) -> list[int]:
         """Joint of the scene of every planned ring: a body's rings are its plan's, after its spare ones."""
@@ -91,77 +84,68 @@ class Maker(ABC):
             place[ring.balloon] += 1
         return found
 
-    @property
-    def doing(self) -> str:
-        """What the hands do, for people."""
-        return self._text
-
     def act(self, begin: float, end: float, middle: Floats) -> None:
         """Set the hands' goals for the frame from `begin` to `end` (s), given where all rings are (J, 3),
         m.
         """
-        moves = self.plan.choreography.moves
-        self._frame = round(end * self.plan.recipe.fps)
+        self._perform(begin, end, middle)
+        self._tell()
+
+    def _perform(self, begin: float, end: float, middle: Floats) -> None:
+        self._frame = round(end * self._fps)
         self._span = (begin, end)
-        for k in range(self._done, len(moves)):
-            move = moves[k]
-            if move.start >= end:
+        self._brought = False
+        for k in range(self._done, len(self._moves)):
+            start, over, move = self._moves[k]
+            if start >= end:
                 break
+            if self._brought:
+                # A move begins where another has brought the rings.
+                self.hands.settle()
             fresh = k not in self._began
             if fresh:
                 self._began[k] = np.zeros(0)
                 self._text = move.text if move.seconds > 0.0 else self._text
-            share = 1.0 if move.end <= end or move.seconds == 0.0 else (end - move.start) / move.seconds
-            self._perform(k, move, share, fresh, middle)
-            if move.end <= end and k == self._done:
+            share = 1.0 if over <= end or move.seconds == 0.0 else (end - start) / move.seconds
+            performer = self._performers.get(type(move))
+            if performer is not None:
+                performer(k, move, share, fresh, middle)
+            if over <= end and k == self._done:
                 self._done += 1
 
-    def _perform(self, k: int, move: Move, share: float, fresh: bool, middle: Floats) -> None:
-        if isinstance(move, Gather):
-            self._gather(k, move, share, fresh, middle)
-        elif isinstance(move, Bring):
-            self._bring(k, move, share, fresh, middle)
-        elif isinstance(move, Bend):
-            self._bend(k, move, share, fresh, middle)
-        elif isinstance(move, Push):
-            self._push(k, move, share, fresh, middle)
-        elif isinstance(move, Weld) and fresh:
+    def _tell(self) -> None:
+        """Take note of what there is to tell."""
+        if self._text is not self.told.doing:
+            self.told = Told(self._text)
+
+    def _weld(self, _: int, move: Weld, __: float, fresh: bool, ___: Floats) -> None:
+        if fresh:
             self.hands.weld(tuple(self._ring[r] for r in move.rings))
-        elif isinstance(move, LetGo) and fresh:
+
+    def _let_go(self, _: int, __: LetGo, ___: float, fresh: bool, ____: Floats) -> None:
+        if fresh:
             self.hands.let_go(np.array(self._ring, dtype=np.int64))
 
     def _steady(self, ring: int, middle: Floats) -> None:
         """Keep what is already made from swinging round a joint, free to move along the balloon as the
         neck draws it in.
         """
-        if ring not in self._steadied:
-            self._steadied[ring] = self._worked(ring)
-        worked = self._steadied[ring]
+        if self._steadied.get(ring) == self.hands.releases:
+            return
+        self._steadied[ring] = self.hands.releases
+        worked = self._worked(ring)
         for joint in worked:
             self.hands.lead(joint, middle)
         self.hands.free[worked] = ALONG
 
     def _gather(self, k: int, move: Gather, share: float, fresh: bool, middle: Floats) -> None:
-        self.hands.touch(self.body.values())
         if fresh:
+            self.hands.touch(self.body.values())
             self._gathered[k] = self._begin_gathering(move, middle)
-        g = self._gathered[k]
-        progress = smooth(share)
-        pose = g.began[-1] + g.chain.pose(progress)
-        # The chain was not quite straight: what it was off fades as it closes.
-        pose += (1.0 - progress) * g.off
-        self.hands.goal[g.corners] = pose
-        if g.before:
-            self.hands.goal[g.before] = g.places_before + (pose[0] - g.began[0])
-        if len(g.cheeks) == 0:
-            return
-        first, second = pose[g.sides], pose[g.sides + 1]
-        middles, across = 0.5 * (first + second), _unit(second - first)
-        out = middles - pose.mean(axis=0)
-        out = _unit(out - across * (out * across).sum(axis=1)[:, None])
-        self.hands.goal[g.cheeks] = middles + (1.0 - progress) * g.straight + progress * g.bulge * out
+        self.hands.bring(self._gathered[k].pose(smooth(share)))
+        self._brought = True
 
-    def _begin_gathering(self, move: Gather, middle: Floats) -> _Gathering:
+    def _begin_gathering(self, move: Gather, middle: Floats) -> Gathering:
         """Take hold of the corners of a chain and of what is beside it."""
         corners = [self._ring[r] for r in move.corners]
         cheeks = [(self._ring[r], side) for r, side in move.cheeks]
@@ -179,7 +163,18 @@ class Maker(ABC):
         joints, sides = np.array(cheeks, dtype=np.int64).reshape(-1, 2).T
         straight = middle[joints].astype(np.float64) - 0.5 * (began[sides] + began[sides + 1])
         bulge = np.array([self._bulged_radius(ring) for ring, _ in move.cheeks])[:, None]
-        return _Gathering(corners, before, began, swung, chain, off, joints, sides, straight, bulge)
+        return Gathering(
+            np.array(corners),
+            np.array(before, dtype=np.int64),
+            began,
+            swung,
+            chain,
+            off,
+            joints,
+            sides,
+            straight,
+            bulge,
+        )
 
     def _worked(self, ring: int) -> list[int]:
         """Joints on the knot's side of a ring."""
@@ -205,9 +200,9 @@ class Maker(ABC):
         return strip.size.radius * maxwell_state(strip.rubber).bulged.a
 
     def _bring(self, k: int, move: Bring, share: float, fresh: bool, middle: Floats) -> None:
-        self.hands.touch(self.body.values())
         joint, held = self._ring[move.ring], self._ring[move.to]
         if fresh:
+            self.hands.touch(self.body.values())
             self.hands.grip(joint, middle)
             self.hands.grip(held, middle)
             self._began[k] = middle[[joint, held]].astype(np.float64)
@@ -245,21 +240,25 @@ class Maker(ABC):
     def _push(self, k: int, move: Push, share: float, fresh: bool, middle: Floats) -> None:
         """Press a finger into a wall and take it back; the other hand holds the ends."""
         b = self.body[move.balloon]
-        self.hands.touch(self.body.values())
         if fresh:
+            self.hands.touch(self.body.values())
             for ring in move.holds:
                 self.hands.grip(self._ring[ring], middle)
             self._patches[k] = patch_under(self.scene, b, move)
         patch = self._patches[k]
-        finger = Finger()
         now, pressed = self._pressed.get(k, 0.0), press_profile(share)
         along = np.array(move.point)
-        finger.start, finger.end = (wp.vec3(*(patch.touch + move.depth * p * along)) for p in (now, pressed))
-        finger.load_start, finger.load_end = move.force * now, move.force * pressed
-        finger.along = wp.vec3(*along)
-        finger.stiff = FINGER_STIFFNESS / float(patch.share.max()) if move.depth > 0.0 else 0.0
         self._pressed[k] = pressed
-        self.hands.set_finger(b, finger, patch.share)
+        self.hands.set_finger(
+            b,
+            patch.share,
+            start=patch.touch + move.depth * now * along,
+            end=patch.touch + move.depth * pressed * along,
+            load_start=move.force * now,
+            load_end=move.force * pressed,
+            along=along,
+            stiff=FINGER_STIFFNESS / float(patch.share.max()) if move.depth > 0.0 else 0.0,
+        )
 
     def _ring_width(self, joint: int) -> float:
         """Mean distance of a ring's vertices from their middle, m."""
@@ -285,9 +284,3 @@ class Maker(ABC):
                     last -= cap if index == len(strip.bubbles) - 1 else 0
                     return self.body[name], np.arange(first, last)
         raise KeyError(bubble)
-
-
-def _unit(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return vectors (N, 3) at length 1."""
-    lengths: NDArray[np.float64] = np.sqrt((vectors * vectors).sum(axis=1))
-    return vectors / np.maximum(lengths, 1e-9)[:, None]

@@ -1,4 +1,7 @@
-"""Small arrays of a device that are sent to it together: each copy by itself takes as long as many."""
+"""What is sent to a device without waiting for it: from memory that it reads by itself.
+
+An array of the host's own would wait until all is done that the device was told before.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +22,9 @@ ALIGNMENT = 16
 
 
 class Parcel:
-    """Arrays of a scene that lie together on the device and, for filling, on the host."""
+    """Small arrays of a scene that lie together on the device and, for filling, on the host: each copy by
+    itself takes as long as many.
+    """
 
     def __init__(self, scene: Scene, names: Iterable[str]) -> None:
         """Move arrays of a scene together, with what they hold."""
@@ -50,5 +55,35 @@ class Parcel:
         for name, new in values.items():
             self._views[name][...] = new
         wp.copy(self._away, self._here)
+        if self._sent is not None:
+            wp.record_event(self._sent)
+
+
+class Letter:
+    """An array of a scene that only the host changes, or part of it, now and then."""
+
+    def __init__(self, scene: Scene, name: str) -> None:
+        """Take note of what it holds."""
+        self._away = scene.arrays[name]
+        device = wp.get_device(scene.device)
+        self._here: Any = wp.array(
+            self._away.numpy(), dtype=self._away.dtype, device="cpu", pinned=device.is_cuda
+        )
+        self._values: NDArray[Any] = self._here.numpy()
+        self._row = self._here.size // len(self._values)
+        self._sent = wp.Event(device) if device.is_cuda else None
+
+    def open(self) -> NDArray[Any]:
+        """Return what was written last, to be changed and sent, once the device has read what was sent."""
+        if self._sent is not None:
+            wp.synchronize_event(self._sent)
+        return self._values
+
+    def send(self, begin: int = 0, end: int | None = None) -> None:
+        """Send some rows, or all."""
+        end = len(self._values) if end is None else end
+        if end > begin:
+            first, count = begin * self._row, (end - begin) * self._row
+            wp.copy(self._away, self._here, first, first, count)
         if self._sent is not None:
             wp.record_event(self._sent)

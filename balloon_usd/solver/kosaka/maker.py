@@ -7,12 +7,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from balloon_usd.plan.choreography import Move, Pinch, Weld
+from balloon_usd.plan.choreography import Pinch, Weld
 from balloon_usd.plan.closing import smooth
 from balloon_usd.solver.kosaka.memory import BEND_SET, LOOP_SET, set_bend
 from balloon_usd.solver.maker import Maker
 
 if TYPE_CHECKING:
+    from balloon_usd.plan import Plan
+    from balloon_usd.solver.hands import Hands
     from balloon_usd.solver.kosaka.scene import KosakaScene
 
 Floats = NDArray[np.float32]
@@ -26,12 +28,13 @@ class KosakaMaker(Maker):
 
     scene: KosakaScene
 
-    def _perform(self, k: int, move: Move, share: float, fresh: bool, middle: Floats) -> None:
-        if isinstance(move, Pinch):
-            self._pinch(k, move, share, fresh, middle)
-        else:
-            super()._perform(k, move, share, fresh, middle)
-        if isinstance(move, Weld) and fresh:
+    def __init__(self, plan: Plan, scene: KosakaScene, hands: Hands, first_body: int) -> None:
+        super().__init__(plan, scene, hands, first_body)
+        self._performers[Pinch] = self._pinch
+
+    def _weld(self, k: int, move: Weld, share: float, fresh: bool, middle: Floats) -> None:
+        super()._weld(k, move, share, fresh, middle)
+        if fresh:
             self._keep_loop(move)
 
     def _pinch(self, k: int, move: Pinch, share: float, fresh: bool, middle: Floats) -> None:

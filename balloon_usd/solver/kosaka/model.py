@@ -18,7 +18,6 @@ from balloon_usd.solver.kosaka.scene import KosakaScene, kosaka_scene
 from balloon_usd.solver.kosaka.stepper import KosakaStepper
 from balloon_usd.solver.layout import Layout
 from balloon_usd.solver.mirror import Mirror
-from balloon_usd.solver.model import Told
 from balloon_usd.solver.settings import SceneSettings
 from balloon_usd.solver.sight import Sight
 from balloon_usd.solver.watch import most_stretches
@@ -31,6 +30,7 @@ if TYPE_CHECKING:
     from balloon_usd.balloon.detail import Detail
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
+    from balloon_usd.solver.model import Told
 
 LOOKED_AT = (
     "x",
@@ -171,7 +171,7 @@ class KosakaModel:
             self.stepper.look()
         self._seen = self._mirror.arrays()
         self._shown = self._come_to()
-        self.told = [Told(maker.doing) for maker in self.makers]
+        self.told = [maker.told for maker in self.makers]
 
     def _come_to(self) -> _Shown:
         return _Shown(self.clusters.of_segment, self.clusters.of_air)

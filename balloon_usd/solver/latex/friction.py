@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from itertools import combinations
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -12,65 +12,78 @@ if TYPE_CHECKING:
     from balloon_usd.solver.hands import Hands
 
 
-def friction_pairs(plan: Plan, hands: Hands, rings: Sequence[int]) -> set[tuple[int, int]]:
-    """Return the pairs of joints (of the scene) whose distance the friction of a weld keeps.
+class _Bubble(NamedTuple):
+    """A bubble by its joints in the scene."""
 
-    `rings`: joint of the scene of every planned ring.
-    """
-    return _Welded(plan, hands, rings).pairs()
+    ends: tuple[int, ...]
+    """Rings at its start and at its end; the tip has none."""
+    guides: tuple[int, ...]
+    """Rings inside, from its start to its end."""
 
 
-class _Welded:
-    """The welds of one sculpture and the bubbles that meet in them."""
+class _Met(NamedTuple):
+    """A bubble with an end in a weld."""
 
-    def __init__(self, plan: Plan, hands: Hands, rings: Sequence[int]) -> None:
-        self.plan = plan
-        self.hands = hands
-        self._ring = rings
+    bubble: _Bubble
+    inside: int
+    """How many of its ends are in the weld."""
+    outside: int | None
+    """The ring of the other end, if there is one."""
 
-    def pairs(self) -> set[tuple[int, int]]:
-        """Pairs of rings whose distance the friction of a weld keeps."""
-        welds = [set(group) for group in self.hands.welds_of(self._ring)]
-        ends = [self._neighbours(weld) for weld in welds]
+
+class Friction:
+    """The bubbles of one sculpture that its welds keep from turning."""
+
+    def __init__(self, plan: Plan, rings: Sequence[int]) -> None:
+        """Look them up once; `rings`: joint of the scene of every planned ring."""
+        self._rings = rings
+        table = plan.table
+        self._bubbles = [
+            _Bubble(
+                tuple(rings[r] for r in table.ends(bubble.name) if r is not None),
+                tuple(rings[g] for g in table.guides(bubble.name)),
+            )
+            for bubble in plan.bubbles
+        ]
+
+    def pairs(self, hands: Hands) -> set[tuple[int, int]]:
+        """Return the pairs of joints (of the scene) whose distance the friction of a weld keeps."""
+        welds = [set(group) for group in hands.welds_of(self._rings)]
+        meeting = [self._meeting(weld) for weld in welds]
+        ends = [_neighbours(met, hands) for met in meeting]
         pairs = set()
-        for weld, near in zip(welds, ends, strict=True):
-            pairs |= set(combinations(sorted(near | self._cheeks(weld, near)), 2))
+        for met, near in zip(meeting, ends, strict=True):
+            pairs |= set(combinations(sorted(near | _cheeks(met, near)), 2))
         for (weld, near), (other, far) in combinations(zip(welds, ends, strict=True), 2):
             if near & other:
                 pairs |= {(min(a, b), max(a, b)) for a in near - other for b in far - weld if a != b}
         return pairs
 
-    def _neighbours(self, weld: set[int]) -> set[int]:
-        """Joints at the far ends of the bubbles that meet in a weld; of a loop or an open end, a ring
-        inside.
-        """
-        found: set[int] = set()
-        for bubble, inside, outside in self._meeting(weld):
-            guides = [self._ring[g] for g in self.plan.table.guides(bubble)]
-            if outside is not None and self.hands.radius_goal[outside] > 0.0:
-                found.add(outside)
-            elif guides and inside == 2:
-                found.add(guides[len(guides) // 2])
-            elif guides and outside is None:
-                found.add(guides[0])
-        return found
-
-    def _cheeks(self, weld: set[int], near: set[int]) -> set[int]:
-        """Middles of bubbles that lie side by side: two that share both a weld and the joint beyond it."""
-        met = [(bubble, outside) for bubble, _, outside in self._meeting(weld) if outside in near]
-        beyond = [outside for _, outside in met]
-        folded = [bubble for bubble, outside in met if beyond.count(outside) > 1]
-        return {self._ring[self.plan.table.guides(bubble)[0]] for bubble in folded}
-
-    def _meeting(self, weld: set[int]) -> list[tuple[str, int, int | None]]:
-        """Bubbles with an end in a weld: name, number of ends in it, and the ring of the other end if
-        there is one.
-        """
+    def _meeting(self, weld: set[int]) -> list[_Met]:
+        """Return the bubbles that meet in a weld."""
         found = []
-        for bubble in self.plan.bubbles:
-            start, end = self.plan.table.ends(bubble.name)
-            rings = [self._ring[r] for r in (start, end) if r is not None]
-            inside = [ring for ring in rings if ring in weld]
+        for bubble in self._bubbles:
+            inside = sum(ring in weld for ring in bubble.ends)
             if inside:
-                found.append((bubble.name, len(inside), next((r for r in rings if r not in weld), None)))
+                found.append(_Met(bubble, inside, next((r for r in bubble.ends if r not in weld), None)))
         return found
+
+
+def _neighbours(meeting: Sequence[_Met], hands: Hands) -> set[int]:
+    """Joints at the far ends of the bubbles that meet in a weld; of a loop or an open end, a ring inside."""
+    found: set[int] = set()
+    for (_, guides), inside, outside in meeting:
+        if outside is not None and hands.radius_goal[outside] > 0.0:
+            found.add(outside)
+        elif guides and inside == 2:
+            found.add(guides[len(guides) // 2])
+        elif guides and outside is None:
+            found.add(guides[0])
+    return found
+
+
+def _cheeks(meeting: Sequence[_Met], near: set[int]) -> set[int]:
+    """Middles of bubbles that lie side by side: two that share both a weld and the joint beyond it."""
+    met = [(bubble, outside) for bubble, _, outside in meeting if outside in near]
+    beyond = [outside for _, outside in met]
+    return {bubble.guides[0] for bubble, outside in met if beyond.count(outside) > 1}

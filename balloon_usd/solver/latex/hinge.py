@@ -7,10 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
-import warp as wp
 from numpy.typing import NDArray
-
-from balloon_usd.solver.kernels.motion import Spin
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -126,24 +123,26 @@ class Hinge:
         beyond = screw(parts.beyond.turned, parts.moved, seconds)
         before = screw(parts.before.turned, parts.moved, seconds)
         for body, place in self._place.items():
-            spin = Spin()
-            spin.beyond, spin.point = place, wp.vec3(*parts.point)
-            spin.rate, spin.axis, spin.drift = beyond
-            spin.back_rate, spin.back_axis, spin.back_drift = before
-            hands.spin(body, spin)
+            hands.spin(
+                body,
+                beyond=place,
+                point=parts.point,
+                **dict(zip(("rate", "axis", "drift"), beyond, strict=True)),
+                **dict(zip(("back_rate", "back_axis", "back_drift"), before, strict=True)),
+            )
 
 
-def screw(turned: Floats, moved: Floats, seconds: float) -> tuple[float, wp.vec3, wp.vec3]:
+def screw(turned: Floats, moved: Floats, seconds: float) -> tuple[float, Floats, Floats]:
     """Return the angular velocity (rad/s), its axis and the velocity (m/s) that, kept for some seconds, turn
     and move a body so (the logarithm of a rigid motion; Murray, Li and Sastry 1994, 2.3).
     """
     vector = rotation_vector(turned)
     angle = float(np.linalg.norm(vector))
     if angle < NO_ANGLE:
-        return 0.0, wp.vec3(1.0, 0.0, 0.0), wp.vec3(*(moved / seconds))
+        return 0.0, np.array([1.0, 0.0, 0.0]), moved / seconds
     k = cross(vector / angle)
     mean = np.eye(3) + (1.0 - math.cos(angle)) / angle * k + (1.0 - math.sin(angle) / angle) * k @ k
-    return angle / seconds, wp.vec3(*(vector / angle)), wp.vec3(*(np.linalg.solve(mean, moved) / seconds))
+    return angle / seconds, vector / angle, np.asarray(np.linalg.solve(mean, moved)) / seconds
 
 
 def rotation(vector: Floats) -> Floats:

@@ -10,12 +10,13 @@ from numpy.typing import NDArray
 
 from balloon_usd.balloon.bubble_shape import tail_volume_per_rest_length, tube_volume_per_rest_length
 from balloon_usd.balloon.tube_theory import maxwell_state, pressure_maximum
-from balloon_usd.plan.choreography import Inflate, LetGo, Move, Pinch, Spin
+from balloon_usd.plan.choreography import Inflate, LetGo, Pinch, Spin
 from balloon_usd.plan.closing import smooth
-from balloon_usd.solver.latex.friction import friction_pairs
+from balloon_usd.solver.latex.friction import Friction
 from balloon_usd.solver.latex.memory import set_bend
 from balloon_usd.solver.latex.torsion import Torsion
 from balloon_usd.solver.maker import ALONG, Maker
+from balloon_usd.solver.model import Told
 
 if TYPE_CHECKING:
     from balloon_usd.plan import Plan
@@ -34,8 +35,6 @@ PUMP_RAMP = 0.2
 """Share of that time in which the pump starts, and stops."""
 TAIL_STIFFNESS = 200.0
 """Stiffness of the hand that leads the flat tail while the balloon is blown up, N/m: soft, it only steers."""
-FORWARD = ALONG.astype(np.float32)
-"""The same direction as places are kept."""
 SPIN_CLEAR = 1e-6
 """What lies farther than this beyond a joint turns with the balloon, m."""
 SOFTENING_SECONDS = 0.1
@@ -53,49 +52,40 @@ class LatexMaker(Maker):
     ) -> None:
         super().__init__(plan, scene, hands, first_body)
         self.struts = struts
-        self.torsion = Torsion(plan, scene, hands, self._ring, self.body)
+        self._friction = Friction(plan, self._ring)
+        self.torsion = Torsion(plan, scene, hands, self._ring, self.body, self._friction)
         self._fronts: dict[str, tuple[int, float]] = {}
         """Ring that leads the tail of every balloon, and how far (m) a flow of one mol/s drives it in a frame
         along with the front.
         """
         self.inflated = -1
         """Frame at whose end the last balloon has its gas."""
+        self._performers |= {Inflate: self._inflate, Pinch: self._pinch, Spin: self._spin}
 
     @property
     def just_inflated(self) -> bool:
         """Whether the last balloon has got its gas in the frame that was performed last."""
         return self.inflated == self._frame
 
-    def act(self, begin: float, end: float, middle: Floats) -> None:
-        """Set the hands' goals for the frame from `begin` to `end` (s), given where all rings are (J, 3),
-        m.
-        """
-        for body in self.body.values():
-            self.hands.stop_turning(body)
-        super().act(begin, end, middle)
+    def _perform(self, begin: float, end: float, middle: Floats) -> None:
+        self.hands.stop_turning(self.body.values())
+        super()._perform(begin, end, middle)
         self.torsion.unwind(end - begin, middle)
 
-    @property
-    def doing(self) -> str:
-        """What the hands do, or what comes undone without them."""
-        loose = self.torsion.unwinding
-        return super().doing if loose is None else f"comes undone: {loose}"
+    def _tell(self) -> None:
+        loose, undone = self.torsion.unwinding, self.torsion.undone
+        doing = self._text if loose is None else f"comes undone: {loose}"
+        if doing is not self.told.doing or undone is not self.told.undone:
+            self.told = Told(doing, undone)
 
-    def _perform(self, k: int, move: Move, share: float, fresh: bool, middle: Floats) -> None:
-        if isinstance(move, Inflate):
-            self._inflate(move, share, fresh, middle)
-        elif isinstance(move, Pinch):
-            self._pinch(k, move, share, fresh, middle)
-        elif isinstance(move, Spin):
-            self._spin(move, *self._span, middle)
-        else:
-            super()._perform(k, move, share, fresh, middle)
-            if isinstance(move, LetGo) and fresh:
-                if move.for_good:
-                    self.torsion.let_go(self.struts)
-                self.struts.hold(friction_pairs(self.plan, self.hands, self._ring))
+    def _let_go(self, k: int, move: LetGo, share: float, fresh: bool, middle: Floats) -> None:
+        super()._let_go(k, move, share, fresh, middle)
+        if fresh:
+            if move.for_good:
+                self.torsion.let_go(self.struts)
+            self.struts.hold(self._friction.pairs(self.hands))
 
-    def _inflate(self, move: Inflate, share: float, fresh: bool, middle: Floats) -> None:
+    def _inflate(self, _: int, move: Inflate, share: float, fresh: bool, middle: Floats) -> None:
         b, shape = self.body[move.balloon], self.plan.strips[move.balloon].shape
         if shape is not None:
             self._fill(b, shape, move, share, fresh=fresh)
@@ -154,10 +144,11 @@ class LatexMaker(Maker):
             longer = float(self.scene.air.molar_energy) * (state.bulged.b - state.thin.b)
             self._fronts[balloon] = tip, longer / (pressure * gained * self.plan.recipe.fps)
         tip, step = self._fronts[balloon]
-        goal = self.hands.goal[tip]
-        start = goal + FORWARD * (middle[tip] - goal).dot(FORWARD)
-        self.hands.start[tip] = start
-        self.hands.goal[tip] = start + FORWARD * (flow * step)
+        start, goal = self.hands.start[tip], self.hands.goal[tip]
+        start[:] = goal
+        # Forward is the first coordinate.
+        start[0] += middle[tip, 0] - goal[0]
+        goal[0] = start[0] + np.float32(flow * step)
         if flow == 0.0:
             self.hands.free[tip] = ALONG
 
@@ -176,7 +167,8 @@ class LatexMaker(Maker):
         radius = neck + (wide - neck) * (1.0 - smooth(share))
         self.hands.squeeze(joint, radius, math.pi * (radius**2 - neck**2))
 
-    def _spin(self, move: Spin, begin: float, end: float, middle: Floats) -> None:
+    def _spin(self, _: int, move: Spin, __: float, ___: bool, middle: Floats) -> None:
+        begin, end = self._span
         ring = self.plan.table.rings[move.ring]
         self._steady(move.ring, middle)
         inside = max(0.0, min(end, move.end) - max(begin, move.start))

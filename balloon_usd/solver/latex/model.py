@@ -20,7 +20,6 @@ from balloon_usd.solver.latex.stepper import Stepper
 from balloon_usd.solver.latex.struts import StrutLaw, Struts
 from balloon_usd.solver.layout import Layout
 from balloon_usd.solver.mirror import Mirror
-from balloon_usd.solver.model import Told
 from balloon_usd.solver.settings import SceneSettings
 from balloon_usd.solver.sight import Sight
 from balloon_usd.solver.watch import crowded, most_stretches
@@ -33,6 +32,7 @@ if TYPE_CHECKING:
     from balloon_usd.balloon.detail import Detail
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan, Strip
+    from balloon_usd.solver.model import Told
 
 SEALED_KNOT = 0.7
 """Pressure in the knot bead, in Maxwell pressures of its balloon."""
@@ -123,7 +123,7 @@ class LatexModel:
     def look(self) -> None:
         """Wait for the state that was reached last, of which all that follows tells until the next look."""
         self._seen = self._mirror.arrays()
-        self.told = [Told(m.doing, m.torsion.undone) for m in self.makers]
+        self.told = [maker.told for maker in self.makers]
         self._inflated = [world for world, m in enumerate(self.makers) if m.just_inflated]
 
     def rest(self) -> None:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from balloon_usd.solver.hands import STEP_STIFFNESS
+from balloon_usd.solver.parcel import Letter
 
 if TYPE_CHECKING:
     from balloon_usd.solver.latex.scene import LatexScene
@@ -16,6 +17,15 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float32]
 
 
+ARRAYS = (
+    "strut_joint",
+    "strut_length",
+    "strut_stiffness",
+    "strut_damping",
+    "strut_yield",
+    "joint_struts",
+)
+"""What the device knows of struts."""
 STRUT_SHARE = 0.6
 """Stiffness of one strut as a share of the largest that a ring bears."""
 
@@ -39,6 +49,8 @@ class Struts:
         self.pairs: dict[tuple[int, int], int] = {}
         """Strut of every pair of joints."""
         self._wanted: set[tuple[int, int]] = set()
+        self._letters = {name: Letter(scene, name) for name in ARRAYS}
+        self._mass = scene.joint_mass.numpy().copy()
 
     def hold(self, pairs: set[tuple[int, int]]) -> None:
         """Ask for a strut between every new pair of joints."""
@@ -49,12 +61,9 @@ class Struts:
         self._wanted = {pair for pair in self._wanted if not joints.issuperset(pair) or pair in kept}
         gone = [p for p in self.pairs if joints.issuperset(p) and p not in kept]
         if gone:
-            stiffness, damping = self.scene.strut_stiffness.numpy(), self.scene.strut_damping.numpy()
-            for pair in gone:
-                k = self.pairs[pair]
-                stiffness[k] = damping[k] = 0.0
-            self.scene.strut_stiffness.assign(stiffness)
-            self.scene.strut_damping.assign(damping)
+            for name in ("strut_stiffness", "strut_damping"):
+                self._letters[name].open()[[self.pairs[pair] for pair in gone]] = 0.0
+                self._letters[name].send()
 
     def put(self, middle: Floats) -> None:
         """Put down the struts that were asked for, at the distances that their joints have now.
@@ -68,35 +77,37 @@ class Struts:
         self._wanted.clear()
         if not fresh:
             return
-        s = self.scene
-        joint, length = s.strut_joint.numpy(), s.strut_length.numpy()
-        stiffness, damping, yielding = (
-            s.strut_stiffness.numpy(),
-            s.strut_damping.numpy(),
-            s.strut_yield.numpy(),
-        )
-        slots, mass = s.joint_struts.numpy(), s.joint_mass.numpy()
-        if len(self.pairs) + len(fresh) > len(joint):
-            raise ValueError(f"{len(self.pairs) + len(fresh)} struts but room for {len(joint)}")
+        before, room = len(self.pairs), len(self.scene.strut_joint)
+        if before + len(fresh) > room:
+            raise ValueError(f"{before + len(fresh)} struts but room for {room}")
+        arrays = {name: letter.open() for name, letter in self._letters.items()}
         for a, b in fresh:
             k = self.pairs[a, b] = len(self.pairs)
-            joint[k] = (a, b)
-            length[k] = np.linalg.norm(middle[b] - middle[a])
-            least = float(min(mass[a], mass[b]))
-            stiffness[k] = min(self.law.stiffness, STRUT_SHARE * STEP_STIFFNESS * least / s.settings.dt**2)
-            damping[k] = 0.3 * np.sqrt(stiffness[k] * least)
-            yielding[k] = self.law.yielding
-            for end, sign in ((a, 1), (b, -1)):
-                room = np.flatnonzero(slots[end] == 0)
-                if len(room) == 0:
-                    raise ValueError(f"more than {slots.shape[1]} struts at one joint")
-                slots[end, room[0]] = sign * (k + 1)
-        for name, values in (
-            ("strut_joint", joint),
-            ("strut_length", length),
-            ("strut_stiffness", stiffness),
-            ("strut_damping", damping),
-            ("strut_yield", yielding),
-            ("joint_struts", slots),
-        ):
-            s.arrays[name].assign(values)
+            arrays["strut_joint"][k] = (a, b)
+            arrays["strut_length"][k] = np.linalg.norm(middle[b] - middle[a])
+            least = float(min(self._mass[a], self._mass[b]))
+            most = STRUT_SHARE * STEP_STIFFNESS * least / self.scene.settings.dt**2
+            stiffness = np.float32(min(self.law.stiffness, most))
+            arrays["strut_stiffness"][k] = stiffness
+            arrays["strut_damping"][k] = 0.3 * np.sqrt(stiffness * least)
+            arrays["strut_yield"][k] = self.law.yielding
+            _enter(arrays["joint_struts"], k, a, b)
+        for name, letter in self._letters.items():
+            if name == "joint_struts":
+                letter.send()
+            else:
+                # What is there already may have given way since.
+                letter.send(before, len(self.pairs))
+
+
+def _enter(slots: NDArray[np.int32], strut: int, first: int, second: int) -> None:
+    """Enter a strut at the joints of its ends, with its sign.
+
+    Raises:
+        ValueError: too many end there.
+    """
+    for end, sign in ((first, 1), (second, -1)):
+        room = np.flatnonzero(slots[end] == 0)
+        if len(room) == 0:
+            raise ValueError(f"more than {slots.shape[1]} struts at one joint")
+        slots[end, room[0]] = sign * (strut + 1)

@@ -21,7 +21,6 @@ from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.plan.choreography import Weld
 from balloon_usd.plan.holding import HOLDING_TURNS
 from balloon_usd.plan.open_tube import softened
-from balloon_usd.solver.latex.friction import friction_pairs
 from balloon_usd.solver.latex.hinge import Hinge
 
 if TYPE_CHECKING:
@@ -30,6 +29,7 @@ if TYPE_CHECKING:
     from balloon_usd.plan import Plan
     from balloon_usd.plan.holding import LooseJoint
     from balloon_usd.plan.strip import Strip
+    from balloon_usd.solver.latex.friction import Friction
     from balloon_usd.solver.latex.hands import LatexHands
     from balloon_usd.solver.latex.scene import LatexScene
     from balloon_usd.solver.latex.struts import Struts
@@ -126,6 +126,7 @@ class Torsion:
         hands: LatexHands,
         rings: Sequence[int],
         bodies: Mapping[str, int],
+        friction: Friction,
     ) -> None:
         """Nothing is wound yet; `rings`: joint of the scene of every planned ring."""
         self.plan = plan
@@ -133,6 +134,7 @@ class Torsion:
         self.hands = hands
         self._ring = rings
         self._body = bodies
+        self._friction = friction
         self.joints: dict[int, WoundJoint] = {}
         """By ring of the plan."""
         self.undone: tuple[str, ...] = ()
@@ -172,7 +174,7 @@ class Torsion:
         self.hands.part(self._ring)
         for move in holding:
             self.hands.weld(tuple(self._ring[r] for r in move.rings))
-        struts.release(set(self._ring), friction_pairs(self.plan, self.hands, self._ring))
+        struts.release(set(self._ring), self._friction.pairs(self.hands))
         names = [" = ".join(self.plan.table.rings[r].name for r in move.rings) for move in slipping]
         self.undone = (*self.undone, *names)
 
