@@ -43,7 +43,7 @@ each needs besides its sculptures does not add up.
 
 MODELS = {"latex": "LatexModel", "kosaka": "KosakaModel"}
 """Physical models by the names that recipes give them."""
-MANY = 128
+MANY = 192
 """Sculptures from which on a GPU has enough to do with half of them."""
 
 
