@@ -11,13 +11,15 @@ from multiprocessing import reduction
 from multiprocessing.connection import Connection
 from typing import TYPE_CHECKING, Any
 
-from balloon_usd.batch.frame_ring import SharedMemory
+from balloon_usd.batch.shared_memory import SharedMemory
 
 if TYPE_CHECKING:
     from balloon_usd.batch.messages import Ring, Role, Started
 
 WORKER = "balloon_usd.batch.worker"
 """Module that workers run."""
+ONE_THREAD = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
+"""Settings by which libraries for matrices use one thread: there is a process for each core."""
 
 
 class Worker:
@@ -108,11 +110,11 @@ class Worker:
 def receive_ring(connection: Connection[Any, Any], ring: Ring) -> SharedMemory:
     """Return the memory that follows a message about a ring."""
     if ring.name:
-        return SharedMemory(ring.shape.size, ring.name)
-    return SharedMemory(ring.shape.size, reduction.recv_handle(connection))
+        return SharedMemory(ring.size, ring.name)
+    return SharedMemory(ring.size, reduction.recv_handle(connection))
 
 
 def _surroundings() -> dict[str, str]:
     """Return the environment of a worker, which imports from where this process does."""
     there = os.pathsep.join(dict.fromkeys(path for path in sys.path if path))
-    return {**os.environ, "PYTHONPATH": there}
+    return {**dict.fromkeys(ONE_THREAD, "1"), **os.environ, "PYTHONPATH": there}

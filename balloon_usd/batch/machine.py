@@ -80,7 +80,7 @@ class Machine:
         return self.devices == ("auto",)
 
     def first_simulators(self, recipes: int) -> tuple[str, ...]:
-        """Return the devices of simulators that so many recipes need in any case, before devices are known."""
+        """Return devices on which so many recipes need a simulator in any case, before more is known."""
         if self.devices == ("cpu",) or (self.devices == ("auto",) and not _has_gpu()):
             return self.devices * min(self.cores, recipes)
         return self.devices * (SIMULATORS_PER_GPU if recipes >= ENOUGH_FOR_TWO * len(self.devices) else 1)

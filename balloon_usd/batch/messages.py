@@ -8,9 +8,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from balloon_usd.batch.facts import Facts, Refusal
-    from balloon_usd.batch.frame_ring import RingShape
     from balloon_usd.batch.order import Order
-    from balloon_usd.solver.sight import Extent, Place
 
 
 class Role(Enum):
@@ -127,9 +125,10 @@ class LaidOut:
     """From a simulator: how its frames will lie in memory."""
 
     batch: int
-    extent: Extent
-    places: tuple[Place, ...]
-    """Where every sculpture lies in a frame."""
+    size: int
+    """Of their ring [B]."""
+    layout: bytes
+    """`FrameLayout`, pickled: the scheduler passes it on and needs none of what it takes to read it."""
 
 
 @dataclass(frozen=True)
@@ -137,9 +136,10 @@ class Ring:
     """To a simulator and its writers: where the frames lie; the handle of the memory follows."""
 
     batch: int
-    extent: Extent
-    places: tuple[Place, ...]
-    shape: RingShape
+    size: int
+    """Of the ring [B]."""
+    layout: bytes
+    """`FrameLayout`, pickled."""
     name: str = ""
     """Of the memory, on Windows."""
 

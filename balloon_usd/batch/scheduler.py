@@ -6,7 +6,6 @@ from collections import Counter, defaultdict
 from typing import TYPE_CHECKING
 
 from balloon_usd.batch import record as records
-from balloon_usd.batch.frame_ring import RingShape, SharedMemory
 from balloon_usd.batch.job import BatchRun, Job
 from balloon_usd.batch.machine import Device
 from balloon_usd.batch.messages import (
@@ -29,6 +28,7 @@ from balloon_usd.batch.messages import (
     Trouble,
 )
 from balloon_usd.batch.record import Record, Status
+from balloon_usd.batch.shared_memory import SharedMemory
 from balloon_usd.batch.waiting import Waiting
 from balloon_usd.batch.watch import Count
 
@@ -92,9 +92,10 @@ class Scheduler:
         for worker in self._pool.of(Role.SIMULATOR):
             if worker.ready:
                 self._add_device(worker)
-        if self._order.preview and any(device.is_gpu for device in self._devices.values()):
-            for _ in range(self._machine.drawers(len(self._jobs))):
-                self._pool.start(Role.DRAWER)
+        gpus = [device.name for device in self._devices.values() if device.is_gpu]
+        if self._order.preview and gpus:
+            for number in range(self._machine.drawers(len(self._jobs))):
+                self._pool.start(Role.DRAWER, gpus[number % len(gpus)])
         self._watch.begun(self._device_names(), sum(job.known.frames for job in self._jobs.values()))
         while self._done + self._failed < len(self._jobs):
             self._hand_out()
@@ -218,11 +219,10 @@ class Scheduler:
     # Frames.
 
     def _lay_out(self, run: BatchRun, told: LaidOut) -> None:
-        shape = RingShape.of(told.extent)
-        memory = SharedMemory(shape.size)
+        memory = SharedMemory(told.size)
         try:
             name = memory.handle if isinstance(memory.handle, str) else ""
-            ring = Ring(run.number, told.extent, told.places, shape, name)
+            ring = Ring(run.number, told.size, told.layout, name)
             for worker in (run.simulator, *run.writers):
                 worker.send_ring(ring, memory)
         finally:
@@ -273,7 +273,7 @@ class Scheduler:
         job = self._jobs[made.job]
         self._drawing[made.job] = (drawer, made)
         stage = str(self._order.stage(job.known.name))
-        drawer.send(Draw(made.job, stage, job.known.name, job.device))
+        drawer.send(Draw(made.job, stage, job.known.name, drawer.device or job.device))
 
     def _finish(self, job: Job, made: Made) -> None:
         self._end(job, records.done(job.file, job.known, self._order, job.device, made))
@@ -403,7 +403,7 @@ class Scheduler:
             del self._drawing[number]
             self._forget_frames(self._jobs[number])
         if drawer.role is Role.DRAWER:
-            self._pool.start(Role.DRAWER)
+            self._pool.start(Role.DRAWER, drawer.device)
         return [self._jobs[number] for number in numbers]
 
     def _forget_frames(self, job: Job) -> None:

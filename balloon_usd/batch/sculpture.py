@@ -38,7 +38,7 @@ class Sculpture:
         meshes = tuple(mesh_of(strip, level) for strip in plan.strips.values())
         self._codes = order.frames.within(plan.frame_count)
         self._tally = Tally(plan, meshes)
-        self._history = History(plan, meshes)
+        self._history = History(plan, meshes) if order.report else None
         self._open = ExitStack()
         self._writer = StageWriter(describe_stage(plan, meshes), order.folder, **order.form)
         self._undone: tuple[str, ...] = ()
@@ -67,7 +67,8 @@ class Sculpture:
         """
         self._tally.add(frame)
         if frame.time_code in self._codes:
-            self._history.add(frame)
+            if self._history is not None:
+                self._history.add(frame)
             self._writer.write(frame)
         return self._finish() if frame.time_code == self._codes[-1] else None
 
@@ -81,7 +82,7 @@ class Sculpture:
             "shot": shots,
             "report": (),
         }
-        if self._order.report:
+        if self._history is not None:
             facts = provenance_of(self._plan.recipe)
             products["report"] = write_report(
                 self._history, folder, detail=self._order.detail, provenance=facts

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 import time
 import traceback
 from contextlib import closing
@@ -10,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from balloon_usd.batch.channel import receive_ring
-from balloon_usd.batch.frame_ring import FrameRing
+from balloon_usd.batch.frame_ring import FrameLayout, FrameRing, RingShape
 from balloon_usd.batch.messages import (
     Drop,
     Frames,
@@ -124,7 +125,9 @@ class _Run:
 
     def frames(self, simulation: Simulation) -> None:
         """Pass frames on until every sculpture has its last one, or has failed."""
-        self._connection.send(LaidOut(self._batch, simulation.extent, tuple(simulation.places)))
+        shape = RingShape.of(simulation.extent)
+        layout = FrameLayout(shape, simulation.extent, tuple(simulation.places))
+        self._connection.send(LaidOut(self._batch, shape.size, pickle.dumps(layout)))
         with closing(simulation.snapshots(self._memory)) as snapshots:
             for snapshot in snapshots:
                 self._attend()
@@ -152,7 +155,7 @@ class _Run:
         slot.count += 1
         slot.doing = self._told(snapshot.made) or slot.doing
         # The first frame is not kept waiting: somebody may look out for it.
-        full = self._ring is None or slot.count == self._ring.shape.frames
+        full = self._ring is None or slot.count == self._ring.layout.shape.frames
         if full or slot.age > LONGEST_WAIT or code == 1:
             self._flush()
 
@@ -184,8 +187,9 @@ class _Run:
         elif isinstance(message, Ring):
             memory = receive_ring(self._connection, message)
             if message.batch == self._batch:
-                self._ring = FrameRing(message.extent, message.shape, memory)
-                self._free = list(range(message.shape.slots))
+                layout: FrameLayout = pickle.loads(message.layout)  # noqa: S301  # from ourselves
+                self._ring = FrameRing(layout, memory)
+                self._free = list(range(layout.shape.slots))
             memory.close()
         elif isinstance(message, Drop):
             if message.batch == self._batch:

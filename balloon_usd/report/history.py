@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -50,7 +50,7 @@ class History:
         self._volume.append(frame.volume.astype(np.float64))
         highest = np.zeros(len(self.plan.bubbles))
         for stretch, owner in zip(frame.stretch, self._owners, strict=True):
-            np.maximum.at(highest, owner, stretch)
+            highest[owner.bubbles] = np.maximum.reduceat(stretch[owner.order], owner.starts)
         self._stretch.append(highest)
         if frame.contact is not None:
             self._contact.append(frame.contact.astype(np.float64))
@@ -131,12 +131,26 @@ class History:
         return tuple(sorted([*self.marks, *undone], key=lambda mark: mark.time_code))
 
 
-def _owners(plan: Plan, meshes: Sequence[BalloonMesh]) -> list[NDArray[np.int64]]:
-    """Return the bubble (V,) in plan order that every vertex of every balloon belongs to."""
+class _Owners(NamedTuple):
+    """The vertices of one balloon by the bubbles that they belong to."""
+
+    order: NDArray[np.int64]
+    """Vertices (V,), those of each bubble together."""
+    starts: NDArray[np.int64]
+    """Where those of each bubble begin."""
+    bubbles: NDArray[np.int64]
+    """The bubbles in plan order, without such as have no vertex."""
+
+
+def _owners(plan: Plan, meshes: Sequence[BalloonMesh]) -> list[_Owners]:
+    """Return the vertices of every balloon by bubbles."""
     owners, before = [], 0
     for strip, mesh in zip(plan.strips.values(), meshes, strict=True):
         ends = np.array([bubble.rest_end for bubble in strip.bubbles[:-1]])
-        owners.append(before + np.searchsorted(ends, mesh.along, side="left"))
+        owner = before + np.searchsorted(ends, mesh.along, side="left")
+        order = np.argsort(owner, kind="stable")
+        bubbles, starts = np.unique(owner[order], return_index=True)
+        owners.append(_Owners(order, starts, bubbles))
         before += len(strip.bubbles)
     return owners
 
