@@ -11,6 +11,7 @@ from multiprocessing import reduction
 from multiprocessing.connection import Connection
 from typing import TYPE_CHECKING, Any
 
+from balloon_usd.batch.forking import ONE_THREAD, ForkedProcess, fork_worker
 from balloon_usd.batch.shared_memory import SharedMemory
 
 if TYPE_CHECKING:
@@ -18,30 +19,24 @@ if TYPE_CHECKING:
 
 WORKER = "balloon_usd.batch.worker"
 """Module that workers run."""
-ONE_THREAD = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
-"""Settings by which libraries for matrices use one thread: there is a process for each core."""
 
 
 class Worker:
     """A process of this program at the other end of a connection.
 
-    It runs a module of its own, so that a script that calls this program needs no guard against being
-    imported again.
+    A new interpreter runs a module of its own, so that a script that calls this program needs no guard
+    against being imported again. A forked process has all modules from the start, and shares their memory.
     """
 
-    def __init__(self, role: Role, device: str) -> None:
-        """Start the process."""
+    def __init__(self, role: Role, device: str, *, fork: bool = False) -> None:
+        """Start the process; `fork`: as a copy of this one, see `forking`."""
         self.role = role
         self.device = device
         """Device that it was started for; its full name once it has told."""
         ours, theirs = socket.socketpair()
-        os.set_inheritable(theirs.fileno(), True)
         try:
-            self._process = subprocess.Popen(  # noqa: S603  # our own module
-                [sys.executable, "-P", "-m", WORKER, str(theirs.fileno())],
-                stdin=subprocess.DEVNULL,
-                env=_surroundings(),
-                pass_fds=(theirs.fileno(),),
+            self._process: ForkedProcess | subprocess.Popen[bytes] = (
+                fork_worker(theirs.fileno()) if fork else _spawn(theirs.fileno())
             )
         except BaseException:
             ours.close()
@@ -105,6 +100,17 @@ class Worker:
         with suppress(ValueError):
             return signal.Signals(-code).name
         return f"signal {-code}"
+
+
+def _spawn(descriptor: int) -> subprocess.Popen[bytes]:
+    """Start a new interpreter that works at the other end of a connection."""
+    os.set_inheritable(descriptor, True)
+    return subprocess.Popen(  # noqa: S603  # our own module
+        [sys.executable, "-P", "-m", WORKER, str(descriptor)],
+        stdin=subprocess.DEVNULL,
+        env=_surroundings(),
+        pass_fds=(descriptor,),
+    )
 
 
 def receive_ring(connection: Connection[Any, Any], ring: Ring) -> SharedMemory:

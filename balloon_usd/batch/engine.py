@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Self, TypeVar
 
 from balloon_usd.batch import record as records
 from balloon_usd.batch.facts import Facts, Refusal
+from balloon_usd.batch.forking import prepare_fork
 from balloon_usd.batch.job import Job
 from balloon_usd.batch.journal import Journal
 from balloon_usd.batch.machine import Machine, usable_cores
@@ -26,6 +27,9 @@ if TYPE_CHECKING:
 
 CHUNK = 16
 """Recipes that a writer is asked about at a time, at most."""
+
+FORKED = 3
+"""Writers from which on it pays to load their modules once and fork them."""
 
 Q = TypeVar("Q", Survey, Verify)
 T = TypeVar("T", Surveyed, Verified)
@@ -99,8 +103,10 @@ class Engine:
 
     def start_writers(self, recipes: int) -> None:
         """Start as many writers as so many recipes keep busy."""
-        for _ in range(self.machine.writers(recipes)):
-            self._pool.start(Role.WRITER)
+        writers = self.machine.writers(recipes)
+        fork = prepare_fork("balloon_usd.batch.writer") if writers >= FORKED else False
+        for _ in range(writers):
+            self._pool.start(Role.WRITER, fork=fork)
 
     def make_all(self, jobs: Sequence[Job], journal: Journal) -> None:
         """Make jobs that are surveyed and not there yet; every one has its record then."""

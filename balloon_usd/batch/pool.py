@@ -26,9 +26,9 @@ class Pool:
         self._order = order
         self._workers: dict[Any, Worker] = {}
 
-    def start(self, role: Role, device: str = "") -> Worker:
+    def start(self, role: Role, device: str = "", *, fork: bool = False) -> Worker:
         """Start a worker; raises `OSError` when the system has no room for one."""
-        worker = Worker(role, device)
+        worker = Worker(role, device, fork=fork)
         self._workers[worker.connection] = worker
         worker.send(Start(role, self._order, device))
         return worker

@@ -31,7 +31,6 @@ from balloon_usd.batch.reading import RecipeChanged, planned
 from balloon_usd.batch.sculpture import Sculpture
 from balloon_usd.batch.sheet import draw
 from balloon_usd.files.hashes import are_whole
-from balloon_usd.preview.error import PreviewError
 from balloon_usd.recipe.problem import RecipeError
 from balloon_usd.report import ReportError
 from balloon_usd.stage import StageError
@@ -76,7 +75,7 @@ class Writer:
             elif isinstance(message, Drop):
                 self._drop(message)
             elif isinstance(message, Draw):
-                self._draw(message)
+                self._connection.send(draw(message, self._order))
             else:
                 raise TypeError(f"a writer was told {type(message).__name__}")
 
@@ -160,14 +159,6 @@ class Writer:
         else:
             text = "".join(traceback.format_exception(error))
             self._connection.send(NotMade(part.job, Trouble.UNFORESEEN, f"{part.file}: {text}"))
-
-    def _draw(self, asked: Draw) -> None:
-        try:
-            self._connection.send(draw(asked, self._order))
-        except PreviewError as error:
-            self._connection.send(NotMade(asked.job, Trouble.NOT_WRITTEN, f"{asked.name}: {error}"))
-        except Exception:  # no sculpture takes another one along
-            self._connection.send(NotMade(asked.job, Trouble.UNFORESEEN, traceback.format_exc()))
 
     def _drop(self, drop: Drop) -> None:
         batch = self._batches.get(drop.batch)
