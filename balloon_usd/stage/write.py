@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
-from pxr import Ar, Sdf, Usd
+from pxr import Sdf, Usd
 
 from balloon_usd.stage.asset import begin_asset, complete_asset
 from balloon_usd.stage.description import require_identifier
@@ -32,9 +32,6 @@ if TYPE_CHECKING:
     from balloon_usd.stage.description import StageDescription, StageFrame
     from balloon_usd.stage.properties import Finding
     from balloon_usd.stage.samples import Layers, Take
-
-# USD makes its resolver on first use, and threads that need it at once would wait for each other for ever.
-Ar.GetResolver()
 
 Corner = tuple[float, float, float]
 
