@@ -128,6 +128,9 @@ def _perform_all(
     frames: FrameRange,
     lines: bool,
 ) -> list[Outcome]:
+    from balloon_usd.solver.device import wake  # noqa: PLC0415
+
+    wake(device)
     from balloon_usd.cli.perform import Order, perform, together  # noqa: PLC0415
     from balloon_usd.cli.summary import print_summary  # noqa: PLC0415
 
