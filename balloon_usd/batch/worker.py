@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from balloon_usd.batch.cuda_context import wake_gpu
 from balloon_usd.batch.messages import Role, Start
+from balloon_usd.loading import expect_modules
 
 if TYPE_CHECKING:
     from balloon_usd.batch.simulator import Simulator
@@ -56,6 +57,7 @@ def main(descriptor: str) -> None:
     """Work at the other end of an inherited connection."""
     # Ctrl-C reaches the whole group of processes: the scheduler decides what it means.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    expect_modules()
     try:
         work(Connection(int(descriptor)))
     except (EOFError, BrokenPipeError, ConnectionResetError):

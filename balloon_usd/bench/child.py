@@ -14,6 +14,8 @@ from dataclasses import asdict, dataclass
 from itertools import islice
 from typing import IO, Any
 
+from balloon_usd.loading import expect_modules
+
 
 @dataclass(frozen=True)
 class ChildTask:
@@ -85,9 +87,14 @@ def work(task: ChildTask) -> None:
     """Simulate; print the time of the first frame that was computed (s since the epoch), then how long the
     frames to time took (s).
     """
+    # As every command does.
+    expect_modules()
     import warp as wp  # noqa: PLC0415
 
+    from balloon_usd.solver.device import device_named, wake  # noqa: PLC0415
+
     wp.config.log_level = wp.LOG_WARNING
+    wake(device_named(task.device))
     # Frames are made to be written: what writes them belongs to the start.
     import balloon_usd.stage  # noqa: F401, PLC0415
     from balloon_usd.bench.timing import planned  # noqa: PLC0415

@@ -27,6 +27,7 @@ from balloon_usd.cli.preview import preview
 from balloon_usd.cli.run import run
 from balloon_usd.cli.schema import schema
 from balloon_usd.cli.vary import vary
+from balloon_usd.loading import expect_modules
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -94,6 +95,7 @@ def _heard() -> Iterator[None]:
 @click.version_option(__version__, prog_name="balloon-usd")
 def main() -> None:
     """Physics-true balloon twisting: a YAML recipe becomes an animated USD stage."""
+    expect_modules()
 
 
 for command in (
