@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import os
+import signal
 import socket
 import subprocess
 import sys
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from multiprocessing import reduction
 from multiprocessing.connection import Connection
 from typing import TYPE_CHECKING, Any
@@ -14,6 +15,8 @@ from typing import TYPE_CHECKING, Any
 from balloon_usd.batch.frame_ring import SharedMemory
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from balloon_usd.batch.messages import Ring, Role, Started
 
 WORKER = "balloon_usd.batch.worker"
@@ -35,12 +38,13 @@ class Worker:
         ours, theirs = socket.socketpair()
         os.set_inheritable(theirs.fileno(), True)
         try:
-            self._process = subprocess.Popen(  # noqa: S603  # our own module
-                [sys.executable, "-P", "-m", WORKER, str(theirs.fileno())],
-                stdin=subprocess.DEVNULL,
-                env=_surroundings(),
-                pass_fds=(theirs.fileno(),),
-            )
+            with _interrupts_blocked():
+                self._process = subprocess.Popen(  # noqa: S603  # our own module
+                    [sys.executable, "-P", "-m", WORKER, str(theirs.fileno()), str(os.getpid())],
+                    stdin=subprocess.DEVNULL,
+                    env=_surroundings(),
+                    pass_fds=(theirs.fileno(),),
+                )
         except BaseException:
             ours.close()
             raise
@@ -62,8 +66,10 @@ class Worker:
 
     def send(self, message: object) -> None:
         """Tell it something; a worker that is gone is found out when its connection is read."""
-        with suppress(BrokenPipeError, ConnectionResetError):
-            self.connection.send(message)
+        # What was begun by a worker that has been removed may go on elsewhere: nobody is told then.
+        if not self.connection.closed:
+            with suppress(BrokenPipeError, ConnectionResetError):
+                self.connection.send(message)
 
     def send_ring(self, ring: Ring, memory: SharedMemory) -> None:
         """Tell it of a ring and hand over its memory."""
@@ -98,8 +104,6 @@ class Worker:
         code = self._process.wait()
         if code >= 0:
             return f"exit code {code}"
-        import signal  # noqa: PLC0415
-
         with suppress(ValueError):
             return signal.Signals(-code).name
         return f"signal {-code}"
@@ -110,6 +114,19 @@ def receive_ring(connection: Connection[Any, Any], ring: Ring) -> SharedMemory:
     if ring.name:
         return SharedMemory(ring.shape.size, ring.name)
     return SharedMemory(ring.shape.size, reduction.recv_handle(connection))
+
+
+@contextmanager
+def _interrupts_blocked() -> Iterator[None]:
+    """Let no Ctrl-C reach a new process before it has said that it ignores them."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _surroundings() -> dict[str, str]:
