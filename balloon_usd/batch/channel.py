@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import os
+import signal
 import socket
 import subprocess
 import sys
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from multiprocessing import reduction
 from multiprocessing.connection import Connection
 from typing import TYPE_CHECKING, Any
@@ -15,6 +16,8 @@ from balloon_usd.batch.forking import ONE_THREAD, ForkedProcess, fork_worker
 from balloon_usd.batch.shared_memory import SharedMemory
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from balloon_usd.batch.messages import Ring, Role, Started
 
 WORKER = "balloon_usd.batch.worker"
@@ -35,9 +38,10 @@ class Worker:
         """Device that it was started for; its full name once it has told."""
         ours, theirs = socket.socketpair()
         try:
-            self._process: ForkedProcess | subprocess.Popen[bytes] = (
-                fork_worker(theirs.fileno()) if fork else _spawn(theirs.fileno())
-            )
+            with _interrupts_blocked():
+                self._process: ForkedProcess | subprocess.Popen[bytes] = (
+                    fork_worker(theirs.fileno()) if fork else _spawn(theirs.fileno())
+                )
         except BaseException:
             ours.close()
             raise
@@ -59,8 +63,10 @@ class Worker:
 
     def send(self, message: object) -> None:
         """Tell it something; a worker that is gone is found out when its connection is read."""
-        with suppress(BrokenPipeError, ConnectionResetError):
-            self.connection.send(message)
+        # What was begun by a worker that has been removed may go on elsewhere: nobody is told then.
+        if not self.connection.closed:
+            with suppress(BrokenPipeError, ConnectionResetError):
+                self.connection.send(message)
 
     def send_ring(self, ring: Ring, memory: SharedMemory) -> None:
         """Tell it of a ring and hand over its memory."""
@@ -95,8 +101,6 @@ class Worker:
         code = self._process.wait()
         if code >= 0:
             return f"exit code {code}"
-        import signal  # noqa: PLC0415
-
         with suppress(ValueError):
             return signal.Signals(-code).name
         return f"signal {-code}"
@@ -106,7 +110,7 @@ def _spawn(descriptor: int) -> subprocess.Popen[bytes]:
     """Start a new interpreter that works at the other end of a connection."""
     os.set_inheritable(descriptor, True)
     return subprocess.Popen(  # noqa: S603  # our own module
-        [sys.executable, "-P", "-m", WORKER, str(descriptor)],
+        [sys.executable, "-P", "-m", WORKER, str(descriptor), str(os.getpid())],
         stdin=subprocess.DEVNULL,
         env=_surroundings(),
         pass_fds=(descriptor,),
@@ -118,6 +122,19 @@ def receive_ring(connection: Connection[Any, Any], ring: Ring) -> SharedMemory:
     if ring.name:
         return SharedMemory(ring.size, ring.name)
     return SharedMemory(ring.size, reduction.recv_handle(connection))
+
+
+@contextmanager
+def _interrupts_blocked() -> Iterator[None]:
+    """Let no Ctrl-C reach a new process before it has said that it ignores them."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _surroundings() -> dict[str, str]:

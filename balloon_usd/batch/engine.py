@@ -14,7 +14,7 @@ from balloon_usd.batch.machine import Machine, usable_cores
 from balloon_usd.batch.messages import Role, Started, Survey, Surveyed, Verified, Verify
 from balloon_usd.batch.pool import Pool
 from balloon_usd.batch.record import Record, Status
-from balloon_usd.batch.scheduler import BatchError, Scheduler
+from balloon_usd.batch.scheduler import MOST_FAILED_STARTS, BatchError, Scheduler
 from balloon_usd.batch.watch import Silence
 
 if TYPE_CHECKING:
@@ -44,8 +44,9 @@ def run_batch(
     Wherever the run is interrupted or killed, the same call again ends in the same files.
 
     Raises:
+        NotKept: the journal cannot be written.
         BatchError: there is no such device, workers cannot start, kernels cannot be compiled, or the journal
-            cannot be written.
+            cannot be read.
     """
     told = watch or Silence()
     with Engine(order, machine or Machine(usable_cores()), told) as engine:
@@ -59,6 +60,7 @@ class Engine:
         """Prepare; used in a `with` block, at whose end all its processes are gone."""
         self.order, self.machine, self.watch = order, machine, watch
         self._pool = Pool(order)
+        self._failed_starts = 0
 
     def __enter__(self) -> Self:
         """Start nothing yet."""
@@ -125,7 +127,10 @@ class Engine:
 
     def _hear_start(self, worker: Worker, message: object | None) -> None:
         if message is None:
-            raise BatchError(f"a {worker.role.value} process ended early: {worker.how_it_ended()}")
+            self._failed_starts += 1
+            if self._failed_starts >= MOST_FAILED_STARTS:
+                raise BatchError(f"a {worker.role.value} process ended early: {worker.how_it_ended()}")
+            self._pool.start(worker.role, worker.device)
         if isinstance(message, Started):
             worker.told = message
             if message.problem:

@@ -61,11 +61,9 @@ def survey(file: str, order: Order) -> Facts | Refusal:
 def _judge(plan: Plan, order: Order) -> Facts | Refusal:
     from balloon_usd.balloon.detail import detail_named  # noqa: PLC0415
     from balloon_usd.plan.meshing import mesh_of  # noqa: PLC0415
-    from balloon_usd.staging import provenance_of  # noqa: PLC0415
 
     recipe = plan.recipe
-    name, provenance = recipe.name, dict(provenance_of(recipe))
-    provenance |= _mesh_hashes(plan)
+    name, provenance = recipe.name, origin_of(plan)
     problems = order.in_the_way(name)
     if order.look == WITH_AIR and recipe.physics.model != "kosaka":
         needs = f"needs model: kosaka, take one of {', '.join(LOOKS)}"
@@ -89,9 +87,13 @@ def _judge(plan: Plan, order: Order) -> Facts | Refusal:
     )
 
 
-def _mesh_hashes(plan: Plan) -> dict[str, str]:
+def origin_of(plan: Plan) -> dict[str, str]:
+    """Return the hashes of a recipe's text and of its meshes, and the version of the solver."""
+    from balloon_usd.staging import provenance_of  # noqa: PLC0415
+
     hashes = [strip.shape.file_sha256 for strip in plan.strips.values() if strip.shape is not None]
-    return {"mesh_sha256": " ".join(hashes)} if hashes else {}
+    meshes = {"mesh_sha256": " ".join(hashes)} if hashes else {}
+    return {**provenance_of(plan.recipe), **meshes}
 
 
 def _group(plan: Plan) -> tuple[str, ...]:

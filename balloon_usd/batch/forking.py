@@ -87,6 +87,7 @@ def fork_worker(descriptor: int) -> ForkedProcess:
     """Start a worker at the other end of a connection as a copy of this process."""
     sys.stdout.flush()
     sys.stderr.flush()
+    parent = os.getpid()
     pid = os.fork()
     if pid:
         return ForkedProcess(pid)
@@ -97,7 +98,7 @@ def fork_worker(descriptor: int) -> ForkedProcess:
         _close_all_but(descriptor)
         from balloon_usd.batch.worker import main  # noqa: PLC0415
 
-        main(str(descriptor))
+        main(str(descriptor), str(parent))
         code = 0
     except BaseException:
         sys.excepthook(*sys.exc_info())

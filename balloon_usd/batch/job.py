@@ -23,17 +23,28 @@ class Job:
     record: Record | None = None
     """Known at its end."""
     kills: int = 0
-    """How often a process was killed that had this job alone."""
+    """How often a process was killed that was at work on this job alone."""
+    losses: int = 0
+    """How often a writer was killed that had this job among others."""
     device: str = ""
     """Simulated it, once its stage is made."""
     frames: int = 0
     """Frames that were simulated in the present try."""
+    shown: int = 0
+    """Frames that progress has counted, in all tries."""
 
     @property
     def known(self) -> Facts:
         """The facts of an accepted recipe."""
         assert self.facts is not None, "only accepted recipes are made"
         return self.facts
+
+    def advance(self, frames: int) -> int:
+        """Count simulated frames; return how many of them are further than any try before came."""
+        self.frames += frames
+        news = max(0, self.frames - self.shown)
+        self.shown += news
+        return news
 
     @property
     def work(self) -> float:
@@ -92,7 +103,3 @@ class BatchRun:
         if failed := frames.failed.get(part.place):
             end = min(end, failed[0])
         return max(0, end - frames.first)
-
-    def delivered(self, job: int, frames: Frames) -> bool:
-        """Whether some frames bring the last one of a job."""
-        return frames.first + frames.count > self.parts[job].last

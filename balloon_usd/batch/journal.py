@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
+import errno
 import os
-import sys
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from balloon_usd.batch.record import Record, Status
-from balloon_usd.files.whole_file import write_whole
-
-if sys.platform != "win32":
-    import fcntl
+from balloon_usd.files.lock import locked, remove_unheld
+from balloon_usd.files.whole_file import PARTIAL, write_whole
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
 FILE_NAME = "batch.jsonl"
+
+
+class NotKept(Exception):  # noqa: N818
+    """The journal cannot be written, as on a full disk; the message says where and why."""
 
 
 class Journal:
@@ -28,9 +30,15 @@ class Journal:
     """
 
     def __init__(self, folder: Path) -> None:
-        """Read what is there; lines that are cut short or from elsewhere count for nothing."""
+        """Read what is there; lines that are cut short or from elsewhere count for nothing.
+
+        Raises:
+            OSError: it cannot be read, or is no file.
+        """
         self._folder = folder
         self._file = folder / FILE_NAME
+        if self._file.exists() and not self._file.is_file():
+            raise OSError(errno.EINVAL, "cannot be read, it is no file", str(self._file))
         self._records = _by_key(self._read())
 
     def of(self, name: str) -> Record | None:
@@ -41,11 +49,11 @@ class Journal:
         """Keep a record on disk.
 
         Raises:
-            OSError: it cannot be written.
+            NotKept: it cannot be written.
         """
         self._records[_key(record)] = record
         line = record.line().encode("utf-8", "surrogateescape")
-        with _locked(self._folder), self._file.open("ab+") as file:
+        with self._writing(), self._file.open("ab+") as file:
             # A line that was cut short must not swallow this one.
             if file.tell() and not _ends_a_line(file.fileno(), file.tell()):
                 line = b"\n" + line
@@ -55,16 +63,30 @@ class Journal:
         """Leave one line of every recipe: first those of this run in their order, then the others by name.
 
         Raises:
-            OSError: the file cannot be written.
+            NotKept: the file cannot be written.
         """
-        with _locked(self._folder):
+        with self._writing():
             found = _by_key(self._read())
             order = {recipe: number for number, recipe in enumerate(recipes)}
             last = len(order)
             lines = sorted(found.values(), key=lambda r: (order.get(r.recipe, last), r.recipe, r.name))
+            self._sweep()
             if lines:
                 text = "".join(record.line() for record in lines)
                 write_whole({self._file: text.encode("utf-8", "surrogateescape")})
+
+    @contextmanager
+    def _writing(self) -> Iterator[None]:
+        try:
+            with locked(self._folder):
+                yield
+        except OSError as error:
+            raise NotKept(f"{self._file} cannot be written: {error.strerror or error}") from error
+
+    def _sweep(self) -> None:
+        """Remove what killed runs left of the file while they put it in order."""
+        for partial in self._folder.glob(f".{FILE_NAME}.????????{PARTIAL}"):
+            remove_unheld(partial)
 
     def _read(self) -> list[Record]:
         try:
@@ -96,18 +118,3 @@ def _file(record: Record) -> tuple[str, str]:
 
 def _ends_a_line(descriptor: int, size: int) -> bool:
     return os.pread(descriptor, 1, size - 1) == b"\n" if hasattr(os, "pread") else True
-
-
-@contextmanager
-def _locked(folder: Path) -> Iterator[None]:
-    """Keep other runs from the journal of a folder, where its file system knows locks."""
-    if sys.platform == "win32":
-        yield
-        return
-    descriptor = os.open(folder, os.O_RDONLY)
-    try:
-        with suppress(OSError):
-            fcntl.flock(descriptor, fcntl.LOCK_EX)
-        yield
-    finally:
-        os.close(descriptor)

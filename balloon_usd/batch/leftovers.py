@@ -5,7 +5,7 @@ from __future__ import annotations
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
-from balloon_usd.files.lock import is_held
+from balloon_usd.files.lock import locked, remove_unheld
 from balloon_usd.stage.workspace import sweep
 
 if TYPE_CHECKING:
@@ -17,9 +17,9 @@ PARTIAL = ("png", "report.png", "report.json")
 
 def remove_leftovers(folder: Path, name: str) -> None:
     """Remove what killed runs of a sculpture left in a folder, and nothing of a run that lives."""
-    sweep(name, folder)
-    for ending in PARTIAL:
-        for partial in folder.glob(f".{name}.{ending}.????????.partial"):
-            with suppress(OSError):
-                if not is_held(partial):
-                    partial.unlink()
+    # There is nothing to remove where there is no folder.
+    with suppress(FileNotFoundError), locked(folder):
+        sweep(name, folder)
+        for ending in PARTIAL:
+            for partial in folder.glob(f".{name}.{ending}.????????.partial"):
+                remove_unheld(partial)

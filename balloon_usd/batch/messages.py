@@ -95,11 +95,12 @@ class Part:
     """A sculpture of a batch."""
 
     job: int
+    batch: int
     place: int
     """In the batch."""
     file: str
-    sha256: str
-    """Of the recipe's text when it was surveyed."""
+    origin: dict[str, str]
+    """Hashes of the recipe's text and its meshes when it was surveyed, and the version of the solver."""
     last: int
     """Last time code that is wanted."""
 
@@ -184,6 +185,8 @@ class Simulated:
     problem: str = ""
     of_device: bool = False
     """Whether the device is to blame: no memory, or gone."""
+    of_recipe: bool = False
+    """Whether a recipe was changed since it was surveyed."""
     of_all: bool = False
     """Whether every other batch would end in the same way."""
 
@@ -201,6 +204,8 @@ class Made:
     """From a writer: a sculpture is on disk, whole and verified."""
 
     job: int
+    batch: int
+    """The one in which it was simulated: a job may have been begun anew in another one meanwhile."""
     files: dict[str, str]
     """SHA-256 by path below the output folder; the stage that people open comes first."""
     products: dict[str, tuple[str, ...]]
@@ -240,7 +245,17 @@ class Drawn:
 
 @dataclass(frozen=True)
 class NotMade:
-    """From a writer: a sculpture was given up."""
+    """From a writer: a sculpture of a batch was given up."""
+
+    job: int
+    batch: int
+    trouble: Trouble
+    why: str
+
+
+@dataclass(frozen=True)
+class NotDrawn:
+    """From a writer or drawer: a contact sheet could not be drawn."""
 
     job: int
     trouble: Trouble

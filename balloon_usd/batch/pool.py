@@ -45,7 +45,8 @@ class Pool:
                 continue
             try:
                 message: object | None = worker.connection.recv()
-            except (EOFError, ConnectionResetError):
+            except (EOFError, OSError):
+                # Also in the middle of a message.
                 message = None
                 self.remove(worker)
             yield worker, message

@@ -18,6 +18,7 @@ from balloon_usd.batch.messages import (
     Free,
     LaidOut,
     Made,
+    NotDrawn,
     NotMade,
     Part,
     Ring,
@@ -87,7 +88,7 @@ class Scheduler:
 
         Raises:
             BatchError: workers cannot start, or kernels cannot be compiled.
-            OSError: the journal cannot be written.
+            NotKept: the journal cannot be written.
         """
         for worker in self._pool.of(Role.SIMULATOR):
             if worker.ready:
@@ -117,8 +118,8 @@ class Scheduler:
             self._lay_out(self._runs[message.batch], message)
         elif isinstance(message, Made):
             self._made(message)
-        elif isinstance(message, NotMade):
-            self._not_made(self._jobs[message.job], message.trouble, message.why)
+        elif isinstance(message, NotMade | NotDrawn):
+            self._given_up(message)
         elif isinstance(message, Simulated):
             self._simulated(worker, message)
         elif isinstance(message, Drawn):
@@ -137,6 +138,7 @@ class Scheduler:
             self._pool.remove(worker)
             self._without_device(worker.device, told.problem)
             return
+        self._failed_starts = 0
         self._add_device(worker)
 
     def _add_device(self, worker: Worker) -> None:
@@ -168,20 +170,22 @@ class Scheduler:
 
     def _hand_out(self) -> None:
         """Start what workers are missing, and give idle simulators the longest batch there is."""
+        if not len(self._waiting):
+            return
         self._start_workers()
         if not any(worker.ready for worker in self._pool.of(Role.WRITER)):
             return
         for worker in self._pool.of(Role.SIMULATOR):
             if worker.ready and worker not in self._busy and worker.device in self._devices:
                 jobs = self._waiting.take(self._together(self._devices[worker.device]))
+                if not jobs and not (self._runs or self._drawing):
+                    jobs = self._waiting.take_alone()
                 if not jobs:
                     return
                 self._begin(worker, jobs)
 
     def _start_workers(self) -> None:
         left = len(self._waiting)
-        if not left:
-            return
         if not self._pool.of(Role.WRITER):
             self._pool.start(Role.WRITER)
         for device in self._devices.values():
@@ -204,7 +208,7 @@ class Scheduler:
         by_writer: dict[Worker, list[Part]] = defaultdict(list)
         writers = [worker for worker in self._pool.of(Role.WRITER) if worker.ready]
         for place, job in enumerate(jobs):
-            part = Part(job.number, place, job.file, job.known.provenance["recipe_sha256"], job.known.frames)
+            part = Part(job.number, number, place, job.file, job.known.provenance, job.known.frames)
             parts.append(part)
             writer = min(writers, key=lambda one: self._load[one])
             self._load[writer] += 1
@@ -237,9 +241,7 @@ class Scheduler:
         made = 0
         for number in list(run.writer):
             job, part = self._jobs[number], run.parts[number]
-            advance = run.advance(number, frames)
-            job.frames += advance
-            made += advance
+            made += job.advance(run.advance(number, frames))
             if part.place in frames.failed:
                 text = f"{job.file}: simulation failed {frames.failed[part.place][1]}"
                 self._not_made(job, Trouble.FAILED, text)
@@ -256,18 +258,24 @@ class Scheduler:
 
     # Ends.
 
+    def _writes(self, told: Made | NotMade) -> bool:
+        """Whether it is still awaited; a job that was taken from a batch is tried again in another one."""
+        return told.batch in self._runs and told.job in self._runs[told.batch].writer
+
     def _made(self, made: Made) -> None:
+        if not self._writes(made):
+            return
         job = self._jobs[made.job]
-        writer = next(run.writer[job.number] for run in self._runs.values() if job.number in run.writer)
+        writer = self._runs[made.batch].writer[job.number]
         job.device = self._leave(job)
         if self._order.preview:
-            self._draw(made, writer)
+            # Where there are no drawers, the writer of the stage draws.
+            self._draw(made, self._pool.of(Role.DRAWER) or [writer])
         else:
             self._finish(job, made)
 
-    def _draw(self, made: Made, writer: Worker) -> None:
-        """Let a contact sheet be drawn, by the writer of the stage where there are no drawers."""
-        drawers = self._pool.of(Role.DRAWER) or [writer]
+    def _draw(self, made: Made, drawers: Sequence[Worker]) -> None:
+        """Let the contact sheet of a stage be drawn."""
         busy = Counter(worker for worker, _ in self._drawing.values())
         drawer = min(drawers, key=lambda one: busy[one])
         job = self._jobs[made.job]
@@ -277,6 +285,10 @@ class Scheduler:
 
     def _finish(self, job: Job, made: Made) -> None:
         self._end(job, records.done(job.file, job.known, self._order, job.device, made))
+
+    def _given_up(self, told: NotMade | NotDrawn) -> None:
+        if isinstance(told, NotDrawn) or self._writes(told):
+            self._not_made(self._jobs[told.job], told.trouble, told.why)
 
     def _not_made(self, job: Job, trouble: Trouble, why: str) -> None:
         if job.record is not None:
@@ -328,17 +340,19 @@ class Scheduler:
         run = self._runs[told.batch]
         if told.of_all:
             raise BatchError(told.problem)
-        if told.problem:
+        if told.of_recipe:
+            self._halve(self._take_back(run, list(run.writer)), told.problem, Trouble.NOT_WRITTEN)
+        elif told.problem:
             # Of a device that has failed once, nothing is known any more.
             self._pool.remove(simulator)
             jobs = self._take_back(run, list(run.writer))
             if told.of_device:
                 self._device_trouble(simulator.device, jobs, told.problem)
             else:
-                self._try_again(jobs, told.problem, Trouble.UNFORESEEN)
+                self._halve(jobs, told.problem, Trouble.UNFORESEEN)
         else:
             short = self._take_back(run, list(run.writer))
-            self._try_again(short, "the simulation ended before its last frame", Trouble.UNFORESEEN)
+            self._halve(short, "the simulation ended before its last frame", Trouble.UNFORESEEN)
         self._forget_finished()
 
     def _device_trouble(self, name: str, jobs: list[Job], why: str) -> None:
@@ -359,19 +373,18 @@ class Scheduler:
             self._failed_starts += 1
             if self._failed_starts >= MOST_FAILED_STARTS:
                 raise BatchError(f"{worker.role.value} processes end before they are ready: {how}")
-            return
-        self._watch.said(f"a {worker.role.value} process ended ({how}), its recipes are tried again")
-        lost: list[Job] = []
+        else:
+            self._watch.said(f"a {worker.role.value} process ended ({how}), its recipes are tried again")
+        why = f"the {worker.role.value} process was killed twice ({how})"
         if worker.role is Role.SIMULATOR:
             number = self._busy.pop(worker, None)
             if number is not None:
-                lost = self._take_back(self._runs[number], list(self._runs[number].writer))
+                run = self._runs[number]
+                self._halve(self._take_back(run, list(run.writer)), why, Trouble.KILLED)
+        elif worker.role is Role.WRITER:
+            self._try_apart(self._lose_writer(worker), why)
         else:
-            for run in list(self._runs.values()):
-                lost += self._lose_writer(run, worker)
-            self._load.pop(worker, None)
-            lost += self._lose_sheets(worker)
-        self._try_again(lost, f"the {worker.role.value} process was killed twice ({how})", Trouble.KILLED)
+            self._lose_drawer(worker, why)
         self._forget_finished()
 
     def _take_back(self, run: BatchRun, numbers: Iterable[int]) -> list[Job]:
@@ -381,45 +394,64 @@ class Scheduler:
         for job in lost:
             run.writer[job.number].send(Drop(run.number, (job.number,)))
             self._load[run.writer.pop(job.number)] -= 1
-            self._forget_frames(job)
         return lost
 
-    def _lose_writer(self, run: BatchRun, writer: Worker) -> list[Job]:
-        numbers, free = run.without(writer)
-        lost = [self._jobs[number] for number in numbers]
-        if run.simulator in self._busy and self._busy[run.simulator] == run.number:
+    def _lose_writer(self, writer: Worker) -> list[Job]:
+        """Take jobs from a writer that is gone, those whose contact sheets it was to draw included."""
+        lost = [self._jobs[made.job] for made in self._undrawn(writer)]
+        for run in self._runs.values():
+            numbers, free = run.without(writer)
+            lost += [self._jobs[number] for number in numbers]
             if numbers:
                 run.simulator.send(Drop(run.number, tuple(numbers)))
             for slot in free:
                 run.simulator.send(Free(run.number, slot))
-        for job in lost:
-            self._forget_frames(job)
+        self._load.pop(writer, None)
         return lost
 
-    def _lose_sheets(self, drawer: Worker) -> list[Job]:
-        """Take back jobs whose contact sheets are not drawn; their stages are made again, too."""
-        numbers = [number for number, (worker, _) in self._drawing.items() if worker is drawer]
-        for number in numbers:
-            del self._drawing[number]
-            self._forget_frames(self._jobs[number])
-        if drawer.role is Role.DRAWER:
-            self._pool.start(Role.DRAWER, drawer.device)
-        return [self._jobs[number] for number in numbers]
+    def _lose_drawer(self, drawer: Worker, why: str) -> None:
+        """Let others go on; the sheet that was begun is tried once more, as it may be to blame."""
+        self._pool.start(Role.DRAWER, drawer.device)
+        for number, made in enumerate(self._undrawn(drawer)):
+            job = self._jobs[made.job]
+            job.kills += drawer.ready and number == 0
+            if job.kills > 1:
+                self._not_made(job, Trouble.KILLED, f"{job.file}: {why}")
+            else:
+                self._draw(made, self._pool.of(Role.DRAWER))
 
-    def _forget_frames(self, job: Job) -> None:
-        self._watch.advanced("", -job.frames, self._count())
-        job.frames = 0
+    def _undrawn(self, drawer: Worker) -> list[Made]:
+        """Take all contact sheets from a process that is gone, in the order in which it got them."""
+        found = [made for worker, made in self._drawing.values() if worker is drawer]
+        for made in found:
+            del self._drawing[made.job]
+        return found
 
-    def _try_again(self, jobs: list[Job], why: str, trouble: Trouble) -> None:
-        """Halve jobs that were lost together; try one alone once more, and only a killed one."""
+    def _halve(self, jobs: list[Job], why: str, trouble: Trouble) -> None:
+        """Try jobs of one batch again in two; of one alone, tell, or try it once more if it was killed."""
         if len(jobs) > 1:
-            middle = len(jobs) // 2
-            self._waiting.retry(jobs[:middle])
-            self._waiting.retry(jobs[middle:])
+            self._retry_in_two(jobs)
             return
         for job in jobs:
             job.kills += 1
             if trouble is Trouble.KILLED and job.kills <= 1:
                 self._waiting.retry([job])
             else:
-                self._not_made(job, trouble, f"{job.file}: {why}")
+                named = why if trouble is Trouble.NOT_WRITTEN else f"{job.file}: {why}"
+                self._not_made(job, trouble, named)
+
+    def _try_apart(self, jobs: list[Job], why: str) -> None:
+        """Try jobs of a killed writer again, in the end one at a time: halves may meet in a writer again."""
+        if len(jobs) == 1:
+            self._halve(jobs, why, Trouble.KILLED)
+            return
+        for job in jobs:
+            job.losses += 1
+            if job.losses > 1:
+                self._waiting.retry_alone(job)
+        self._retry_in_two([job for job in jobs if job.losses == 1])
+
+    def _retry_in_two(self, jobs: list[Job]) -> None:
+        middle = len(jobs) // 2
+        self._waiting.retry(jobs[:middle])
+        self._waiting.retry(jobs[middle:])

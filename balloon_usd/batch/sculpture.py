@@ -10,6 +10,7 @@ from balloon_usd.balloon.detail import detail_named
 from balloon_usd.balloon.rubber import BURST_STRETCH
 from balloon_usd.batch.messages import Made
 from balloon_usd.files.hashes import hashes_of
+from balloon_usd.files.lock import locked
 from balloon_usd.plan.meshing import mesh_of
 from balloon_usd.report import History, write_report
 from balloon_usd.solver.tally import Tally
@@ -87,13 +88,17 @@ class Sculpture:
             products["report"] = write_report(
                 self._history, folder, detail=self._order.detail, provenance=facts
             )
-        files = (*written.files, *products["report"])
+        # Another run may be giving the same names at this moment.
+        with locked(folder):
+            hashes = hashes_of(folder, (*written.files, *products["report"]))
+            size = sum(file.stat().st_size for file in written.files)
         return Made(
             self.part.job,
-            hashes_of(folder, files),
+            self.part.batch,
+            hashes,
             {key: tuple(f.relative_to(folder).as_posix() for f in found) for key, found in products.items()},
             written.frames,
-            sum(file.stat().st_size for file in written.files),
+            size,
             self._summary(written),
             time.perf_counter() - self._begun,
         )

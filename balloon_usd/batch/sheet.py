@@ -6,7 +6,7 @@ import traceback
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from balloon_usd.batch.messages import Drawn, NotMade, Trouble
+from balloon_usd.batch.messages import Drawn, NotDrawn, Trouble
 from balloon_usd.files.hashes import hashes_of
 
 if TYPE_CHECKING:
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from balloon_usd.batch.order import Order
 
 
-def draw(asked: Draw, order: Order) -> Drawn | NotMade:
+def draw(asked: Draw, order: Order) -> Drawn | NotDrawn:
     """Draw a contact sheet, and say what became of it.
 
     What draws is only imported now: most writers never do.
@@ -28,9 +28,9 @@ def draw(asked: Draw, order: Order) -> Drawn | NotMade:
         draw_contact_sheet(Path(asked.stage), sheet, device=asked.device)
         return Drawn(asked.job, hashes_of(order.folder, [sheet]))
     except PreviewError as error:
-        return NotMade(asked.job, Trouble.NOT_WRITTEN, f"{asked.name}: {error}")
+        return NotDrawn(asked.job, Trouble.NOT_WRITTEN, f"{asked.name}: {error}")
     except RuntimeError as error:
         # What Warp says of a device without memory, or that is gone.
-        return NotMade(asked.job, Trouble.NOT_WRITTEN, f"{asked.name}: {sheet} cannot be drawn: {error}")
+        return NotDrawn(asked.job, Trouble.NOT_WRITTEN, f"{asked.name}: {sheet} cannot be drawn: {error}")
     except Exception:  # no sculpture takes another one along
-        return NotMade(asked.job, Trouble.UNFORESEEN, f"{asked.name}: {traceback.format_exc()}")
+        return NotDrawn(asked.job, Trouble.UNFORESEEN, f"{asked.name}: {traceback.format_exc()}")

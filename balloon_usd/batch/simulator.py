@@ -240,7 +240,7 @@ def _problem(batch: int, error: Exception) -> Simulated:
         text = (str(error).strip() or "out of memory").splitlines()[0]
         return Simulated(batch, text, of_device=True)
     if isinstance(error, RecipeChanged | RecipeError):
-        return Simulated(batch, str(error))
+        return Simulated(batch, str(error), of_recipe=True)
     return Simulated(batch, "".join(traceback.format_exception(error)))
 
 

@@ -20,10 +20,11 @@ class Waiting:
         for job in sorted(jobs, key=lambda job: (-job.work, job.number)):
             self._groups[job.known.group].append(job)
         self._again: deque[list[Job]] = deque()
+        self._alone: deque[Job] = deque()
 
     def __len__(self) -> int:
         """Return how many there are."""
-        return sum(map(len, self._groups.values())) + sum(map(len, self._again))
+        return sum(map(len, self._groups.values())) + sum(map(len, self._again)) + len(self._alone)
 
     @property
     def vertices(self) -> int:
@@ -37,6 +38,20 @@ class Waiting:
         for job in jobs:
             groups[job.known.group].append(job)
         self._again.extend(groups.values())
+
+    def retry_alone(self, job: Job) -> None:
+        """Let a job be tried again when nothing else is at work, for it may be what kills processes."""
+        self._alone.append(job)
+
+    def take_alone(self) -> list[Job]:
+        """Take one job that is to be tried alone; none if none wait, or if others do."""
+        if len(self) > len(self._alone):
+            return []
+        while self._alone:
+            job = self._alone.popleft()
+            if job.record is None:
+                return [job]
+        return []
 
     def take(self, most: int) -> list[Job]:
         """Take up to `most` jobs that advance together; none if none wait."""
@@ -53,6 +68,7 @@ class Waiting:
         """Wait for nothing more."""
         self._groups.clear()
         self._again.clear()
+        self._alone.clear()
 
     def _first(self) -> deque[Job] | None:
         """Return the group of the longest job."""

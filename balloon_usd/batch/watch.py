@@ -32,7 +32,7 @@ class Watch(Protocol):
         """Hear where it is computed and how many frames there are to simulate."""
 
     def advanced(self, doing: str, frames: int, count: Count) -> None:
-        """Hear how many more frames were simulated (fewer, after a kill), and how many recipes are where."""
+        """Hear how many more frames were simulated, and how many recipes are where."""
 
     def ended(self, record: Record) -> None:
         """Hear what became of a recipe."""

@@ -42,8 +42,10 @@ if TYPE_CHECKING:
     from balloon_usd.batch.messages import Made, Part, Start
     from balloon_usd.solver.frame import Frame
 
-EXPECTED = (StageError, ReportError, RecipeChanged, RecipeError)
+EXPECTED = (StageError, ReportError)
 """What may go wrong with a sculpture without a mistake in this program."""
+OF_RECIPE = (RecipeChanged, RecipeError)
+"""The same, with messages that begin with the file of the recipe."""
 
 
 class Writer:
@@ -109,6 +111,8 @@ class Writer:
                 self._start(part, batch)
             except Exception as error:  # no sculpture takes another one along
                 self._give_up(batch, part, error)
+        if not batch.sculptures:
+            del self._batches[begin.batch]
 
     def _start(self, part: Part, batch: _Batch) -> None:
         plan = planned(part)
@@ -154,11 +158,13 @@ class Writer:
     def _give_up(self, batch: _Batch, part: Part, error: Exception) -> None:
         if sculpture := batch.sculptures.pop(part.place, None):
             sculpture.stop()
-        if isinstance(error, EXPECTED):
-            self._connection.send(NotMade(part.job, Trouble.NOT_WRITTEN, f"{part.file}: {error}"))
-        else:
-            text = "".join(traceback.format_exception(error))
-            self._connection.send(NotMade(part.job, Trouble.UNFORESEEN, f"{part.file}: {text}"))
+        trouble, why = Trouble.NOT_WRITTEN, f"{part.file}: {error}"
+        if isinstance(error, OF_RECIPE):
+            why = str(error)
+        elif not isinstance(error, EXPECTED):
+            trouble = Trouble.UNFORESEEN
+            why = f"{part.file}: {''.join(traceback.format_exception(error))}"
+        self._connection.send(NotMade(part.job, part.batch, trouble, why))
 
     def _drop(self, drop: Drop) -> None:
         batch = self._batches.get(drop.batch)

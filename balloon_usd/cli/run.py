@@ -172,11 +172,14 @@ def _here(
 ) -> list[Record]:
     """Make recipes on this machine."""
     from balloon_usd.batch.engine import run_batch  # noqa: PLC0415
+    from balloon_usd.batch.journal import NotKept  # noqa: PLC0415
     from balloon_usd.batch.machine import Machine, usable_cores  # noqa: PLC0415
     from balloon_usd.batch.scheduler import BatchError  # noqa: PLC0415
 
     try:
         return run_batch(files, order, Machine(jobs or usable_cores(), devices), watch)
+    except NotKept as error:
+        raise Failure(str(error), ExitCode.NOT_WRITTEN) from error
     except BatchError as error:
         raise Failure(str(error), ExitCode.BAD_INPUT) from error
 
@@ -184,6 +187,7 @@ def _here(
 def _on_cluster(address: str | None) -> Engine:
     """Return what makes recipes on a Ray cluster."""
     from balloon_usd.batch.cluster import run_on_cluster  # noqa: PLC0415
+    from balloon_usd.batch.journal import NotKept  # noqa: PLC0415
     from balloon_usd.batch.machine import Machine  # noqa: PLC0415
     from balloon_usd.batch.ray_cluster import ClusterError  # noqa: PLC0415
     from balloon_usd.batch.scheduler import BatchError  # noqa: PLC0415
@@ -193,6 +197,8 @@ def _on_cluster(address: str | None) -> Engine:
     ) -> list[Record]:
         try:
             return run_on_cluster(files, order, Machine(jobs or 1, devices), address, watch)
+        except NotKept as error:
+            raise Failure(str(error), ExitCode.NOT_WRITTEN) from error
         except (BatchError, ClusterError) as error:
             raise Failure(str(error), ExitCode.BAD_INPUT) from error
 

@@ -7,7 +7,7 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
-from balloon_usd.files.lock import hold, is_held
+from balloon_usd.files.lock import hold, is_held, locked
 from balloon_usd.stage.error import writing
 
 if TYPE_CHECKING:
@@ -38,9 +38,11 @@ class Workspace:
             # The link's target is replaced, not the link; a later chdir does no harm.
             self._place = self.final.resolve()
             name, beside = self.final.stem, self._place.parent
-            sweep(name, beside)
-            self._folder = Path(tempfile.mkdtemp(prefix=f".{name}.", suffix=SUFFIX, dir=beside))
-            self._lock = hold(self._folder / LOCK)
+            # Another run must not sweep the folder before its lock is held.
+            with locked(beside):
+                sweep(name, beside)
+                self._folder = Path(tempfile.mkdtemp(prefix=f".{name}.", suffix=SUFFIX, dir=beside))
+                self._lock = hold(self._folder / LOCK)
         return self
 
     @property
@@ -54,7 +56,8 @@ class Workspace:
         A file is replaced in one step. A folder takes two renames: a run killed between them
         leaves the earlier asset in the hidden folder, and the next run puts it back.
         """
-        with writing(self.final):
+        # Nor must it take away or publish the same asset between two of these names.
+        with writing(self.final), locked(self._place.parent):
             for name in beside:
                 self.built.with_name(name).replace(self._place.with_name(name))
             if self.built.is_dir() and self._place.is_dir():
