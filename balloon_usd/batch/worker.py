@@ -13,7 +13,6 @@ from contextlib import suppress
 from multiprocessing.connection import Connection
 from typing import TYPE_CHECKING, Any
 
-from balloon_usd.batch.cuda_context import wake_gpu
 from balloon_usd.batch.messages import Role, Start
 from balloon_usd.loading import expect_modules
 
@@ -39,8 +38,6 @@ def work(connection: Connection[Any, Any]) -> None:
 
 
 def _worker(connection: Connection[Any, Any], start: Start) -> Simulator | Writer:
-    if start.role is not Role.WRITER and start.device != "cpu":
-        wake_gpu(start.device)
     if start.role is Role.SIMULATOR:
         from balloon_usd.batch.simulator import Simulator  # noqa: PLC0415
 

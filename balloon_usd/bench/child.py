@@ -91,10 +91,7 @@ def work(task: ChildTask) -> None:
     expect_modules()
     import warp as wp  # noqa: PLC0415
 
-    from balloon_usd.solver.device import device_named, wake  # noqa: PLC0415
-
     wp.config.log_level = wp.LOG_WARNING
-    wake(device_named(task.device))
     # Frames are made to be written: what writes them belongs to the start.
     import balloon_usd.stage  # noqa: F401, PLC0415
     from balloon_usd.bench.timing import planned  # noqa: PLC0415

@@ -6,7 +6,6 @@ import os
 import sys
 import tempfile
 from contextlib import contextmanager
-from threading import Thread
 from typing import TYPE_CHECKING
 
 import warp as wp
@@ -31,17 +30,12 @@ def start_warp() -> None:
         wp.get_devices()
 
 
-_waking: list[Thread] = []
-
-
 def device_named(name: str) -> str:
     """Return the device of a name: auto is the first CUDA device, else the CPU; cuda is the first one.
 
     Raises:
         DeviceUnavailable: there is no such device.
     """
-    while _waking:
-        _waking.pop().join()
     there: list[str] = [device.alias for device in wp.get_devices()]
     cuda = [alias for alias in there if alias.startswith("cuda")]
     wanted = {"auto": (cuda or there)[0], "cuda": (cuda or ["cuda"])[0]}.get(name, name)
@@ -65,14 +59,3 @@ def _without_driver_warning() -> Iterator[None]:
             held.seek(0)
             told = [line for line in held if DRIVER_MISSING not in line]
             os.write(2, b"".join(told))
-
-
-def wake(device: str) -> None:
-    """Begin to start a GPU, which takes its driver some tenths of a second, while modules are loaded.
-
-    It must not be used before the next call of `device_named`, such as that of a simulation.
-    """
-    if wp.get_device(device).is_cuda:
-        thread = Thread(target=lambda: wp.get_device(device).context, daemon=True)
-        thread.start()
-        _waking.append(thread)
