@@ -43,9 +43,17 @@ class Launcher:
         """Return how many lanes a block has that is launched with so many: on the CPU one."""
         return wanted if wp.get_device(self.scene.device).is_cuda else 1
 
-    def launch(self, kernel: Any, dim: int | tuple[int, ...], **changing: Any) -> None:
-        """Launch a kernel over `dim` threads."""
-        wp.launch(kernel, dim=dim, inputs=self._inputs(kernel, changing), device=self.scene.device)
+    def launch(
+        self, kernel: Any, dim: int | tuple[int, ...], *, lanes: int = LAUNCH_BLOCK, **changing: Any
+    ) -> None:
+        """Launch a kernel over `dim` threads, so many `lanes` in a block on a GPU."""
+        wp.launch(
+            kernel,
+            dim=dim,
+            inputs=self._inputs(kernel, changing),
+            device=self.scene.device,
+            block_dim=lanes,
+        )
 
     def launch_tiled(self, kernel: Any, blocks: int, *, lanes: int = VOLUME_BLOCK, **changing: Any) -> None:
         """Launch a kernel over blocks of threads that work together: so many `lanes` on a GPU, one on the

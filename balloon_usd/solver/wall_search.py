@@ -23,9 +23,9 @@ class WallSearch:
     def __init__(self, launcher: Launcher) -> None:
         self._launcher = launcher
         launcher.values["touch"] = launcher.scene.touch
-        launcher.launch(find_own_walls, len(launcher.scene.x))
-        launcher.load(order_hits)
-        launcher.load(chunk_surface, ring_radii, find_walls, lanes=WARP)
+        # All in blocks of one size: each size is compiled and loaded for itself.
+        launcher.launch(find_own_walls, len(launcher.scene.x), lanes=WARP)
+        launcher.load(chunk_surface, ring_radii, find_walls, order_hits, lanes=WARP)
 
     def measure_quads(self, x: Any) -> None:
         """Measure the quads at positions `x` (V,)."""
@@ -39,4 +39,4 @@ class WallSearch:
         s.pressed_count.zero_()
         launcher.launch_tiled(ring_radii, len(s.ring_first), lanes=WARP, x=x)
         launcher.launch_tiled(find_walls, -(-len(s.x) // launcher.lanes(WARP)), lanes=WARP, x=x)
-        launcher.launch(order_hits, len(s.quads))
+        launcher.launch(order_hits, len(s.quads), lanes=WARP)

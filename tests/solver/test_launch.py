@@ -40,9 +40,9 @@ def used(monkeypatch):
         found.update((kernel.module.name, lanes) for kernel in kernels)
         load(self, *kernels, lanes=lanes)
 
-    def spied_launch(self, kernel, dim, **changing):
-        found.add((kernel.module.name, LAUNCH_BLOCK))
-        launch(self, kernel, dim, **changing)
+    def spied_launch(self, kernel, dim, *, lanes=LAUNCH_BLOCK, **changing):
+        found.add((kernel.module.name, lanes))
+        launch(self, kernel, dim, lanes=lanes, **changing)
 
     def spied_launch_tiled(self, kernel, blocks, *, lanes=VOLUME_BLOCK, **changing):
         found.add((kernel.module.name, lanes))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from itertools import combinations
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -35,15 +36,19 @@ class Friction:
     """The bubbles of one sculpture that its welds keep from turning."""
 
     def __init__(self, plan: Plan, rings: Sequence[int]) -> None:
-        """Look them up once; `rings`: joint of the scene of every planned ring."""
+        """Take note of them; `rings`: joint of the scene of every planned ring."""
+        self._plan = plan
         self._rings = rings
-        table = plan.table
-        self._bubbles = [
+
+    @cached_property
+    def _bubbles(self) -> list[_Bubble]:
+        table, rings = self._plan.table, self._rings
+        return [
             _Bubble(
                 tuple(rings[r] for r in table.ends(bubble.name) if r is not None),
                 tuple(rings[g] for g in table.guides(bubble.name)),
             )
-            for bubble in plan.bubbles
+            for bubble in self._plan.bubbles
         ]
 
     def pairs(self, hands: Hands) -> set[tuple[int, int]]:
