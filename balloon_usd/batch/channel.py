@@ -40,7 +40,7 @@ class Worker:
         try:
             with _interrupts_blocked():
                 self._process = subprocess.Popen(  # noqa: S603  # our own module
-                    [sys.executable, "-P", "-m", WORKER, str(theirs.fileno()), str(os.getpid())],
+                    [sys.executable, "-P", "-m", WORKER, role.value, str(theirs.fileno()), str(os.getpid())],
                     stdin=subprocess.DEVNULL,
                     env=_surroundings(),
                     pass_fds=(theirs.fileno(),),
