@@ -126,7 +126,7 @@ def test_two_runs_that_write_at_once_lose_no_line(tmp_path):
 
 def test_a_journal_that_cannot_be_written_is_told(tmp_path):
     journal = Journal(tmp_path / "gone")
-    with pytest.raises(NotKept, match="gone/batch.jsonl cannot be written: No such file or directory"):
+    with pytest.raises(NotKept, match=r"gone/batch\.jsonl cannot be written: No such file or directory"):
         journal.add(record("a"))
 
 

@@ -103,7 +103,10 @@ class FakeSimulation:
         most = {"out of memory": 2, "out of memory alone": 0}.get(trouble)
         if most is not None and len(self.plans) > most and self.device != "cpu":
             raise RuntimeError(f"Failed to allocate 123 bytes on device '{self.device}'")
-        if trouble == "device is lost" and self.device != "cpu":
+        lost = trouble == "device is lost" or (
+            trouble == "first device is lost" and self.solver.first_time(name)
+        )
+        if lost and self.device != "cpu":
             self.solver.lose(self.device)
             raise RuntimeError("Warp CUDA error 719: unspecified launch failure")
         if trouble == "slow":

@@ -73,7 +73,7 @@ def _pretend_gpus(module):
         if device == "cpu":
             return start(simulator, name)
         if device not in gpus or FakeSolver.of_environment().has_lost(device):
-            return Started(problem=f"{device}: no CUDA-capable device is detected")
+            return Started(problem=f'there is no device "{device}", only cpu')
         simulator._device = device
         return Started(device, gpus, 4, 1 << 33)
 
