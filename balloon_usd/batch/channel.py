@@ -40,7 +40,7 @@ class Worker:
         try:
             with _interrupts_blocked():
                 self._process: ForkedProcess | subprocess.Popen[bytes] = (
-                    fork_worker(theirs.fileno()) if fork else _spawn(theirs.fileno())
+                    fork_worker(role, theirs.fileno()) if fork else _spawn(role, theirs.fileno())
                 )
         except BaseException:
             ours.close()
@@ -106,11 +106,11 @@ class Worker:
         return f"signal {-code}"
 
 
-def _spawn(descriptor: int) -> subprocess.Popen[bytes]:
+def _spawn(role: Role, descriptor: int) -> subprocess.Popen[bytes]:
     """Start a new interpreter that works at the other end of a connection."""
     os.set_inheritable(descriptor, True)
     return subprocess.Popen(  # noqa: S603  # our own module
-        [sys.executable, "-P", "-m", WORKER, str(descriptor), str(os.getpid())],
+        [sys.executable, "-P", "-m", WORKER, role.value, str(descriptor), str(os.getpid())],
         stdin=subprocess.DEVNULL,
         env=_surroundings(),
         pass_fds=(descriptor,),
@@ -140,4 +140,4 @@ def _interrupts_blocked() -> Iterator[None]:
 def _surroundings() -> dict[str, str]:
     """Return the environment of a worker, which imports from where this process does."""
     there = os.pathsep.join(dict.fromkeys(path for path in sys.path if path))
-    return {**dict.fromkeys(ONE_THREAD, "1"), **os.environ, "PYTHONPATH": there}
+    return {**ONE_THREAD, **os.environ, "PYTHONPATH": there}

@@ -95,6 +95,7 @@ class Engine:
         todo = self._not_there_yet(accepted, journal)
         if todo:
             self.make_all(todo, journal)
+            self._tidy([job for job in todo if job.record and job.record.status is not Status.DONE])
         journal.put_in_order(job.file for job in jobs)
 
     def start_workers(self, recipes: int) -> None:
@@ -195,6 +196,11 @@ class Engine:
         self._ask(asked, Verified, hear)
         return [job for job in accepted if job.record is None]
 
+    def _tidy(self, jobs: Sequence[Job]) -> None:
+        """Remove what killed writers left of sculptures that are not made again."""
+        asked = deque([Verify(tuple((job.number, job.known.name, {}) for job in jobs))] if jobs else [])
+        self._ask(asked, Verified, lambda _: None)
+
     def _record_of(self, job: Job, journal: Journal) -> Record | None:
         """Return the record of what is there already, if that is just what is asked for."""
         record = None if self.order.force else journal.of(job.known.name)
@@ -208,13 +214,15 @@ class Engine:
         asked: dict[Worker, Q] = {}
         kills = 0
         while questions or asked:
+            if not self._pool.of(Role.WRITER):
+                self._pool.start(Role.WRITER)
             for writer in self._pool.of(Role.WRITER):
                 if writer.ready and writer not in asked and questions:
                     asked[writer] = questions.popleft()
                     writer.send(asked[writer])
             for worker, message in self._pool.heard():
                 if isinstance(message, kind):
-                    del asked[worker]
+                    asked.pop(worker, None)
                     hear(message)
                 elif message is None and worker in asked:
                     kills += 1

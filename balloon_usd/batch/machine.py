@@ -18,7 +18,7 @@ VERTEX_BYTES = 6000
 """Device memory for a vertex of a batch, with all that goes with it [B]."""
 SHARE_OF_MEMORY = 0.4
 """Share of a device's free memory that one simulator may fill."""
-MOST_DRAWERS = 4
+MOST_DRAWERS = 3
 """Processes that draw contact sheets beside a GPU: each holds a context of it, some 300 MB."""
 RECIPES_PER_WRITER = 4
 """Recipes below which another writer does not pay for its start."""

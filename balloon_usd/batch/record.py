@@ -65,7 +65,7 @@ class Record:
         """Return what a line says; None for one that is cut short or from elsewhere."""
         try:
             return record_of(json.loads(line))
-        except (ValueError, TypeError, KeyError, AttributeError):
+        except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
             return None
 
     def fits(self, facts: Facts, order: Order, device: str) -> bool:
@@ -87,6 +87,8 @@ class Record:
 def record_of(told: dict[str, Any]) -> Record:
     """Return the record that a dictionary tells of, as `dataclasses.asdict` makes one."""
     products = {key: tuple(files) for key, files in told["products"].items()}
+    if not all(isinstance(text, str) for text in (told["recipe"], told["name"], *told["files"].values())):
+        raise TypeError("no names and hashes of files")
     return Record(**{**told, "status": Status(told["status"]), "products": products})
 
 

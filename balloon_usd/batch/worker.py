@@ -1,4 +1,4 @@
-"""A worker process: a simulator or a writer, `python -m balloon_usd.batch.worker DESCRIPTOR`.
+"""A worker process: a simulator or a writer, `python -m balloon_usd.batch.worker ROLE DESCRIPTOR PARENT`.
 
 One thread does all its work, so no two threads ever meet in OpenUSD. It ends when the connection does.
 """
@@ -65,8 +65,8 @@ def _end_with(parent: int) -> None:
         os._exit(0)
 
 
-def main(descriptor: str, parent: str) -> None:
-    """Work at the other end of an inherited connection, for the process of a number."""
+def main(_role: str, descriptor: str, parent: str) -> None:
+    """Work at the other end of an inherited connection, for the process of a number; the role is for eyes."""
     # Ctrl-C reaches the whole group of processes: the scheduler decides what it means.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     expect_modules()

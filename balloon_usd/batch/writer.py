@@ -6,8 +6,6 @@ import pickle
 import traceback
 from typing import TYPE_CHECKING, Any
 
-from pxr import Work
-
 from balloon_usd.batch.channel import receive_ring
 from balloon_usd.batch.facts import Refusal, survey
 from balloon_usd.batch.frame_ring import FrameRing
@@ -53,8 +51,6 @@ class Writer:
 
     def __init__(self, connection: Connection[Any, Any], start: Start) -> None:
         """Get ready; what it takes is imported by now."""
-        # There is a process for each core: threads of OpenUSD took 15 % more processor time, to no avail.
-        Work.SetConcurrencyLimit(1)
         self._connection = connection
         self._order = start.order
         self._batches: dict[int, _Batch] = {}

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
     from balloon_usd.stage.description import StageDescription, StageFrame
 
-SAVE_BYTES = 8 * 2**20
+SAVE_BYTES = 4 * 2**20
 """Samples kept in memory before they are saved [B].
 
 Saving costs about 6 kB of file each time, so small sculptures are saved once. A repack at the end

@@ -99,11 +99,16 @@ class FakeSimulation:
         if trouble == "sleep":
             print("asleep", flush=True)
             time.sleep(60)
-        first = self.solver.first_time(name)
-        if trouble == "kill" or (trouble == "kill once" and first):
-            os.kill(os.getpid(), signal.SIGKILL)
-        if trouble == "out of memory" and len(self.plans) > 2 and self.device != "cpu":
+        kill_if("kill", name)
+        most = {"out of memory": 2, "out of memory alone": 0}.get(trouble)
+        if most is not None and len(self.plans) > most and self.device != "cpu":
             raise RuntimeError(f"Failed to allocate 123 bytes on device '{self.device}'")
+        lost = trouble == "device is lost" or (
+            trouble == "first device is lost" and self.solver.first_time(name)
+        )
+        if lost and self.device != "cpu":
+            self.solver.lose(self.device)
+            raise RuntimeError("Warp CUDA error 719: unspecified launch failure")
         if trouble == "slow":
             time.sleep(0.3)
 
@@ -151,6 +156,13 @@ class FakeSolver:
             return False
         return True
 
+    def lose(self, device):
+        """Let a pretended GPU be gone from now on."""
+        (self._folder / f"{device}.lost").touch()
+
+    def has_lost(self, device):
+        return (self._folder / f"{device}.lost").exists()
+
     def log(self, entry):
         with (self._folder / "log").open("a") as file:
             file.write(json.dumps(entry) + "\n")
@@ -173,3 +185,11 @@ class FakeSolver:
         simulation = FakeSimulation(plans, detail, device, self)
         self.log({"start": [plan.recipe.name for plan in plans], "device": device, "process": os.getpid()})
         return simulation
+
+
+def kill_if(trouble, name):
+    """Kill this process if that is what befalls a recipe, always or "once"."""
+    solver = FakeSolver.of_environment()
+    found = solver.trouble.get(name)
+    if found == trouble or (found == f"{trouble} once" and solver.first_time(name)):
+        os.kill(os.getpid(), signal.SIGKILL)
