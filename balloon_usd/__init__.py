@@ -13,6 +13,11 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from balloon_usd.batch.engine import run_batch
+    from balloon_usd.batch.machine import Machine
+    from balloon_usd.batch.order import Order
+    from balloon_usd.batch.record import Record
+    from balloon_usd.batch.scheduler import BatchError
     from balloon_usd.check import Report, check_file
     from balloon_usd.diff import Comparison, DiffError, compare_files
     from balloon_usd.exchange.export import export_stage
@@ -32,17 +37,21 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 __all__ = [
+    "BatchError",
     "Comparison",
     "DeviceUnavailable",
     "DiffError",
     "Frame",
+    "Machine",
     "MeshFileError",
+    "Order",
     "Performance",
     "Plan",
     "PreviewError",
     "Recipe",
     "RecipeBuilder",
     "RecipeError",
+    "Record",
     "Report",
     "Simulation",
     "SimulationFailed",
@@ -61,6 +70,7 @@ __all__ = [
     "plan_svg",
     "plan_text",
     "recipe_schema",
+    "run_batch",
     "simulate",
     "simulate_many",
     "vary_recipe",
@@ -68,6 +78,11 @@ __all__ = [
 ]
 
 _ROOMS = {
+    "balloon_usd.batch.engine": ("run_batch",),
+    "balloon_usd.batch.machine": ("Machine",),
+    "balloon_usd.batch.order": ("Order",),
+    "balloon_usd.batch.record": ("Record",),
+    "balloon_usd.batch.scheduler": ("BatchError",),
     "balloon_usd.check": ("Report", "check_file"),
     "balloon_usd.diff": ("Comparison", "DiffError", "compare_files"),
     "balloon_usd.exchange.export": ("export_stage",),
