@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from balloon_usd.batch.watch import Count
 
-DOING_WIDTH = 44
+DOING_WIDTH = 40
 """Characters for what the hands do, so that the bar stands still."""
 
 
@@ -33,7 +33,7 @@ class FrameRate(ProgressColumn):
     def render(self, task: Any) -> Text:
         """Show the recent speed, or that of the whole task when it is done."""
         speed = task.finished_speed or task.speed
-        return Text("" if speed is None else f"{speed:.0f} frames/s")
+        return Text("" if speed is None else f"{speed:.0f} frames/s", no_wrap=True)
 
 
 class Shown(Protocol):
@@ -48,13 +48,12 @@ class _Bar:
 
     def __init__(self, progress: Progress, total: int) -> None:
         self._progress = progress
-        self._task = progress.add_task("getting ready".ljust(DOING_WIDTH), total=total, counts="")
+        self._task = progress.add_task("getting ready".ljust(DOING_WIDTH), total=total)
 
     def advance(self, doing: str, frames: int, count: Count) -> None:
-        shown = doing if len(doing) <= DOING_WIDTH else doing[: DOING_WIDTH - 3] + "..."
-        self._progress.update(
-            self._task, description=escape(shown.ljust(DOING_WIDTH)), advance=frames, counts=counts(count)
-        )
+        told = counts(count) or doing
+        shown = told if len(told) <= DOING_WIDTH else told[: DOING_WIDTH - 3] + "..."
+        self._progress.update(self._task, description=escape(shown.ljust(DOING_WIDTH)), advance=frames)
 
 
 class _Lines:
@@ -90,7 +89,6 @@ def show_progress(total: int, *, lines: bool) -> Iterator[Shown]:
         TextColumn("{task.description}"),
         BarColumn(),
         TaskProgressColumn(),
-        TextColumn("{task.fields[counts]}"),
         FrameRate(),
         TimeRemainingColumn(compact=True),
     )
