@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import stat
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -51,11 +52,22 @@ def survey(file: str, order: Order) -> Facts | Refusal:
     from balloon_usd.plan import plan  # noqa: PLC0415
     from balloon_usd.recipe import Recipe, RecipeError  # noqa: PLC0415
 
+    if _is_pipe_or_device(Path(file)):
+        # It would be waited for, and can be read only once.
+        return Refusal((f"{file}:1:1: cannot be read (it is a pipe or a device), expected a recipe file",))
     try:
         planned = plan(Recipe.load(Path(file)))
     except RecipeError as error:
         return Refusal(tuple(str(error).splitlines()))
     return _judge(planned, order)
+
+
+def _is_pipe_or_device(file: Path) -> bool:
+    try:
+        kind = file.stat().st_mode
+    except (OSError, ValueError):
+        return False
+    return not (stat.S_ISREG(kind) or stat.S_ISDIR(kind))
 
 
 def _judge(plan: Plan, order: Order) -> Facts | Refusal:

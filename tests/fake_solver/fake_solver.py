@@ -109,8 +109,8 @@ class FakeSimulation:
         if lost and self.device != "cpu":
             self.solver.lose(self.device)
             raise RuntimeError("Warp CUDA error 719: unspecified launch failure")
-        if trouble == "slow":
-            time.sleep(0.3)
+        if trouble in {"slow", "pause"}:
+            time.sleep({"slow": 0.3, "pause": 2.0}[trouble])
 
     def _made(self, plan, meshes, code, *, undone=False):
         lift = np.float32([0, 0, 0.01 * code])
@@ -130,8 +130,8 @@ class FakeSolver:
     """Stands in for `simulate_many`; what it is told and does lies in a folder, which other processes know."""
 
     def __init__(self, folder, frame_count=FRAMES):
-        self._folder = Path(folder)
-        self._folder.mkdir(exist_ok=True)
+        self.folder = Path(folder)
+        self.folder.mkdir(exist_ok=True)
         self.frame_count = frame_count
 
     @classmethod
@@ -141,30 +141,30 @@ class FakeSolver:
     @property
     def trouble(self):
         """What befalls recipes by name: an exception, arguments of `SimulationFailed`, or a word."""
-        file = self._folder / "trouble"
+        file = self.folder / "trouble"
         return pickle.loads(file.read_bytes()) if file.exists() else {}
 
     @trouble.setter
     def trouble(self, trouble):
-        (self._folder / "trouble").write_bytes(pickle.dumps(trouble))
+        (self.folder / "trouble").write_bytes(pickle.dumps(trouble))
 
     def first_time(self, name):
         """Whether this was not asked of a name before."""
         try:
-            (self._folder / f"{name}.once").touch(exist_ok=False)
+            (self.folder / f"{name}.once").touch(exist_ok=False)
         except FileExistsError:
             return False
         return True
 
     def lose(self, device):
         """Let a pretended GPU be gone from now on."""
-        (self._folder / f"{device}.lost").touch()
+        (self.folder / f"{device}.lost").touch()
 
     def has_lost(self, device):
-        return (self._folder / f"{device}.lost").exists()
+        return (self.folder / f"{device}.lost").exists()
 
     def log(self, entry):
-        with (self._folder / "log").open("a") as file:
+        with (self.folder / "log").open("a") as file:
             file.write(json.dumps(entry) + "\n")
 
     @property
@@ -178,7 +178,7 @@ class FakeSolver:
         return [entry["given"] for entry in self._entries() if "given" in entry]
 
     def _entries(self):
-        file = self._folder / "log"
+        file = self.folder / "log"
         return [json.loads(line) for line in file.read_text().splitlines()] if file.exists() else []
 
     def __call__(self, plans, detail="draft", device="cpu"):
