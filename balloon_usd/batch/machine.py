@@ -7,8 +7,10 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-SIMULATORS_PER_GPU = 2
-"""While one sees to the hands of its sculptures, the other has the device."""
+SIMULATORS_PER_GPU = 3
+"""While one sees to the hands of its sculptures, and one prepares its next batch, another has the device."""
+FIRST_PER_GPU = 2
+"""Simulators that are started before it is known how many batches there are."""
 TOGETHER = 128
 """Sculptures that advance together on a GPU at most: about one for each multiprocessor of an H100."""
 ENOUGH_FOR_TWO = 96
@@ -83,7 +85,7 @@ class Machine:
         """Return devices on which so many recipes need a simulator in any case, before more is known."""
         if self.devices == ("cpu",) or (self.devices == ("auto",) and not _has_gpu()):
             return self.devices * min(self.cores, recipes)
-        return self.devices * (SIMULATORS_PER_GPU if recipes >= ENOUGH_FOR_TWO * len(self.devices) else 1)
+        return self.devices * (FIRST_PER_GPU if recipes >= ENOUGH_FOR_TWO * len(self.devices) else 1)
 
     def writers(self, recipes: int) -> int:
         """Return how many writers so many recipes keep busy: at most one for two cores, or for a GPU more."""

@@ -67,6 +67,8 @@ class Simulator:
             start_warp()
             # Of all devices, this one takes the first; the scheduler starts others for the rest.
             self._device = device_named("cuda" if name == "all" else name)
+            # What names no device means this one.
+            wp.set_device(self._device)
             solver.model_named("latex")
         except DeviceUnavailable as error:
             return Started(problem=str(error))

@@ -49,7 +49,7 @@ class Mirror:
     def begun(self) -> None:
         """Take note that copying has begun: it ends when all that the device was told before is done."""
         if self._copied is not None:
-            wp.record_event(self._copied)
+            wp.get_stream(self._device).record_event(self._copied)
 
     def arrays(self) -> dict[str, NDArray[Any]]:
         """Wait for the copies and return them; after three turns they change."""

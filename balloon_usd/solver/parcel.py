@@ -56,7 +56,7 @@ class Parcel:
             self._views[name][...] = new
         wp.copy(self._away, self._here)
         if self._sent is not None:
-            wp.record_event(self._sent)
+            wp.get_stream(self._sent.device).record_event(self._sent)
 
 
 class Letter:
@@ -86,4 +86,4 @@ class Letter:
             first, count = begin * self._row, (end - begin) * self._row
             wp.copy(self._away, self._here, first, first, count)
         if self._sent is not None:
-            wp.record_event(self._sent)
+            wp.get_stream(self._sent.device).record_event(self._sent)
