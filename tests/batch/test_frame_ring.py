@@ -5,17 +5,17 @@ import subprocess
 import sys
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from balloon_usd.batch.frame_ring import (
     MOST_FRAMES,
     SLOT_BYTES,
+    FrameLayout,
     FrameRing,
     RingShape,
-    SharedMemory,
     frame_bytes,
 )
+from balloon_usd.batch.shared_memory import SharedMemory
 from balloon_usd.solver.sight import Extent, Place
 from tests.batch.runs import ROOT
 
@@ -25,12 +25,13 @@ PLACE = Place((slice(0, 4), slice(4, 7)), slice(0, 3))
 OTHER = """
 import sys
 import numpy as np
-from balloon_usd.batch.frame_ring import FrameRing, RingShape, SharedMemory
+from balloon_usd.batch.frame_ring import FrameLayout, FrameRing, RingShape
+from balloon_usd.batch.shared_memory import SharedMemory
 from balloon_usd.solver.sight import Extent, Place
 
 extent = Extent(7, 3)
 shape = RingShape(4, int(sys.argv[2]), 3)
-ring = FrameRing(extent, shape, SharedMemory(shape.size, int(sys.argv[1])))
+ring = FrameRing(FrameLayout(shape, extent, ()), SharedMemory(shape.size, int(sys.argv[1])))
 for slot in range(3):
     for number in range(4):
         frame = ring.sight(slot, number).frame(Place((slice(0, 4), slice(4, 7)), slice(0, 3)), 1)
@@ -43,7 +44,7 @@ for slot in range(3):
 def ring():
     shape = RingShape(4, frame_bytes(EXTENT), 3)
     memory = SharedMemory(shape.size)
-    yield FrameRing(EXTENT, shape, memory), memory
+    yield FrameRing(FrameLayout(shape, EXTENT, (PLACE,)), memory), memory
     memory.close()
 
 
@@ -91,7 +92,7 @@ def test_memory_and_descriptors_go_with_the_arrays():
     for _ in range(50):
         shape = RingShape.of(EXTENT)
         memory = SharedMemory(shape.size)
-        FrameRing(EXTENT, shape, memory).sight(0, 0)
+        FrameRing(FrameLayout(shape, EXTENT, (PLACE,)), memory).sight(0, 0)
         memory.close()
     assert len(list(Path("/proc/self/fd").iterdir())) <= before + 1
-    assert np.all(SharedMemory(10).bytes() == 0)
+    assert bytes(SharedMemory(10).buffer) == bytes(10)

@@ -43,7 +43,7 @@ def test_a_job_passes_openjds_check_and_its_tasks_make_the_stages(cli, folder, w
     assert "Chunks run: 2" in done.stdout
     assert "openjd_progress: 100" in done.stdout
     stages = sorted(path.name for path in (folder / "stages").iterdir())
-    assert stages == ["cat.usdc", "dachshund.usdc", "dog.usdc"]
+    assert stages == ["batch.jsonl", "cat.usdc", "dachshund.usdc", "dog.usdc"]
 
 
 def test_a_task_whose_recipe_is_gone_fails_with_the_line_that_says_so(cli, folder, write_recipe):
@@ -52,7 +52,7 @@ def test_a_task_whose_recipe_is_gone_fails_with_the_line_that_says_so(cli, folde
     recipe.unlink()
     result = cli("farm-task", "chunks.jsonl", 1, "recipes", "--", "--output", "out")
     assert result.exit_code == 2
-    assert result.stderr.startswith("recipes/dog.yaml:1:1: cannot be read (No such file or directory)")
+    assert "recipes/dog.yaml:1:1: cannot be read (No such file or directory)\n" in result.stdout
 
 
 @pytest.mark.parametrize(
@@ -71,13 +71,25 @@ def test_a_task_without_a_chunk_fails_in_one_line(cli, folder, words, problem):
 def test_a_task_that_the_farm_ends_leaves_nothing_half_written(folder, write_recipe):
     write_recipe("recipes/dog.yaml")
     (folder / "chunks.jsonl").write_text('["dog.yaml"]\n')
-    words = ["farm-task", "chunks.jsonl", "1", "recipes", "--", "--output", "out", "--device", "cpu"]
+    words = [
+        "farm-task",
+        "chunks.jsonl",
+        "1",
+        "recipes",
+        "--",
+        "--output",
+        "out",
+        "--device",
+        "cpu",
+        "--detail",
+        "full",
+    ]
     task = interruptible.start([sys.executable, "-m", "balloon_usd", *words], env=ENVIRONMENT)
     for line in task.stdout:
         if line == "openjd_status: inflate: main\n":
             break
     task.send_signal(signal.SIGTERM)
     _, error = task.communicate(timeout=30)
-    assert task.returncode == 130
-    assert error == "interrupted, nothing half-written is left\n"
+    assert task.returncode == 143
+    assert error == "terminated, nothing half-written is left\n"
     assert list((folder / "out").iterdir()) == []
