@@ -35,15 +35,15 @@ def test_there_is_one_writer_where_there_is_little_to_do(cores, recipes, writers
 
 
 @pytest.mark.parametrize(
-    ("cores", "recipes", "writers"), [(16, 8, 2), (16, 1000, 12), (256, 1000, 32), (8, 1000, 4)]
+    ("cores", "recipes", "writers"), [(16, 8, 2), (16, 1000, 12), (256, 1000, 16), (8, 1000, 5)]
 )
 def test_writers_grow_with_cores_and_recipes(cores, recipes, writers):
     assert Machine(cores).writers(recipes) == writers
 
 
-def test_a_gpu_has_up_to_three_simulators_and_a_cpu_one_a_core():
+def test_a_gpu_has_two_simulators_and_a_cpu_one_a_core():
     machine = Machine(8)
-    assert [machine.simulators(H100, batches) for batches in (0, 1, 2, 9)] == [1, 1, 2, 3]
+    assert [machine.simulators(H100, batches) for batches in (0, 1, 2, 9)] == [1, 1, 2, 2]
     assert [machine.simulators(CPU, batches) for batches in (1, 5, 100)] == [1, 5, 8]
 
 
