@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from pxr import Sdf, UsdGeom
-
+from balloon_usd.openusd import Sdf, UsdGeom
 from balloon_usd.stage.animated import on_stress
 from balloon_usd.stage.prim_paths import part_path, root_path
 
