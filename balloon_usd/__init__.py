@@ -4,12 +4,14 @@
     written = write_stage(plan, simulate(plan), "out")
     draw_contact_sheet(written.files[0], "out/dog.png")
 
-Names load what they need when they are first used: `import balloon_usd` alone costs nothing.
+Names load what they need when they are first used: `import balloon_usd` alone costs nothing. Threads may use
+them at once; in OpenUSD they take turns, see `balloon_usd.openusd`.
 """
 
 from __future__ import annotations
 
 from importlib import import_module
+from threading import RLock
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -102,13 +104,17 @@ _PLACES = {name: (room, name) for room, names in _ROOMS.items() for name in name
 # The function `plan` cannot have its own name here: `balloon_usd.plan` is its room.
 _PLACES["plan_recipe"] = ("balloon_usd.plan", "plan")
 
+_LOADING = RLock()
+"""Python may give half a package to threads that load parts of it at once."""
+
 
 def __getattr__(name: str) -> object:
     """Load a name of the package on first use."""
     if name not in _PLACES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     room, there = _PLACES[name]
-    globals()[name] = found = getattr(import_module(room), there)
+    with _LOADING:
+        globals()[name] = found = getattr(import_module(room), there)
     return found
 
 

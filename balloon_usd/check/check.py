@@ -5,8 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from pxr import Tf
-
 from balloon_usd.check.fault import fault_of
 from balloon_usd.check.flattened import flattened_equals_composed
 from balloon_usd.check.frozen import frames_to_freeze, frozen
@@ -17,6 +15,7 @@ from balloon_usd.check.opening import UnreadableError, open_whole
 from balloon_usd.check.place import stage_file
 from balloon_usd.check.report import Report
 from balloon_usd.check.usd_core import NAME, ask_usd_core
+from balloon_usd.openusd import Tf, usd_access
 from balloon_usd.stage.opening import said_by, streaming
 from balloon_usd.stage.properties import PROPERTIES, check_selections, kind_of
 from balloon_usd.stage.variant_sets import LOOK
@@ -33,6 +32,7 @@ MOST = 100
 """Selections of variants that are looked at: sets of variants multiply without end."""
 
 
+@usd_access()
 def check_file(name: str, *, nvidia: bool = True) -> Report:
     """Look for everything that is wrong with a stage: a USD file, or a folder NAME as `run` writes it.
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pxr import Sdf, Usd
 
+from balloon_usd.openusd import Sdf, Usd
 from balloon_usd.stage.properties import Finding
 
 if TYPE_CHECKING:

@@ -5,8 +5,7 @@ from __future__ import annotations
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-from pxr import Sdf
-
+from balloon_usd.openusd import Sdf
 from balloon_usd.stage.properties.reading import clouds_of, meshes_of
 
 if TYPE_CHECKING:

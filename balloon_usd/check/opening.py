@@ -7,8 +7,7 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
-from pxr import Ar, Sdf, Tf, Usd, UsdGeom
-
+from balloon_usd.openusd import Ar, Sdf, Tf, Usd, UsdGeom
 from balloon_usd.stage.on_disk import is_cut_package, special_files
 from balloon_usd.stage.opening import said_by
 

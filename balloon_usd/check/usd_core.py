@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from pxr import Usd, UsdValidation
-
 from balloon_usd.check.fault import USD_CORE, Fault
+from balloon_usd.openusd import Usd, UsdValidation
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

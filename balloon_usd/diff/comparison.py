@@ -5,8 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from pxr import UsdGeom
-
 from balloon_usd.diff.difference import ONLY, Difference
 from balloon_usd.diff.measuring import measure_surfaces
 from balloon_usd.diff.metadata import metadata_differences, prim_metadata, stage_metadata, variant_metadata
@@ -14,6 +12,7 @@ from balloon_usd.diff.movement_text import told_mean, told_movements
 from balloon_usd.diff.pairs import PrimPairs
 from balloon_usd.diff.properties import property_differences
 from balloon_usd.diff.tolerance import EXACT, Allowed, Tolerances
+from balloon_usd.openusd import UsdGeom, each_step_alone
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -22,6 +21,7 @@ POINTS = "points"
 UNITS = frozenset({"metersPerUnit", "upAxis"})
 
 
+@each_step_alone
 def differences(one: Any, other: Any, *, tolerance: float | Tolerances = EXACT) -> Iterator[str]:
     """What differs between two stages as they are composed, a sentence each; how that is done does not count.
 

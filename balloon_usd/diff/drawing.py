@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from balloon_usd.diff.error import DiffError, DiffNotWrittenError
 from balloon_usd.diff.page import diff_page
 from balloon_usd.diff.sheet import draw_sheet
+from balloon_usd.openusd import usd_access
 from balloon_usd.preview import PictureNotWrittenError, PreviewError
 from balloon_usd.preview.png_file import require_place, write_png, write_whole
 
@@ -40,6 +41,7 @@ def require_places(*places: Path | None) -> None:
         raise DiffError(f"{wanted[0]} cannot be both picture and page")
 
 
+@usd_access()
 def draw_comparison(
     comparison: Comparison, *, png: Path | None = None, html: Path | None = None, device: str = "auto"
 ) -> None:

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pxr import Usd, UsdGeom
 
 from balloon_usd.diff.movement import STILL, Moment, Movement
 from balloon_usd.diff.surface import Part, Surface, points_in, surface_of
 from balloon_usd.diff.values import same_bits
 from balloon_usd.diff.world import Standpoint
+from balloon_usd.openusd import Usd, UsdGeom
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from pxr import Sdf
-
 from balloon_usd.diff.difference import ONLY
 from balloon_usd.diff.values import alike
+from balloon_usd.openusd import Sdf
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping

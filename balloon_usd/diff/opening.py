@@ -5,9 +5,8 @@ from __future__ import annotations
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-from pxr import Sdf, Tf, Usd, UsdGeom
-
 from balloon_usd.diff.error import DiffError
+from balloon_usd.openusd import Sdf, Tf, Usd, UsdGeom
 from balloon_usd.stage.on_disk import file_of, is_cut_package, special_files, why_not_named
 from balloon_usd.stage.opening import said_by, streaming
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from pxr import Usd
+from balloon_usd.openusd import Usd
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -6,12 +6,11 @@ import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from pxr import Sdf, Usd
-
 from balloon_usd.diff.difference import ONLY, Difference, Spread
 from balloon_usd.diff.flattening import Flattened, are_indices
 from balloon_usd.diff.metadata import both, metadata_differences
 from balloon_usd.diff.values import Gap, gap_between, same_bits
+from balloon_usd.openusd import Sdf, Usd
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

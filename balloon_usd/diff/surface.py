@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pxr import UsdGeom
 
+from balloon_usd.openusd import UsdGeom
 from balloon_usd.stage.geometry import FAMILY
 
 if TYPE_CHECKING:

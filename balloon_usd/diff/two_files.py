@@ -12,6 +12,7 @@ from balloon_usd.diff.error import DiffError
 from balloon_usd.diff.opening import open_stage, reading, require_whole, stage_file
 from balloon_usd.diff.tolerance import EXACT, Tolerances
 from balloon_usd.diff.variants import selections
+from balloon_usd.openusd import usd_access
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -35,6 +36,7 @@ class Comparison:
         return not self.differences
 
 
+@usd_access()
 def compare_files(
     first: str | Path, second: str | Path, *, tolerances: Tolerances = EXACT, variants: bool = False
 ) -> Comparison:

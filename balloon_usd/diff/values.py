@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pxr import Sdf
+
+from balloon_usd.openusd import Sdf
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pxr import UsdGeom
+
+from balloon_usd.openusd import UsdGeom
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

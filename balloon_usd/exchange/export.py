@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Literal
 from xml.etree import ElementTree as ET
 
 import numpy as np
-from pxr import Tf
 
 from balloon_usd.exchange.error import NotExportedError
 from balloon_usd.exchange.merged_mesh import merged_mesh
@@ -16,6 +15,7 @@ from balloon_usd.exchange.still_formats import write_still
 from balloon_usd.exchange.xdmf_series import require_triangles_and_quads, write_series
 from balloon_usd.mesh_file.error import MeshFileError
 from balloon_usd.mesh_file.libraries import library
+from balloon_usd.openusd import Tf, usd_access
 from balloon_usd.preview.error import PreviewError
 from balloon_usd.preview.read_stage import read_stage
 from balloon_usd.stage.error import StageError
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 Format = Literal["obj", "ply", "vtu", "xdmf"]
 
 
+@usd_access()
 def export_stage(
     stage: str | Path, folder: str | Path, form: Format, *, frames: Sequence[int] | None = None
 ) -> tuple[Path, ...]:
@@ -66,6 +67,7 @@ def export_stage(
         raise MeshFileError(f"{stage} is damaged and cannot be read") from error
 
 
+@usd_access()
 def stage_range(stage: str | Path) -> tuple[int, int]:
     """Return the first and last whole time code of a stage.
 

@@ -7,9 +7,9 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pxr import Sdf, UsdGeom
 
 from balloon_usd.mesh_file.error import MeshFileError
+from balloon_usd.openusd import Sdf, UsdGeom
 from balloon_usd.stage.animated import BUBBLES
 
 if TYPE_CHECKING:

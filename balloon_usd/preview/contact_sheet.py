@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
+from balloon_usd.openusd import usd_access
 from balloon_usd.preview.painter import Painter
 from balloon_usd.preview.png_file import require_place, write_png
 from balloon_usd.preview.read_stage import read_stage
@@ -43,6 +44,7 @@ LONGEST_BAR = 0.25
 """Share of the picture's width."""
 
 
+@usd_access()
 def draw_contact_sheet(
     stage_path: str | Path,
     png_path: str | Path,

@@ -7,8 +7,7 @@ from math import inf, isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pxr import Pcp, Sdf, Tf, Usd, UsdGeom
-
+from balloon_usd.openusd import Pcp, Sdf, Tf, Usd, UsdGeom, usd_access
 from balloon_usd.preview.error import PreviewError
 from balloon_usd.preview.particles import Particles
 from balloon_usd.preview.stage_cloud import StageCloud
@@ -46,6 +45,7 @@ class StageScene:
     """Selected look; "" for a stage that has none."""
     clouds: tuple[StageCloud, ...] = ()
 
+    @usd_access()
     def points(self, time_code: float) -> list[Points]:
         """Return the points (V, 3) of every mesh at a time code (m, z up).
 
@@ -55,10 +55,12 @@ class StageScene:
         world = World.of(self.stage, time_code)
         return [mesh.points_at(time_code, world) for mesh in self.meshes]
 
+    @usd_access()
     def vertex_colors(self, time_code: float) -> list[Points | None]:
         """Return the linear rgb (V, 3) of every mesh that is painted by vertex, at a time code."""
         return [mesh.vertex_colors_at(time_code) for mesh in self.meshes]
 
+    @usd_access()
     def particles(self, time_code: float) -> Particles:
         """Return the particles of all clouds at a time code.
 
@@ -68,6 +70,7 @@ class StageScene:
         world = World.of(self.stage, time_code)
         return Particles.joined([cloud.particles_at(time_code, world) for cloud in self.clouds])
 
+    @usd_access()
     def doing(self, time_code: float) -> str:
         """Return what the hands do at a time code, "" if the stage does not say."""
         root = self.stage.GetDefaultPrim()
@@ -75,6 +78,7 @@ class StageScene:
         return str(said or "")
 
 
+@usd_access()
 def read_stage(path: str | Path, look: str | None = None) -> StageScene:
     """Open a stage in one of its looks, None for its own, and find its meshes and points.
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pxr import UsdGeom
 
+from balloon_usd.openusd import UsdGeom
 from balloon_usd.preview.error import PreviewError
 from balloon_usd.preview.stage_material import bound_subsets, bound_surface, subset_faces
 

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pxr import UsdShade
 
+from balloon_usd.openusd import UsdShade
 from balloon_usd.preview.error import PreviewError
 from balloon_usd.stage.shaders import PREVIEW_SURFACE
 

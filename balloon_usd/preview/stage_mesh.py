@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pxr import Usd, UsdGeom
 
+from balloon_usd.openusd import Usd, UsdGeom
 from balloon_usd.preview.error import PreviewError
 from balloon_usd.preview.stage_color import face_colors, vertex_colors
 from balloon_usd.preview.stage_finish import face_finishes, is_wire

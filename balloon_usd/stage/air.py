@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pxr import UsdGeom, Vt
 
+from balloon_usd.openusd import UsdGeom, Vt
 from balloon_usd.stage.animated import BY_CLUSTER, ON_AIR
 
 if TYPE_CHECKING:

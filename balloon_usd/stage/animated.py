@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import numpy as np
-from pxr import Sdf, Vt
 
+from balloon_usd.openusd import Sdf, Vt
 from balloon_usd.stage.cluster_color import colors_of
 from balloon_usd.stage.provenance import KEY
 from balloon_usd.stage.stretch_color import stretch_colors, stretch_shades

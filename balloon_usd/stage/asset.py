@@ -5,8 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pxr import Sdf, Usd
-
+from balloon_usd.openusd import Sdf, Usd
 from balloon_usd.stage.built import Built
 from balloon_usd.stage.detail_files import MATERIALS, PAYLOAD, TEXTURE, detail_files
 from balloon_usd.stage.earlier import Earlier, carry_over, find_earlier, orphaned_texture

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from pxr import Kind
+from balloon_usd.openusd import Kind
 
 
 def in_component(prim: Any) -> bool:

@@ -7,8 +7,8 @@ from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
-from pxr import Sdf
 
+from balloon_usd.openusd import Sdf, usd_access
 from balloon_usd.stage.error import StageError
 from balloon_usd.stage.provenance import GIVEN, problems
 from balloon_usd.stage.stretch_color import LOWEST_STRETCH
@@ -216,6 +216,7 @@ class StageDescription:
         return self.numbers_of(mesh)[mesh.quad_bubble]
 
 
+@usd_access()
 def require_identifier(name: str) -> None:
     """Refuse what cannot name a prim and a file.
 

@@ -9,8 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pxr import Sdf, Tf
-
+from balloon_usd.openusd import Sdf, Tf
 from balloon_usd.stage.detail_files import MATERIALS, TEXTURE, detail_files
 from balloon_usd.stage.interface import read_extents
 from balloon_usd.stage.provenance import KEY

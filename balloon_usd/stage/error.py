@@ -5,7 +5,7 @@ from __future__ import annotations
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-from pxr import Tf
+from balloon_usd.openusd import Tf
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

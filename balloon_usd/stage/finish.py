@@ -5,8 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from pxr import Gf, Sdf, UsdShade
-
+from balloon_usd.openusd import Gf, Sdf, UsdShade
 from balloon_usd.stage.looks import CHROME, CLAY, CLEAR, RECIPE
 from balloon_usd.stage.shaders import preview_surface
 

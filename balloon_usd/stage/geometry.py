@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pxr import Sdf, UsdGeom, Vt
 
+from balloon_usd.openusd import Sdf, UsdGeom, Vt
 from balloon_usd.stage.air import author_air
 from balloon_usd.stage.animated import BUBBLES, ON_MESH, ON_ROOT
 from balloon_usd.stage.looks import author_within_quad

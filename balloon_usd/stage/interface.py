@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from pxr import Sdf, Vt
 
 from balloon_usd import __version__
+from balloon_usd.openusd import Sdf, Vt
 from balloon_usd.stage.detail_files import detail_files
 from balloon_usd.stage.layer_metadata import set_provenance, set_units
 from balloon_usd.stage.prim_paths import class_path, root_path

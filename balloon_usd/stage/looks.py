@@ -11,8 +11,8 @@ from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pxr import Gf, Sdf, UsdGeom, UsdShade, Vt
 
+from balloon_usd.openusd import Gf, Sdf, UsdGeom, UsdShade, Vt
 from balloon_usd.stage.error import StageError
 from balloon_usd.stage.prim_paths import part_path, root_path
 from balloon_usd.stage.variant_sets import LOOK

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from pxr import UsdGeom, UsdShade
-
+from balloon_usd.openusd import UsdGeom, UsdShade
 from balloon_usd.stage.finish import FINISHES, Color, author_material
 from balloon_usd.stage.looks import (
     CHROME,

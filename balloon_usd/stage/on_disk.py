@@ -9,7 +9,7 @@ from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pxr import Sdf, Tf, UsdUtils
+from balloon_usd.openusd import Sdf, Tf, UsdUtils
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

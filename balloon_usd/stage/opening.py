@@ -6,7 +6,7 @@ import os
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-from pxr import Sdf, Usd, UsdUtils
+from balloon_usd.openusd import Sdf, Usd, UsdUtils, usd_access
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -17,29 +17,33 @@ READ_IN_PARTS = "USDC_USE_PREAD"
 
 @contextmanager
 def quiet() -> Iterator[None]:
-    """Keep USD's own warnings from the error stream: what they are about is found out otherwise."""
-    held = UsdUtils.CoalescingDiagnosticDelegate()
-    try:
-        yield
-    finally:
-        held.TakeUncoalescedDiagnostics()
-        # The traceback of an exception would keep it, and the silence with it.
-        del held
+    """Keep USD's own warnings from the error stream: what they are about is found out otherwise.
+
+    Other threads wait, as what is set here holds for the process.
+    """
+    with usd_access():
+        held = UsdUtils.CoalescingDiagnosticDelegate()
+        try:
+            yield
+        finally:
+            held.TakeUncoalescedDiagnostics()
+            # The traceback of an exception would keep it, and the silence with it.
+            del held
 
 
 @contextmanager
 def streaming() -> Iterator[None]:
     """Open and read stages inside the block quietly, and without their files growing into memory."""
-    before = os.environ.get(READ_IN_PARTS)
-    os.environ[READ_IN_PARTS] = "1"
-    try:
-        with quiet():
+    with quiet():
+        before = os.environ.get(READ_IN_PARTS)
+        os.environ[READ_IN_PARTS] = "1"
+        try:
             yield
-    finally:
-        if before is None:
-            del os.environ[READ_IN_PARTS]
-        else:
-            os.environ[READ_IN_PARTS] = before
+        finally:
+            if before is None:
+                del os.environ[READ_IN_PARTS]
+            else:
+                os.environ[READ_IN_PARTS] = before
 
 
 def in_own_session(stage: Any) -> Any:

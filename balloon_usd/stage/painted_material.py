@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from pxr import Sdf, UsdGeom
-
+from balloon_usd.openusd import Sdf, UsdGeom
 from balloon_usd.stage.shaders import preview_surface, primvar_reader
 
 AIR_ROUGHNESS = 0.4

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from pxr import Sdf
-
+from balloon_usd.openusd import Sdf
 from balloon_usd.stage.detail_files import MATERIALS, detail_files
 from balloon_usd.stage.layer_metadata import set_time_range, set_units
 from balloon_usd.stage.looks import STRESS

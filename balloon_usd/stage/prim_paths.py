@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from pxr import Sdf
+from balloon_usd.openusd import Sdf
 
 
 def root_path(name: str) -> Any:

@@ -5,8 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from pxr import Sdf
-
+from balloon_usd.openusd import Sdf
 from balloon_usd.stage.animated import STEP
 from balloon_usd.stage.error import StageError, writing
 from balloon_usd.stage.frame_check import check_frame

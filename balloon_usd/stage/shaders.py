@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from pxr import Sdf, UsdShade
+from balloon_usd.openusd import Sdf, UsdShade
 
 PREVIEW_SURFACE = "UsdPreviewSurface"
 

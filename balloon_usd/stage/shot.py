@@ -8,8 +8,7 @@ from __future__ import annotations
 from pathlib import PurePosixPath
 from typing import TYPE_CHECKING, Any
 
-from pxr import Kind, Sdf, Usd
-
+from balloon_usd.openusd import Kind, Sdf, Usd
 from balloon_usd.stage.error import writing
 from balloon_usd.stage.layer_metadata import set_time_range, set_units
 from balloon_usd.stage.shot_camera import frame_box

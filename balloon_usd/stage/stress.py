@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pxr import Sdf, UsdGeom, Vt
 
+from balloon_usd.openusd import Sdf, UsdGeom, Vt
 from balloon_usd.stage.animated import colors_of_stress, shades_of_stress
 from balloon_usd.stage.prim_paths import part_path, root_path
 from balloon_usd.stage.stretch_color import RAMP, ramp_legend

@@ -7,8 +7,8 @@ from math import cos, pi, radians, sin, tan
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pxr import Gf, Sdf, UsdGeom, UsdLux, UsdShade, Vt
 
+from balloon_usd.openusd import Gf, Sdf, UsdGeom, UsdLux, UsdShade, Vt
 from balloon_usd.stage.shaders import preview_surface
 from balloon_usd.stage.shot_camera import ASPECT, FOCAL_LENGTH, SENSOR_WIDTH
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from pxr import Gf, Sdf, UsdShade
-
+from balloon_usd.openusd import Gf, Sdf, UsdShade
 from balloon_usd.stage.looks import WITHIN_QUAD
 from balloon_usd.stage.shaders import preview_surface, primvar_reader
 from balloon_usd.stage.wire_texture import CUT, FILE_NAME

@@ -5,8 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-from pxr import Sdf
-
+from balloon_usd.openusd import Sdf
 from balloon_usd.stage.animated import ON_AIR, ON_MESH, ON_ROOT
 from balloon_usd.stage.prim_paths import part_path, root_path
 

@@ -8,8 +8,7 @@ import zipfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pxr import Sdf, UsdGeom, Vt
-
+from balloon_usd.openusd import Sdf, UsdGeom, Vt
 from balloon_usd.stage.built import Built
 from balloon_usd.stage.error import writing
 from balloon_usd.stage.flat import author_rest, begin_single_layer

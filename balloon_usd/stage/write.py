@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
-from pxr import Sdf, Usd
-
+from balloon_usd.openusd import Sdf, Usd, usd_access
 from balloon_usd.stage.asset import begin_asset, complete_asset
 from balloon_usd.stage.description import require_identifier
 from balloon_usd.stage.detail_files import MATERIALS
@@ -99,6 +98,7 @@ class StageWriter:
                 raise StageError(f"{beside} could not be written: a folder is in the way")
         self._work = Workspace(self._final)
 
+    @usd_access()
     def __enter__(self) -> Self:
         """Make the hidden files; raises `StageError` when the folder cannot be written."""
         with ExitStack() as stack:
@@ -108,10 +108,12 @@ class StageWriter:
             self._stack = stack.pop_all()
         return self
 
+    @usd_access()
     def write(self, frame: StageFrame) -> None:
         """Take one frame; raises `StageError` when it is not right or the disk is full."""
         self._stream.write(frame)
 
+    @usd_access()
     def finish(self) -> WrittenStage:
         """Write the rest and give the stage its final name; raises `StageError` when that fails."""
         take = self._stream.close()
@@ -127,10 +129,13 @@ class StageWriter:
         low, high = ((float(x), float(y), float(z)) for x, y, z in take.extent)
         return WrittenStage(files, take.frames, (low, high), built.stale)
 
+    @usd_access()
     def __exit__(
         self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None
     ) -> None:
         """Remove what was not finished."""
+        for left in ("_stream", "_layers"):
+            self.__dict__.pop(left, None)
         self._stack.close()
 
     def _beside(self) -> tuple[str, ...]:

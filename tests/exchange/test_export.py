@@ -206,14 +206,15 @@ def test_a_full_disk_leaves_the_earlier_files(form: str, dog: Path, tmp_path: Pa
 def test_memory_does_not_grow_with_the_number_of_frames(form: str, tmp_path: Path) -> None:
     stage = write_stage(sculpture(rings=1250), frames(24, rings=1250), tmp_path).files[0]
     export_stage(stage, tmp_path / "first", form, frames=[1])
-    peaks = []
-    for count in (3, 24):
+    peaks = {3: [], 24: []}
+    # The interpreter's table of names may grow meanwhile, by 2 MB, but not in both of two goes.
+    for count, found in 2 * [*peaks.items()]:
         tracemalloc.start()
         export_stage(stage, tmp_path / str(count), form, frames=range(1, count + 1))
-        peaks.append(tracemalloc.get_traced_memory()[1])
+        found.append(tracemalloc.get_traced_memory()[1])
         tracemalloc.stop()
     # A frame has 240 kB of points; what XDMF says of a frame in its text is 10 kB.
-    assert peaks[1] < peaks[0] + 400_000
+    assert min(peaks[24]) < min(peaks[3]) + 400_000
 
 
 def test_a_stage_that_is_damaged_between_its_frames_is_refused_and_leaves_nothing(

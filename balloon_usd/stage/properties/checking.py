@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from balloon_usd.openusd import each_step_alone, usd_access
 from balloon_usd.stage.properties.finding import Finding
 from balloon_usd.stage.properties.kinds import kind_of
 from balloon_usd.stage.properties.samples import look_at_samples
@@ -18,11 +19,13 @@ if TYPE_CHECKING:
     from balloon_usd.stage.properties.variants import Selection
 
 
+@usd_access()
 def check_property(number: int, stage: Any) -> list[Finding]:
     """Every finding of one property of one stage."""
     return _findings(stage, {number: PROPERTIES[number]}, set())
 
 
+@usd_access()
 def check_stage(stage: Any) -> list[Finding]:
     """Every finding of every property of one stage, in order of the numbers."""
     return _findings(stage, properties_of(kind_of(stage)), set())
@@ -38,6 +41,7 @@ class Selected(NamedTuple):
     """What was not found in an earlier selection, where that has the same values."""
 
 
+@each_step_alone
 def check_selections(stage: Any) -> Iterator[Selected]:
     """Every selection of the variants with its findings; its own comes first, and values are looked at once.
 
@@ -50,6 +54,7 @@ def check_selections(stage: Any) -> Iterator[Selected]:
         yield Selected(selection, selected, findings)
 
 
+@usd_access()
 def check_variants(stage: Any) -> list[Finding]:
     """Every finding of one stage under every selection of its variants, as findings of property 32."""
     return [

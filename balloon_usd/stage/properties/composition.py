@@ -5,8 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pxr import Sdf, Tf, UsdGeom, UsdUtils
-
+from balloon_usd.openusd import Sdf, Tf, UsdGeom, UsdUtils
 from balloon_usd.stage.opening import said_by
 from balloon_usd.stage.properties.finding import Finding
 from balloon_usd.stage.properties.kinds import ROOT_KIND, UP_AXIS, StageKind, kind_of

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from pxr import Tf, Usd
-
+from balloon_usd.openusd import Tf, Usd, each_step_alone
 from balloon_usd.stage.opening import said_by
 from balloon_usd.stage.properties.composition import opens_whole
 from balloon_usd.stage.properties.finding import Finding
@@ -28,6 +27,7 @@ def same_bytes(one: Path, other: Path) -> Iterator[Finding]:
             yield Finding(29, f"{pair[0]} and {pair[1]} differ")
 
 
+@each_step_alone
 def whole_or_absent(folder: Path, name: str) -> Iterator[Finding]:
     """Property 30: whatever ended the run, what has the final name is whole."""
     asset, interface, flat = folder / name, folder / name / f"{name}.usda", folder / f"{name}.usdc"

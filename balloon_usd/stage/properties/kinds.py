@@ -5,7 +5,7 @@ from __future__ import annotations
 from enum import Enum
 from typing import Any
 
-from pxr import Kind
+from balloon_usd.openusd import Kind
 
 
 class StageKind(Enum):

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from pxr import UsdGeom
-
+from balloon_usd.openusd import UsdGeom
 from balloon_usd.stage.properties.finding import Finding
 from balloon_usd.stage.properties.reading import clouds_of, meshes_of, mistyped, value_at
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pxr import Sdf, Usd, UsdGeom
 
+from balloon_usd.openusd import Sdf, Usd, UsdGeom
 from balloon_usd.stage.component import in_component
 from balloon_usd.stage.properties.kinds import StageKind, kind_of
 

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import os
-from concurrent.futures import ThreadPoolExecutor
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pxr import UsdGeom
 
+from balloon_usd.openusd import UsdGeom
 from balloon_usd.stage.properties.reading import (
     Opinions,
     attributes_of,
@@ -28,17 +25,15 @@ if TYPE_CHECKING:
 
     OfValue = Callable[[Value], Iterator[Finding]]
     AtMoment = Callable[[Moment], Iterator[Finding]]
-    Times = Sequence[float | None]
-    Job = Callable[[], list[Finding]]
-
-TOGETHER = 16
-"""Samples that a thread looks at one after another; the one before them is read once more."""
 
 
 def look_at_samples(
     stage: Any, of_values: Sequence[OfValue], at_moments: Sequence[AtMoment], seen: set[Opinions]
 ) -> list[Finding]:
     """Findings of all samples and defaults; memory does not grow with their number.
+
+    In one thread: OpenUSD is not safe with more, and reading, which holds the interpreter's lock, takes most
+    of the time.
 
     Args:
         stage: an open stage, which must not be edited meanwhile.
@@ -48,20 +43,16 @@ def look_at_samples(
     """
     shapes = {shape.path: shape for shape in shapes_of(stage)}
     fresh = {path for path, shape in shapes.items() if _is_new(shape.opinions(), seen)}
-    jobs: list[Job] = []
+    findings: list[Finding] = []
     for attribute in attributes_of(stage):
         path = str(attribute.GetPrim().GetPath())
         opinions = opinions_on(attribute)
         if path in fresh or _is_new(opinions, seen):
             seen.add(opinions)
-            times = [*attribute.GetTimeSamples(), None]
-            jobs += [partial(_look, attribute, part, shapes.get(path), of_values) for part in _parts(times)]
+            findings += _look(attribute, shapes.get(path), of_values)
     for path in fresh:
-        shape = shapes[path]
-        times = shape.schema.GetPointsAttr().GetTimeSamples() or [None]
-        starts = range(0, len(times), TOGETHER)
-        jobs += [partial(_follow, shape, times, start, at_moments) for start in starts]
-    return _done(jobs)
+        findings += _follow(shapes[path], at_moments)
+    return findings
 
 
 def shapes_of(stage: Any) -> list[Shape]:
@@ -80,36 +71,23 @@ def _is_new(opinions: Opinions, seen: set[Opinions]) -> bool:
     return new
 
 
-def _parts(times: Times) -> list[Times]:
-    return [times[start : start + TOGETHER] for start in range(0, len(times), TOGETHER)]
-
-
-def _look(attribute: Any, times: Times, shape: Shape | None, of_values: Sequence[OfValue]) -> list[Finding]:
-    """Findings of values of an attribute."""
+def _look(attribute: Any, shape: Shape | None, of_values: Sequence[OfValue]) -> list[Finding]:
+    """Findings of the values of an attribute."""
+    times = [*attribute.GetTimeSamples(), None]
     values = (Value(attribute, time, value_at(attribute, time), shape) for time in times)
     return [finding for value in values for look in of_values for finding in look(value)]
 
 
-def _follow(shape: Shape, times: Times, start: int, at_moments: Sequence[AtMoment]) -> list[Finding]:
-    """Findings of a shape at some samples of its points, from the one with the number `start` on."""
+def _follow(shape: Shape, at_moments: Sequence[AtMoment]) -> list[Finding]:
+    """Findings of a shape at the samples of its points."""
     points = shape.schema.GetPointsAttr()
     before = None
     findings: list[Finding] = []
-    for number in range(max(0, start - 1), min(start + TOGETHER, len(times))):
+    for time in points.GetTimeSamples() or [None]:
         # The moment before keeps none before it, or all would be kept.
-        positions = value_at(points, times[number]).reshape(-1, 3)
-        moment = Moment(shape, times[number], positions, before)
-        if number >= start:
-            with np.errstate(invalid="ignore", over="ignore"):
-                findings += [finding for look in at_moments for finding in look(moment)]
-        before = Moment(shape, times[number], positions)
+        positions = value_at(points, time).reshape(-1, 3)
+        moment = Moment(shape, time, positions, before)
+        with np.errstate(invalid="ignore", over="ignore"):
+            findings += [finding for look in at_moments for finding in look(moment)]
+        before = Moment(shape, time, positions)
     return findings
-
-
-def _done(jobs: Sequence[Job]) -> list[Finding]:
-    """Do the jobs side by side: NumPy leaves the interpreter free for another thread."""
-    threads = ThreadPoolExecutor(min(os.cpu_count() or 1, max(1, len(jobs))))
-    try:
-        return [finding for findings in threads.map(lambda job: job(), jobs) for finding in findings]
-    finally:
-        threads.shutdown(cancel_futures=True)

@@ -7,8 +7,8 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pxr import UsdGeom
 
+from balloon_usd.openusd import UsdGeom
 from balloon_usd.stage.properties.reading import Opinions, first_value, opinions_on, value_at
 from balloon_usd.stage.properties.triangles import Triangles
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pxr import UsdGeom
 
+from balloon_usd.openusd import UsdGeom
 from balloon_usd.stage.properties.finding import Finding
 from balloon_usd.stage.properties.reading import attributes_of
 

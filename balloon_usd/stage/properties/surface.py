@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pxr import UsdGeom, Vt
 
+from balloon_usd.openusd import UsdGeom, Vt
 from balloon_usd.stage.pose import extent_of
 from balloon_usd.stage.properties.finding import Finding
 from balloon_usd.stage.properties.reading import clouds_of, is_float, meshes_of

@@ -7,8 +7,8 @@ from math import isfinite
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pxr import UsdGeom
 
+from balloon_usd.openusd import UsdGeom
 from balloon_usd.stage.animated import ON_MESH
 from balloon_usd.stage.properties.finding import Finding
 from balloon_usd.stage.properties.kinds import StageKind, kind_of
