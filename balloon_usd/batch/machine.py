@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 SIMULATORS_PER_GPU = 2
-"""While one sees to the hands of its sculptures, the other has the device. A third one made 768 dogs on an H200
-7 % slower."""
+"""While one sees to the hands of its sculptures, the other has the device. With a third one, 768 dogs took an
+H200 7 % longer."""
 TOGETHER = 128
 """Sculptures that advance together on a GPU at most: about one for each multiprocessor of an H100."""
 ENOUGH_FOR_TWO = 96
