@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pytest
+
 from tests.batch import runs
 
 ORDER = ("-o", "out", "--flat", "--no-preview", "--no-report")
@@ -23,6 +25,7 @@ def test_a_device_out_of_memory_gets_smaller_batches(cli, solver, gpu, write_rec
     assert max(len(names) for names in solver.calls[1:]) <= 4
 
 
+@pytest.mark.long
 def test_the_cpu_takes_over_at_last_from_a_device_that_nobody_asked_for(
     cli, solver, gpu, write_recipes, tmp_path
 ):

@@ -31,7 +31,7 @@ def hung(words, folder, count, at_once):
     ("count", "at_once", "recipes"),
     [
         (2, 1, 6),
-        (4, 4, 6),
+        pytest.param(4, 4, 6, marks=pytest.mark.long),
         pytest.param(160, 1, 16, marks=pytest.mark.long),
         pytest.param(40, 4, 16, marks=pytest.mark.long),
     ],

@@ -63,7 +63,7 @@ def test_every_process_may_be_killed_once_and_everything_is_made(cli, solver, gp
     assert sum(names == ["c"] for names in solver.calls) <= 1
 
 
-@pytest.mark.parametrize("role", ["simulator", "writer", "drawer"])
+@pytest.mark.parametrize("role", ["simulator", "writer", pytest.param("drawer", marks=LONG)])
 def test_a_recipe_that_always_kills_is_given_up_and_all_others_are_made(
     role, cli, solver, gpu, write_recipes, tmp_path
 ):

@@ -52,7 +52,7 @@ def test_a_task_whose_recipe_is_gone_fails_with_the_line_that_says_so(cli, folde
     recipe.unlink()
     result = cli("farm-task", "chunks.jsonl", 1, "recipes", "--", "--output", "out")
     assert result.exit_code == 2
-    assert "recipes/dog.yaml:1:1: cannot be read (No such file or directory)\n" in result.stdout
+    assert "recipes/dog.yaml:1:1: cannot be read (No such file or directory)" in result.stdout
 
 
 @pytest.mark.parametrize(
