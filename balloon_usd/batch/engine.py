@@ -61,6 +61,8 @@ class Engine:
         self.order, self.machine, self.watch = order, machine, watch
         self._pool = Pool(order)
         self._failed_starts = 0
+        self._over = False
+        """Whether all is made, and no worker has to start any more."""
 
     def __enter__(self) -> Self:
         """Start nothing yet."""
@@ -95,6 +97,7 @@ class Engine:
         todo = self._not_there_yet(accepted, journal)
         if todo:
             self.make_all(todo, journal)
+            self._over = True
             self._tidy([job for job in todo if job.record and job.record.status is not Status.DONE])
         journal.put_in_order(job.file for job in jobs)
 
@@ -127,6 +130,8 @@ class Engine:
                 self._hear_start(worker, message)
 
     def _hear_start(self, worker: Worker, message: object | None) -> None:
+        if self._over:
+            return
         if message is None:
             self._failed_starts += 1
             if self._failed_starts >= MOST_FAILED_STARTS:
