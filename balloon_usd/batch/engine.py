@@ -62,7 +62,7 @@ class Engine:
         self._pool = Pool(order)
         self._failed_starts = 0
         self._over = False
-        """Whether all is made, and no worker has to start any more."""
+        """Whether all is made, and no simulator is needed any more."""
 
     def __enter__(self) -> Self:
         """Start nothing yet."""
@@ -130,7 +130,7 @@ class Engine:
                 self._hear_start(worker, message)
 
     def _hear_start(self, worker: Worker, message: object | None) -> None:
-        if self._over:
+        if self._over and worker.role is Role.SIMULATOR:
             return
         if message is None:
             self._failed_starts += 1
