@@ -35,6 +35,8 @@ class Facts:
     group: Hashable
     """Recipes of one group can advance in one simulation."""
     cautions: tuple[str, ...] = ()
+    plan: bytes = b""
+    """See `reading.packed`."""
 
 
 @dataclass(frozen=True)
@@ -72,6 +74,7 @@ def _is_pipe_or_device(file: Path) -> bool:
 
 def _judge(plan: Plan, order: Order) -> Facts | Refusal:
     from balloon_usd.balloon.detail import detail_named  # noqa: PLC0415
+    from balloon_usd.batch.reading import packed  # noqa: PLC0415
     from balloon_usd.plan.meshing import mesh_of  # noqa: PLC0415
 
     recipe = plan.recipe
@@ -96,6 +99,7 @@ def _judge(plan: Plan, order: Order) -> Facts | Refusal:
         sum(len(mesh_of(strip, level).points) for strip in plan.strips.values()),
         _group(plan),
         tuple(_cautions(plan)),
+        packed(plan),
     )
 
 

@@ -17,8 +17,9 @@ SLOT_BYTES = 2 * 2**20
 """Frames that travel together: more would make the first ones late [B]."""
 MOST_FRAMES = 64
 """Frames in a slot at most."""
-SLOTS = 6
-"""Slots of a ring: writers may be so far behind the simulator before that waits."""
+SLOTS = 16
+"""Slots of a ring: writers may be so far behind the simulator before that waits. They are used last in, first
+out, so those that are never needed take no memory."""
 
 
 @dataclass(frozen=True)

@@ -103,6 +103,8 @@ class Part:
     """Hashes of the recipe's text and its meshes when it was surveyed, and the version of the solver."""
     last: int
     """Last time code that is wanted."""
+    plan: bytes = b""
+    """Its plan, see `reading.packed`; empty if that is large."""
 
 
 @dataclass(frozen=True)

@@ -208,7 +208,8 @@ class Scheduler:
         by_writer: dict[Worker, list[Part]] = defaultdict(list)
         writers = [worker for worker in self._pool.of(Role.WRITER) if worker.ready]
         for place, job in enumerate(jobs):
-            part = Part(job.number, number, place, job.file, job.known.provenance, job.known.frames)
+            known = job.known
+            part = Part(job.number, number, place, job.file, known.provenance, known.frames, known.plan)
             parts.append(part)
             writer = min(writers, key=lambda one: self._load[one])
             self._load[writer] += 1

@@ -74,21 +74,21 @@ class Sculpture:
         self._undone = news.get(time_code, {}).get(self.part.place, self._undone)
         return self._undone
 
-    def add(self, frame: Frame) -> Made | None:
-        """Take the next frame; return what was made if it was the last one.
-
-        Raises:
-            StageError: the stage cannot be written.
-            ReportError: the report cannot be written.
-        """
+    def add(self, frame: Frame) -> None:
+        """Take the next frame; raises `StageError` when the stage cannot be written."""
         self._tally.add(frame)
         if frame.time_code in self._codes:
             if self._history is not None:
                 self._history.add(frame)
             self._writer.write(frame)
-        return self._finish() if frame.time_code == self._codes[-1] else None
 
-    def _finish(self) -> Made:
+    def finish(self) -> Made:
+        """Give everything its final name once the last frame is taken.
+
+        Raises:
+            StageError: the stage cannot be written.
+            ReportError: the report cannot be written.
+        """
         written = self._writer.finish()
         self._open.close()
         name, folder = self._plan.recipe.name, self._order.folder

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import pickle
 import traceback
+from collections import deque
 from typing import TYPE_CHECKING, Any
 
 from balloon_usd.batch.channel import receive_ring
 from balloon_usd.batch.facts import Refusal, survey
-from balloon_usd.batch.frame_ring import FrameRing
+from balloon_usd.batch.frame_ring import SLOTS, FrameRing
 from balloon_usd.batch.leftovers import remove_leftovers
 from balloon_usd.batch.messages import (
     Begin,
@@ -37,9 +38,11 @@ if TYPE_CHECKING:
     from multiprocessing.connection import Connection
 
     from balloon_usd.batch.facts import Facts
-    from balloon_usd.batch.messages import Made, Part, Start
+    from balloon_usd.batch.messages import Part, Start
     from balloon_usd.solver.frame import Frame
 
+MOST_HEARD = SLOTS
+"""Messages that are heard before the next sculpture is finished, at most: as many as there may be frames."""
 EXPECTED = (StageError, ReportError)
 """What may go wrong with a sculpture without a mistake in this program."""
 OF_RECIPE = (RecipeChanged, RecipeError)
@@ -54,11 +57,18 @@ class Writer:
         self._connection = connection
         self._order = start.order
         self._batches: dict[int, _Batch] = {}
+        self._complete: deque[Sculpture] = deque()
+        """Sculptures that have all their frames and no final names yet."""
+        self._heard = 0
+        """Messages since one was finished."""
         connection.send(Started())
 
     def run(self) -> None:
         """Write until the connection ends; raises `EOFError` then."""
         while True:
+            if self._complete and not self._frames_first():
+                self._finish(self._complete[0])
+                continue
             message = self._connection.recv()
             if isinstance(message, Survey):
                 self._survey(message)
@@ -77,8 +87,17 @@ class Writer:
             else:
                 raise TypeError(f"a writer was told {type(message).__name__}")
 
+    def _frames_first(self) -> bool:
+        """Whether the next sculpture is finished later: simulators wait when frames are taken late."""
+        growing = sum(len(batch.sculptures) for batch in self._batches.values())
+        few = len(self._complete) <= growing and self._heard < MOST_HEARD
+        self._heard = self._heard + 1 if few and self._connection.poll() else 0
+        return self._heard > 0
+
     def close(self) -> None:
         """Remove what is half-written."""
+        for sculpture in self._complete:
+            sculpture.stop()
         for batch in self._batches.values():
             for sculpture in batch.sculptures.values():
                 sculpture.stop()
@@ -106,7 +125,10 @@ class Writer:
             try:
                 self._start(part, batch)
             except Exception as error:  # no sculpture takes another one along
-                self._give_up(batch, part, error)
+                self._tell_not_made(part, error)
+                if sculpture := batch.sculptures.get(part.place):
+                    sculpture.stop()
+                    del batch.sculptures[part.place]
         if not batch.sculptures:
             del self._batches[begin.batch]
 
@@ -141,19 +163,29 @@ class Writer:
     def _write(self, batch: _Batch, place: int, frames: list[Any]) -> None:
         sculpture = batch.sculptures[place]
         try:
-            made: Made | None = None
             for frame in frames:
-                made = sculpture.add(frame)
+                sculpture.add(frame)
         except Exception as error:  # no sculpture takes another one along
-            self._give_up(batch, sculpture.part, error)
-            return
-        if made is not None:
-            del batch.sculptures[place]
-            self._connection.send(made)
-
-    def _give_up(self, batch: _Batch, part: Part, error: Exception) -> None:
-        if sculpture := batch.sculptures.pop(part.place, None):
             sculpture.stop()
+            self._tell_not_made(sculpture.part, error)
+            del batch.sculptures[place]
+            return
+        if frames and frames[-1].time_code == sculpture.part.last:
+            self._complete.append(sculpture)
+            del batch.sculptures[place]
+
+    def _finish(self, sculpture: Sculpture) -> None:
+        try:
+            made = sculpture.finish()
+        except Exception as error:  # no sculpture takes another one along
+            sculpture.stop()
+            self._tell_not_made(sculpture.part, error)
+        else:
+            self._connection.send(made)
+        # Until now `close` finds it, whatever ends this process.
+        self._complete.popleft()
+
+    def _tell_not_made(self, part: Part, error: Exception) -> None:
         trouble, why = Trouble.NOT_WRITTEN, f"{part.file}: {error}"
         if isinstance(error, OF_RECIPE):
             why = str(error)
@@ -163,6 +195,11 @@ class Writer:
         self._connection.send(NotMade(part.job, part.batch, trouble, why))
 
     def _drop(self, drop: Drop) -> None:
+        for sculpture in list(self._complete):
+            part = sculpture.part
+            if part.batch == drop.batch and (not drop.jobs or part.job in drop.jobs):
+                sculpture.stop()
+                self._complete.remove(sculpture)
         batch = self._batches.get(drop.batch)
         if batch is None:
             return
