@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -108,6 +109,7 @@ def _graded(
         count += 1
 
 
+@lru_cache(maxsize=64)
 def tube_mesh(
     size: BalloonSize,
     detail: Detail,
@@ -116,6 +118,8 @@ def tube_mesh(
     guides: tuple[float, ...] = (),
 ) -> BalloonMesh:
     """Return the mesh of a balloon with a ring at every joint (m along the flat tube), one for each guide.
+
+    Sculptures of a crowd share it, so its arrays cannot be written to.
 
     `bubble_ends`: where each bubble ends, m along the flat tube, ascending; the knot and lip belong to the
     first bubble and the tip to the last.
@@ -140,7 +144,7 @@ def tube_mesh(
     tip_cap[:, 0] = along[-1] + tip_cap[:, 0] * size.radius / radius[-1]
     points = np.concatenate([lip_cap, tube.reshape(-1, 3), tip_cap]).astype(np.float32)
     vertex_along = np.concatenate([lip_cap[:, 0], np.repeat(along, n), tip_cap[:, 0]]).astype(np.float32)
-    return BalloonMesh(
+    mesh = BalloonMesh(
         points=points,
         quads=ringed_quads(n, rings),
         st=ringed_texture(n, (along - along[0]) / (along[-1] - along[0])),
@@ -150,6 +154,9 @@ def tube_mesh(
         ring_start=ring_starts(n, rings),
         ring_along=along,
     )
+    for name in ("points", "quads", "st", "quad_bubble", "along", "ring_start", "ring_along"):
+        getattr(mesh, name).flags.writeable = False
+    return mesh
 
 
 def _domed_cap(around: int, radius: float, dome: float) -> NDArray[np.float64]:

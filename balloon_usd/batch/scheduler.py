@@ -75,6 +75,8 @@ class Scheduler:
         self._runs: dict[int, BatchRun] = {}
         self._busy: dict[Worker, int] = {}
         """Simulators at work, with the numbers of their batches."""
+        self._preparing: set[Worker] = set()
+        """Simulators that have got a batch and not laid it out yet."""
         self._load: dict[Worker, int] = defaultdict(int)
         """Jobs of every writer."""
         self._drawing: dict[int, tuple[Worker, Made]] = {}
@@ -177,7 +179,10 @@ class Scheduler:
             return
         for worker in self._pool.of(Role.SIMULATOR):
             if worker.ready and worker not in self._busy and worker.device in self._devices:
-                jobs = self._waiting.take(self._together(self._devices[worker.device]))
+                together = self._together(self._devices[worker.device])
+                if self._should_wait(worker, together):
+                    continue
+                jobs = self._waiting.take(together)
                 if not jobs and not (self._runs or self._drawing):
                     jobs = self._waiting.take_alone()
                 if not jobs:
@@ -195,6 +200,14 @@ class Scheduler:
             wanted = self._machine.simulators(device, len(there) - idle + batches)
             for _ in range(wanted - len(there)):
                 self._pool.start(Role.SIMULATOR, device.name)
+
+    def _should_wait(self, simulator: Worker, together: int) -> bool:
+        """Whether a simulator is to wait for another one of its GPU that prepares a batch.
+
+        If all prepared their batches at the same time, and ended them so, the GPU would be idle meanwhile.
+        """
+        others = [worker for worker in self._preparing if worker.device == simulator.device]
+        return bool(others) and self._devices[simulator.device].is_gpu and len(self._waiting) > together
 
     def _together(self, device: Device) -> int:
         # All devices share the recipes, so that none is idle at the end.
@@ -217,6 +230,7 @@ class Scheduler:
             job.frames = 0
         self._runs[number] = BatchRun(number, simulator, by_writer)
         self._busy[simulator] = number
+        self._preparing.add(simulator)
         simulator.send(Simulate(number, tuple(parts)))
         for writer, own in by_writer.items():
             writer.send(Begin(number, tuple(own)))
@@ -224,6 +238,7 @@ class Scheduler:
     # Frames.
 
     def _lay_out(self, run: BatchRun, told: LaidOut) -> None:
+        self._preparing.discard(run.simulator)
         memory = SharedMemory(told.size)
         try:
             name = memory.handle if isinstance(memory.handle, str) else ""
@@ -338,6 +353,7 @@ class Scheduler:
 
     def _simulated(self, simulator: Worker, told: Simulated) -> None:
         del self._busy[simulator]
+        self._preparing.discard(simulator)
         run = self._runs[told.batch]
         if told.of_all:
             raise BatchError(told.problem)
@@ -379,6 +395,7 @@ class Scheduler:
         why = f"the {worker.role.value} process was killed twice ({how})"
         if worker.role is Role.SIMULATOR:
             number = self._busy.pop(worker, None)
+            self._preparing.discard(worker)
             if number is not None:
                 run = self._runs[number]
                 self._halve(self._take_back(run, list(run.writer)), why, Trouble.KILLED)

@@ -102,7 +102,7 @@ def tube_body(
     neck = NECK_RADIUS * radius
     bulged = maxwell_state(rubber).bulged
     place = _without_necks(mesh, rubber, radius, joints, neck * math.cos(math.pi / n))
-    ring_of = np.abs(mesh.along[:, None] - mesh.ring_along[None, :]).argmin(axis=1).astype(np.int32)
+    ring_of = _nearest(mesh.ring_along, mesh.along)
     return LatexBody(
         points=_tapered(mesh, place, [mesh.ring_along[lip], mesh.ring_along[bead]], neck),
         rest=np.column_stack([place, mesh.points[:, 1:].astype(np.float64)]),
@@ -123,6 +123,11 @@ def tube_body(
         spare_rings=1,
         spare_segments=2,
     )
+
+
+def _nearest(rings: NDArray[np.float64], along: NDArray[np.float32]) -> NDArray[np.int32]:
+    """Ring nearest to every vertex, (V,), by their distances from the knot, m, ascending those of rings."""
+    return np.searchsorted(0.5 * (rings[1:] + rings[:-1]), along).astype(np.int32)
 
 
 def _seed(place: NDArray[np.float64]) -> NDArray[np.float64]:
