@@ -21,10 +21,12 @@ SHARE_OF_MEMORY = 0.4
 """Share of a device's free memory that one simulator may fill."""
 MOST_DRAWERS = 3
 """Processes that draw contact sheets beside a GPU: each holds a context of it, some 300 MB."""
+MOST_DRAWERS_ALONE = 12
+"""The same when simulators and writers have ended, and left their memory."""
 RECIPES_PER_WRITER = 4
 """Recipes below which another writer does not pay for its start."""
 MOST_WRITERS = 16
-"""Writers at most, however many cores there are."""
+"""Writers for each GPU at most, however many cores there are."""
 
 
 def usable_cores() -> int:
@@ -89,12 +91,18 @@ class Machine:
     def writers(self, recipes: int) -> int:
         """Return how many writers so many recipes keep busy: at most one for two cores, or for a GPU more."""
         wanted = -(-recipes // RECIPES_PER_WRITER)
-        most = max(1, min(MOST_WRITERS, self.cores - SIMULATORS_PER_GPU - 1, -(-3 * self.cores // 4)))
+        # How many GPUs all are is not known yet; a machine with several has many cores.
+        for_gpus = self.cores if self.devices == ("all",) else MOST_WRITERS * len(self.devices)
+        most = max(1, min(for_gpus, self.cores - SIMULATORS_PER_GPU - 1, -(-3 * self.cores // 4)))
         return max(1, min(wanted, most))
 
-    def drawers(self, recipes: int) -> int:
-        """Return how many processes draw contact sheets of so many recipes, where a GPU simulates."""
-        return max(1, min(MOST_DRAWERS, self.cores // 4, -(-recipes // RECIPES_PER_WRITER)))
+    def drawers(self, recipes: int, *, alone: bool = False) -> int:
+        """Return how many processes draw contact sheets of so many recipes, where a GPU simulates.
+
+        `alone`: nothing else is at work any more.
+        """
+        most = min(MOST_DRAWERS_ALONE, 3 * self.cores // 4) if alone else min(MOST_DRAWERS, self.cores // 4)
+        return max(1, min(most, -(-recipes // RECIPES_PER_WRITER)))
 
     def simulators(self, device: Device, batches: int) -> int:
         """Return how many simulators a device gets for so many batches."""

@@ -25,6 +25,8 @@ class Pool:
         """Begin with none."""
         self._order = order
         self._workers: dict[Any, Worker] = {}
+        self._dismissed: list[Worker] = []
+        """Workers that end in their own time."""
 
     def start(self, role: Role, device: str = "", *, fork: bool = False) -> Worker:
         """Start a worker; raises `OSError` when the system has no room for one."""
@@ -53,18 +55,18 @@ class Pool:
 
     def remove(self, worker: Worker) -> None:
         """Close the connection to a worker, which ends it if it lives."""
-        self._workers.pop(worker.connection, None)
+        if self._workers.pop(worker.connection, None) is not None:
+            self._dismissed.append(worker)
         worker.close()
 
     def close(self) -> bool:
         """End all workers; return whether all of them tidied up."""
-        left = list(self._workers.values())
-        for worker in left:
+        for worker in list(self._workers.values()):
             worker.end()
             self.remove(worker)
         deadline = time.monotonic() + GRACE
         tidy = True
-        for worker in left:
+        for worker in self._dismissed:
             if not worker.wait(max(0.0, deadline - time.monotonic())):
                 worker.kill()
                 tidy = False

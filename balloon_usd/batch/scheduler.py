@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import Counter, defaultdict
+from collections import Counter, defaultdict, deque
 from typing import TYPE_CHECKING
 
 from balloon_usd.batch import record as records
@@ -45,6 +45,8 @@ if TYPE_CHECKING:
 
 MOST_FAILED_STARTS = 3
 """Workers that may end before they are ready, before the batch is given up."""
+SHEETS_AT_HAND = 2
+"""Stages that a drawer has been given: the next one lies there when it is done with one."""
 STATUS = {
     Trouble.NOT_WRITTEN: Status.NOT_WRITTEN,
     Trouble.FAILED: Status.FAILED,
@@ -79,6 +81,8 @@ class Scheduler:
         """Simulators that have got a batch and not laid it out yet."""
         self._load: dict[Worker, int] = defaultdict(int)
         """Jobs of every writer."""
+        self._undrawn: deque[Made] = deque()
+        """Stages that wait for a drawer."""
         self._drawing: dict[int, tuple[Worker, Made]] = {}
         """Who draws the contact sheet of a job."""
         self._failed_starts = 0
@@ -95,13 +99,11 @@ class Scheduler:
         for worker in self._pool.of(Role.SIMULATOR):
             if worker.ready:
                 self._add_device(worker)
-        gpus = [device.name for device in self._devices.values() if device.is_gpu]
-        if self._order.preview and gpus:
-            for number in range(self._machine.drawers(len(self._jobs))):
-                self._pool.start(Role.DRAWER, gpus[number % len(gpus)])
+        self._start_drawers(self._machine.drawers(len(self._jobs)))
         self._watch.begun(self._device_names(), sum(job.known.frames for job in self._jobs.values()))
         while self._done + self._failed < len(self._jobs):
             self._hand_out()
+            self._hand_out_sheets()
             for worker, message in self._pool.heard():
                 if message is None:
                     self._lost(worker)
@@ -183,7 +185,7 @@ class Scheduler:
                 if self._should_wait(worker, together):
                     continue
                 jobs = self._waiting.take(together)
-                if not jobs and not (self._runs or self._drawing):
+                if not jobs and not (self._runs or self._drawing or self._undrawn):
                     jobs = self._waiting.take_alone()
                 if not jobs:
                     return
@@ -284,16 +286,41 @@ class Scheduler:
         job = self._jobs[made.job]
         writer = self._runs[made.batch].writer[job.number]
         job.device = self._leave(job)
-        if self._order.preview:
-            # Where there are no drawers, the writer of the stage draws.
-            self._draw(made, self._pool.of(Role.DRAWER) or [writer])
-        else:
+        if not self._order.preview:
             self._finish(job, made)
+        elif self._pool.of(Role.DRAWER):
+            self._undrawn.append(made)
+        else:
+            self._draw(made, writer)
 
-    def _draw(self, made: Made, drawers: Sequence[Worker]) -> None:
-        """Let the contact sheet of a stage be drawn."""
+    # Contact sheets.
+
+    def _start_drawers(self, wanted: int) -> None:
+        """Let there be so many drawers, shared by the GPUs; where there is none, writers draw."""
+        gpus = [device.name for device in self._devices.values() if device.is_gpu]
+        if self._order.preview and gpus:
+            for number in range(len(self._pool.of(Role.DRAWER)), wanted):
+                self._pool.start(Role.DRAWER, gpus[number % len(gpus)])
+
+    def _hand_out_sheets(self) -> None:
+        """Give every drawer a stage, and the next one; when nothing else is left to do, let more draw."""
+        if self._undrawn and not (len(self._waiting) or self._runs):
+            self._only_draw()
         busy = Counter(worker for worker, _ in self._drawing.values())
-        drawer = min(drawers, key=lambda one: busy[one])
+        for _ in range(SHEETS_AT_HAND):
+            for drawer in self._pool.of(Role.DRAWER):
+                if self._undrawn and drawer.ready and busy[drawer] < SHEETS_AT_HAND:
+                    busy[drawer] += 1
+                    self._draw(self._undrawn.popleft(), drawer)
+
+    def _only_draw(self) -> None:
+        """End the workers that are not needed any more, and start drawers in their place."""
+        for worker in [*self._pool.of(Role.SIMULATOR), *self._pool.of(Role.WRITER)[1:]]:
+            self._pool.remove(worker)
+        self._start_drawers(self._machine.drawers(len(self._undrawn), alone=True))
+
+    def _draw(self, made: Made, drawer: Worker) -> None:
+        """Let the contact sheet of a stage be drawn."""
         job = self._jobs[made.job]
         self._drawing[made.job] = (drawer, made)
         stage = str(self._order.stage(job.known.name))
@@ -416,7 +443,7 @@ class Scheduler:
 
     def _lose_writer(self, writer: Worker) -> list[Job]:
         """Take jobs from a writer that is gone, those whose contact sheets it was to draw included."""
-        lost = [self._jobs[made.job] for made in self._undrawn(writer)]
+        lost = [self._jobs[made.job] for made in self._taken_from(writer)]
         for run in self._runs.values():
             numbers, free = run.without(writer)
             lost += [self._jobs[number] for number in numbers]
@@ -430,15 +457,15 @@ class Scheduler:
     def _lose_drawer(self, drawer: Worker, why: str) -> None:
         """Let others go on; the sheet that was begun is tried once more, as it may be to blame."""
         self._pool.start(Role.DRAWER, drawer.device)
-        for number, made in enumerate(self._undrawn(drawer)):
+        for number, made in enumerate(self._taken_from(drawer)):
             job = self._jobs[made.job]
             job.kills += drawer.ready and number == 0
             if job.kills > 1:
                 self._not_made(job, Trouble.KILLED, f"{job.file}: {why}")
             else:
-                self._draw(made, self._pool.of(Role.DRAWER))
+                self._undrawn.append(made)
 
-    def _undrawn(self, drawer: Worker) -> list[Made]:
+    def _taken_from(self, drawer: Worker) -> list[Made]:
         """Take all contact sheets from a process that is gone, in the order in which it got them."""
         found = [made for worker, made in self._drawing.values() if worker is drawer]
         for made in found:

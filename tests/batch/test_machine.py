@@ -54,6 +54,18 @@ def test_few_processes_hold_a_context_to_draw(cores, recipes, drawers):
     assert Machine(cores).drawers(recipes) == drawers
 
 
+def test_more_draw_when_nothing_else_is_at_work_any_more():
+    assert [Machine(cores).drawers(100, alone=True) for cores in (1, 4, 16, 64)] == [1, 3, 12, 12]
+    assert Machine(16).drawers(9, alone=True) == 3
+
+
+@pytest.mark.parametrize(
+    ("devices", "writers"), [(("cuda",), 16), (("cuda:0", "cuda:1"), 24), (("all",), 24)]
+)
+def test_several_gpus_have_more_writers(devices, writers):
+    assert Machine(32, devices).writers(1000) == writers
+
+
 def test_only_auto_falls_back():
     assert [
         Machine(1, devices).may_fall_back for devices in (("auto",), ("cuda",), ("cuda:0", "cuda:1"))
