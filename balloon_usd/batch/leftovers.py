@@ -5,6 +5,7 @@ from __future__ import annotations
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
+from balloon_usd.files.hidden import matching
 from balloon_usd.files.lock import locked, remove_unheld
 from balloon_usd.stage.workspace import sweep
 
@@ -18,8 +19,10 @@ PARTIAL = ("png", "report.png", "report.json")
 def remove_leftovers(folder: Path, name: str) -> None:
     """Remove what killed runs of a sculpture left in a folder, and nothing of a run that lives."""
     # There is nothing to remove where there is no folder.
-    with suppress(FileNotFoundError), locked(folder):
+    with suppress(FileNotFoundError):
         sweep(name, folder)
-        for ending in PARTIAL:
-            for partial in folder.glob(f".{name}.{ending}.????????.partial"):
-                remove_unheld(partial)
+        forms = [f".{name}.{ending}.????????.partial" for ending in PARTIAL]
+        if found := matching(folder, f".{name}.", *forms):
+            with locked(folder):
+                for partial in found:
+                    remove_unheld(partial)

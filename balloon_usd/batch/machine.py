@@ -19,8 +19,9 @@ VERTEX_BYTES = 6000
 """Device memory for a vertex of a batch, with all that goes with it [B]."""
 SHARE_OF_MEMORY = 0.4
 """Share of a device's free memory that one simulator may fill."""
-MOST_DRAWERS = 3
-"""Processes that draw contact sheets beside a GPU: each holds a context of it, some 300 MB."""
+MOST_DRAWERS = 2
+"""Processes that draw contact sheets beside a GPU: each holds a context of it, some 260 MB, and waits for its
+turn while others simulate."""
 MOST_DRAWERS_ALONE = 12
 """The same when simulators and writers have ended, and left their memory."""
 RECIPES_PER_WRITER = 4

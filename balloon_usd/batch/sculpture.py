@@ -11,7 +11,6 @@ from balloon_usd.balloon.detail import detail_named
 from balloon_usd.balloon.rubber import BURST_STRETCH
 from balloon_usd.batch.messages import Made
 from balloon_usd.files.hashes import hashes_of
-from balloon_usd.files.lock import locked
 from balloon_usd.plan.meshing import mesh_of
 from balloon_usd.report import History, write_report
 from balloon_usd.solver.tally import Tally
@@ -103,17 +102,15 @@ class Sculpture:
             products["report"] = write_report(
                 self._history, folder, detail=self._order.detail, provenance=facts
             )
-        # Another run may be giving the same names at this moment.
-        with locked(folder):
-            hashes = hashes_of(folder, (*written.files, *products["report"]))
-            size = sum(file.stat().st_size for file in written.files)
+        hashes = {file.relative_to(folder).as_posix(): sha256 for file, sha256 in written.sha256.items()}
+        hashes |= hashes_of(folder, products["report"])
         return Made(
             self.part.job,
             self.part.batch,
             hashes,
             {key: tuple(f.relative_to(folder).as_posix() for f in found) for key, found in products.items()},
             written.frames,
-            size,
+            written.size,
             self._summary(written),
             time.perf_counter() - self._begun,
         )

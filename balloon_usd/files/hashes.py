@@ -16,17 +16,18 @@ def hashes_of(folder: Path, files: Iterable[Path]) -> dict[str, str]:
     Raises:
         OSError: one cannot be read.
     """
-    return {file.relative_to(folder).as_posix(): _sha256(file) for file in files}
+    return {file.relative_to(folder).as_posix(): sha256_of(file) for file in files}
 
 
 def are_whole(folder: Path, hashes: Mapping[str, str]) -> bool:
     """Whether all files are there, with the content that they had."""
     try:
-        return all(_sha256(folder / name) == sha256 for name, sha256 in hashes.items())
+        return all(sha256_of(folder / name) == sha256 for name, sha256 in hashes.items())
     except OSError:
         return False
 
 
-def _sha256(file: Path) -> str:
+def sha256_of(file: Path) -> str:
+    """Return the SHA-256 of a file in hexadecimal digits; raises `OSError` when it cannot be read."""
     with file.open("rb") as opened:
         return hashlib.file_digest(opened, "sha256").hexdigest()

@@ -71,7 +71,7 @@ class Paper:
 
     def picture(self) -> Image.Image:
         """Return what was drawn."""
-        picture = self._large.resize(self.size, Image.Resampling.LANCZOS)
+        picture = self._large.reduce(FINER)
         pen = ImageDraw.Draw(picture)
         for place, words, color, size, anchor in self._words:
             pen.text(place, words, color, font(size), anchor=anchor)

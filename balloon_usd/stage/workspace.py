@@ -7,6 +7,7 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
+from balloon_usd.files.hidden import matching
 from balloon_usd.files.lock import hold, is_held, locked
 from balloon_usd.stage.error import writing
 
@@ -38,9 +39,9 @@ class Workspace:
             # The link's target is replaced, not the link; a later chdir does no harm.
             self._place = self.final.resolve()
             name, beside = self.final.stem, self._place.parent
+            sweep(name, beside)
             # Another run must not sweep the folder before its lock is held.
             with locked(beside):
-                sweep(name, beside)
                 self._folder = Path(tempfile.mkdtemp(prefix=f".{name}.", suffix=SUFFIX, dir=beside))
                 self._lock = hold(self._folder / LOCK)
         return self
@@ -76,9 +77,14 @@ class Workspace:
 
 def sweep(name: str, beside: Path) -> None:
     """Remove what killed runs of the sculpture `name` left in the folder `beside`."""
-    for folder in sorted(beside.glob(f".{name}.????????{SUFFIX}")):
-        if not is_held(folder / LOCK):
-            _remove(folder)
+    # Mostly there is nothing: no other run is kept waiting while a large folder is looked through.
+    found = matching(beside, f".{name}.", f".{name}.????????{SUFFIX}")
+    if not found:
+        return
+    with locked(beside):
+        for folder in found:
+            if not is_held(folder / LOCK):
+                _remove(folder)
 
 
 def _remove(folder: Path) -> None:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from contextlib import ExitStack
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
+from balloon_usd.files.hashes import sha256_of
 from balloon_usd.openusd import Sdf, Usd, usd_access
 from balloon_usd.stage.asset import begin_asset, complete_asset
 from balloon_usd.stage.description import require_identifier
@@ -23,7 +24,7 @@ from balloon_usd.stage.wanted import Wanted
 from balloon_usd.stage.workspace import Workspace
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
+    from collections.abc import Callable, Iterable, Iterator, Mapping
     from os import PathLike
     from types import TracebackType
 
@@ -47,6 +48,10 @@ class WrittenStage:
     """Smallest and largest corner over all time codes [m]."""
     stale: tuple[str, ...] = ()
     """Details that an earlier run had left, removed since they show another recipe."""
+    sha256: Mapping[Path, str] = field(default_factory=dict, compare=False)
+    """Hashes of the files, as they were when they got their names."""
+    size: int = field(default=0, compare=False)
+    """Of all files together [B]."""
 
 
 class _Form(NamedTuple):
@@ -122,12 +127,17 @@ class StageWriter:
         _verify(self._work.built / built.files[0], one_sample_per_time_code)
         if self._wanted.shot:
             _verify(write_shot(self._description, take, self._work, built.files[0]))
+        # Where they are built nobody else changes them.
+        made = {self._final / file: self._work.built / file for file in built.files}
+        made |= {self._final.with_name(name): self._work.built.with_name(name) for name in self._beside()}
+        with writing(self._final):
+            sha256 = {file: sha256_of(hidden) for file, hidden in made.items()}
+            size = sum(hidden.stat().st_size for hidden in made.values())
         self._work.publish(self._beside())
-        beside = tuple(self._final.with_name(name) for name in self._beside())
-        files = (*(self._final / file for file in built.files), *beside)
+        files = tuple(made)
         _refresh(files)
         low, high = ((float(x), float(y), float(z)) for x, y, z in take.extent)
-        return WrittenStage(files, take.frames, (low, high), built.stale)
+        return WrittenStage(files, take.frames, (low, high), built.stale, sha256, size)
 
     @usd_access()
     def __exit__(

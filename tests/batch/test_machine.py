@@ -48,7 +48,7 @@ def test_a_gpu_has_two_simulators_and_a_cpu_one_a_core():
 
 
 @pytest.mark.parametrize(
-    ("cores", "recipes", "drawers"), [(1, 100, 1), (16, 100, 3), (64, 100, 3), (16, 5, 2)]
+    ("cores", "recipes", "drawers"), [(1, 100, 1), (16, 100, 2), (64, 100, 2), (16, 5, 2), (16, 4, 1)]
 )
 def test_few_processes_hold_a_context_to_draw(cores, recipes, drawers):
     assert Machine(cores).drawers(recipes) == drawers
