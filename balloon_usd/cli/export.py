@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
@@ -12,6 +13,7 @@ from balloon_usd.cli.child_process import read_in_child
 from balloon_usd.cli.failure import EXIT_CODES_HELP, ExitCode, Failure
 from balloon_usd.cli.frame_range import moments
 from balloon_usd.cli.output import require_writable
+from balloon_usd.cli.sources import is_folder
 from balloon_usd.cli.stage_path import stage_file, stage_home, stage_path
 
 if TYPE_CHECKING:
@@ -48,7 +50,15 @@ def export(stage: str, form: str, output: Path, frames: FrameRange | tuple[int, 
     Needs meshio: pip install 'balloon-usd[mesh]'.
     """
     unfinished = output, stage_home(stage)[1]
-    files = read_in_child(stage, unfinished, _export, stage, cast("Format", form), output, frames)
+    made = not is_folder(output)
+    try:
+        files = read_in_child(stage, unfinished, _export, stage, cast("Format", form), output, frames)
+    except BaseException:
+        with suppress(OSError):
+            if made:
+                # Nothing came into it.
+                output.rmdir()
+        raise
     others = f" and {len(files) - 1} more" if len(files) > 1 else ""
     click.echo(f"{form} {files[0]}{others}")
 
