@@ -56,6 +56,8 @@ def open_stage(file: Path) -> Any:
         with file.open("rb"):
             pass
         layer = Sdf.Layer.FindOrOpen(str(file))
+        if layer is None:
+            raise DiffError(f"{file} is not a USD file, or not a whole one")
         if is_cut_package(file):
             raise DiffError(f"{file} is not a whole package: its end is missing")
         for asset, by in special_files(layer):
