@@ -21,6 +21,8 @@ SHARE = 0.75
 """Share of the computer's memory that a child may fill at most."""
 LEAST = 4 << 30
 """Memory that it may fill in any case [B]: libraries, pictures, and stages of some megabytes."""
+FOR_A_CORE = 64 << 20
+"""Memory for each core besides [B]: libraries have a thread on it, with a stack."""
 TIMES_AS_MUCH = 100
 """Memory for a byte of a stage [B]: samples are compressed, and NVIDIA's validator holds all of a layer."""
 
@@ -31,7 +33,8 @@ MOST_FILES = 10_000
 def memory_for(stage_bytes: int) -> int:
     """Return how much memory [B] stages of so many bytes may take."""
     computer = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-    return min(int(SHARE * computer), LEAST + TIMES_AS_MUCH * stage_bytes)
+    libraries = LEAST + FOR_A_CORE * (os.cpu_count() or 1)
+    return min(int(SHARE * computer), libraries + TIMES_AS_MUCH * stage_bytes)
 
 
 def bytes_there(stages: Iterable[str]) -> int:

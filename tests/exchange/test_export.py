@@ -185,9 +185,8 @@ def test_frames_that_are_not_there_are_refused(dog: Path, tmp_path: Path) -> Non
 def test_a_range_that_nobody_has_animated_is_refused_unless_frames_are_named(
     dog: Path, tmp_path: Path
 ) -> None:
-    text = Usd.Stage.Open(str(dog)).GetRootLayer()
     stage = Usd.Stage.CreateNew(str(dog.with_name("long.usda")))
-    stage.GetRootLayer().subLayerPaths.append(text.identifier)
+    stage.GetRootLayer().subLayerPaths.append(str(dog))
     stage.SetStartTimeCode(1)
     stage.SetEndTimeCode(1e300)
     stage.Save()
