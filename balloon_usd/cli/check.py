@@ -9,10 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from balloon_usd.cli.child_process import ChildProcess, DamagedError
-
 if TYPE_CHECKING:
     from balloon_usd.check import Report
+    from balloon_usd.cli.child_process import ChildProcess
 
 EXIT_CODES = """\b
 Exit codes, the worst of all stages:
@@ -55,6 +54,8 @@ def check(stages: tuple[str, ...], as_json: bool, no_nvidia: bool) -> None:
     properties of a stage, by the validators of usd-core, and by NVIDIA's where `pip install
     'balloon-usd[check]'` has brought it. Nothing is written.
     """
+    from balloon_usd.cli.child_process import ChildProcess  # noqa: PLC0415
+
     told: list[Told] = []
     with ChildProcess() as child:
         for stage in stages:
@@ -69,6 +70,8 @@ def check(stages: tuple[str, ...], as_json: bool, no_nvidia: bool) -> None:
 
 def _look(child: ChildProcess, stage: str, *, nvidia: bool) -> Told:
     """Check a stage in a child process, whatever becomes of that."""
+    from balloon_usd.cli.child_process import DamagedError  # noqa: PLC0415
+
     try:
         told = child.call([stage], _check, stage, nvidia=nvidia)
     except DamagedError as error:

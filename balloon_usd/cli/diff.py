@@ -6,16 +6,18 @@ import contextlib
 import json
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from balloon_usd.cli.child_memory import start_drawing
-from balloon_usd.cli.child_process import ChildProcess, DamagedError, remove_unfinished
 from balloon_usd.cli.device import device_option
 from balloon_usd.cli.failure import ExitCode, Failure
 from balloon_usd.cli.output import require_readable_name
 from balloon_usd.cli.tolerance import tolerance_options, tolerances_of
+
+if TYPE_CHECKING:
+    from balloon_usd.cli.child_process import ChildProcess
 
 DIFFERENT = 1
 EXIT_CODES = """\b
@@ -65,6 +67,8 @@ def diff(
     A and B are USD files, or folders NAME as `run` writes them. Structure and metadata must be the same, and
     floats within the tolerance. Of a surface that moved it is told how far, and where and when most.
     """
+    from balloon_usd.cli.child_process import ChildProcess, remove_unfinished  # noqa: PLC0415
+
     asked = Asked(named, absolute, relative, rms, variants)
     pages = [page for page in (png, html) if page is not None]
     with contextlib.ExitStack() as stack:
@@ -83,6 +87,8 @@ def _told(child: ChildProcess, first: Path, second: Path, asked: Asked, *options
     Raises:
         Failure: that is not possible.
     """
+    from balloon_usd.cli.child_process import DamagedError  # noqa: PLC0415
+
     try:
         found = child.call([first, second], _compare, first, second, asked, *options)
     except DamagedError as error:
@@ -113,6 +119,8 @@ def _compare(
         DamagedError: a value of a stage cannot be read.
         Failure: the stages cannot be compared, or the picture or page cannot be written.
     """
+    from balloon_usd.cli.child_process import DamagedError  # noqa: PLC0415
+
     for path in (first, second):
         require_readable_name(path)
     tolerances = tolerances_of(asked.named, asked.absolute, asked.relative, asked.rms)
@@ -137,6 +145,8 @@ def _compare(
 
 def _damaged_one(child: ChildProcess, first: Path, second: Path, asked: Asked) -> str:
     """Return which of two stages is damaged: the one that cannot be compared with itself, either."""
+    from balloon_usd.cli.child_process import DamagedError  # noqa: PLC0415
+
     for path in (first, second):
         try:
             child.call([path], _compare, path, path, asked, False, None, None, "cpu")

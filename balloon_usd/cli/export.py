@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, cast
 import click
 
 from balloon_usd.batch.order import FrameRange
-from balloon_usd.cli.child_process import read_in_child
 from balloon_usd.cli.failure import EXIT_CODES_HELP, ExitCode, Failure
 from balloon_usd.cli.frame_range import moments
 from balloon_usd.cli.output import require_writable
@@ -49,6 +48,8 @@ def export(stage: str, form: str, output: Path, frames: FrameRange | tuple[int, 
     and pressure as fields of the points, balloon and bubble as fields of the faces.
     Needs meshio: pip install 'balloon-usd[mesh]'.
     """
+    from balloon_usd.cli.child_process import read_in_child  # noqa: PLC0415
+
     unfinished = output, stage_home(stage)[1]
     made = not is_folder(output)
     try:

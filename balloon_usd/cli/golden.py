@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from balloon_usd.cli.child_process import ChildProcess, DamagedError
 from balloon_usd.cli.device import compiling, start_device
 from balloon_usd.cli.failure import ExitCode, Failure
 from balloon_usd.cli.frame_range import MOST_FRAMES
@@ -133,6 +132,7 @@ def _update(held: list[GoldenRecipe], stages: Path, compare: Compare, *, always:
 @contextmanager
 def _comparing() -> Iterator[Compare]:
     """Compare stages in a child process, as nobody knows what became of those in a folder."""
+    from balloon_usd.cli.child_process import ChildProcess, DamagedError  # noqa: PLC0415
 
     def compare(first: Path, second: Path, **options: Any) -> Comparison:
         from balloon_usd.diff import DamagedStageError, DiffError, compare_files  # noqa: PLC0415

@@ -9,7 +9,6 @@ import click
 
 from balloon_usd.batch.order import FrameRange
 from balloon_usd.cli.child_memory import start_drawing
-from balloon_usd.cli.child_process import read_in_child
 from balloon_usd.cli.device import device_option
 from balloon_usd.cli.failure import EXIT_CODES_HELP, ExitCode, Failure
 from balloon_usd.cli.frame_range import moments
@@ -70,6 +69,8 @@ def preview(
 
     STAGE is a USD file, or a folder NAME as `run` writes it.
     """
+    from balloon_usd.cli.child_process import read_in_child  # noqa: PLC0415
+
     unfinished = (output.parent, output.stem) if output else stage_home(stage)
     sheet = read_in_child(
         stage,
