@@ -7,17 +7,21 @@ import signal
 import socket
 import subprocess
 import sys
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from multiprocessing import reduction
 from multiprocessing.connection import Connection
 from typing import TYPE_CHECKING, Any
 
-from balloon_usd.batch.forking import ONE_THREAD, ForkedProcess, fork_worker
+from balloon_usd.batch.forking import (
+    ONE_THREAD,
+    ForkedProcess,
+    fork_worker,
+    import_paths,
+    interrupts_blocked,
+)
 from balloon_usd.batch.shared_memory import SharedMemory
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from balloon_usd.batch.messages import Ring, Role, Started
 
 WORKER = "balloon_usd.batch.worker"
@@ -38,7 +42,7 @@ class Worker:
         """Device that it was started for; its full name once it has told."""
         ours, theirs = socket.socketpair()
         try:
-            with _interrupts_blocked():
+            with interrupts_blocked():
                 self._process: ForkedProcess | subprocess.Popen[bytes] = (
                     fork_worker(role, theirs.fileno()) if fork else _spawn(role, theirs.fileno())
                 )
@@ -124,20 +128,6 @@ def receive_ring(connection: Connection[Any, Any], ring: Ring) -> SharedMemory:
     return SharedMemory(ring.size, reduction.recv_handle(connection))
 
 
-@contextmanager
-def _interrupts_blocked() -> Iterator[None]:
-    """Let no Ctrl-C reach a new process before it has said that it ignores them."""
-    if not hasattr(signal, "pthread_sigmask"):
-        yield
-        return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
-
-
 def _surroundings() -> dict[str, str]:
     """Return the environment of a worker, which imports from where this process does."""
-    there = os.pathsep.join(dict.fromkeys(path for path in sys.path if path))
-    return {**ONE_THREAD, **os.environ, "PYTHONPATH": there}
+    return {**ONE_THREAD, **os.environ, "PYTHONPATH": import_paths()}

@@ -6,17 +6,21 @@ survive it. Twelve writers so take 0.1 s to start instead of 2 s, and a gigabyte
 
 from __future__ import annotations
 
+import ctypes
 import gc
 import os
 import signal
 import subprocess
 import sys
 import time
+from contextlib import contextmanager, suppress
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from balloon_usd.batch.messages import Role
 
 THREADS = Path("/proc/self/task")
@@ -33,13 +37,15 @@ ONE_THREAD = {
 more processor time, to no avail."""
 UNSAFE = ("pxr", "warp")
 """Libraries of which nobody knows what they have done in this process before."""
+PR_SET_PDEATHSIG = 1
+"""Of `prctl` on Linux: the signal that a process gets when the one that started it is gone."""
 POLL = 0.005
 """Time between two looks for the end of a process (s)."""
 
 
 def prepare_fork(module: str) -> bool:
     """Load what forked workers run, and return whether they may be forked."""
-    if sys.platform != "linux" or any(name in sys.modules for name in UNSAFE) or not _one_thread():
+    if not may_fork():
         return False
     os.environ.update(ONE_THREAD | os.environ)
     import_module(module)
@@ -47,6 +53,11 @@ def prepare_fork(module: str) -> bool:
     gc.collect()
     gc.freeze()
     return _one_thread()
+
+
+def may_fork() -> bool:
+    """Whether a copy of this process could do anything that a new one can."""
+    return sys.platform == "linux" and not any(name in sys.modules for name in UNSAFE) and _one_thread()
 
 
 def _one_thread() -> bool:
@@ -106,7 +117,7 @@ def fork_worker(role: Role, descriptor: int) -> ForkedProcess:
     code = 1
     try:
         signal.signal(signal.SIGTERM, signal.SIG_DFL)
-        _close_all_but(descriptor)
+        close_all_but(descriptor)
         from balloon_usd.batch.worker import main  # noqa: PLC0415
 
         main(role.value, str(descriptor), str(parent))
@@ -118,7 +129,7 @@ def fork_worker(role: Role, descriptor: int) -> ForkedProcess:
         os._exit(code)
 
 
-def _close_all_but(descriptor: int) -> None:
+def close_all_but(descriptor: int) -> None:
     """Close what belongs to the parent: a connection that is open anywhere does not end with its process."""
     nothing = os.open(os.devnull, os.O_RDONLY)
     os.dup2(nothing, 0)
@@ -129,3 +140,31 @@ def _close_all_but(descriptor: int) -> None:
             except OSError:
                 # The one that lists them.
                 continue
+
+
+@contextmanager
+def interrupts_blocked() -> Iterator[None]:
+    """Let no Ctrl-C reach a new process before it has said that it ignores them."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def import_paths() -> str:
+    """Return what PYTHONPATH says to a process that imports from where this one does."""
+    return os.pathsep.join(dict.fromkeys(path for path in sys.path if path))
+
+
+def end_with(parent: int, number: int) -> None:
+    """Let the system send this process a signal when its parent is gone, also within a long call."""
+    if sys.platform != "linux":
+        return
+    with suppress(AttributeError, OSError):
+        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, number)
+    if os.getppid() != parent:
+        os._exit(0)

@@ -5,23 +5,19 @@ One thread does all its work, so no two threads ever meet in OpenUSD. It ends wh
 
 from __future__ import annotations
 
-import ctypes
 import os
 import signal
 import sys
-from contextlib import suppress
 from multiprocessing.connection import Connection
 from typing import TYPE_CHECKING, Any
 
+from balloon_usd.batch.forking import end_with
 from balloon_usd.batch.messages import Role, Start
 from balloon_usd.loading import expect_modules
 
 if TYPE_CHECKING:
     from balloon_usd.batch.simulator import Simulator
     from balloon_usd.batch.writer import Writer
-
-PR_SET_PDEATHSIG = 1
-"""Of `prctl` on Linux: the signal that a process gets when the one that started it is gone."""
 
 
 def work(connection: Connection[Any, Any]) -> None:
@@ -55,16 +51,6 @@ def _terminate(*_: object) -> None:
     raise _Terminated
 
 
-def _end_with(parent: int) -> None:
-    """Let the system end this process when its scheduler is gone, also in the middle of a long frame."""
-    if sys.platform != "linux":
-        return
-    with suppress(AttributeError, OSError):
-        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
-    if os.getppid() != parent:
-        os._exit(0)
-
-
 def main(_role: str, descriptor: str, parent: str) -> None:
     """Work at the other end of an inherited connection, for the process of a number; the role is for eyes."""
     # Ctrl-C reaches the whole group of processes: the scheduler decides what it means.
@@ -72,7 +58,7 @@ def main(_role: str, descriptor: str, parent: str) -> None:
     expect_modules()
     if hasattr(signal, "pthread_sigmask"):
         signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
-    _end_with(int(parent))
+    end_with(int(parent), signal.SIGTERM)
     try:
         work(Connection(int(descriptor)))
     except (EOFError, BrokenPipeError, ConnectionResetError):

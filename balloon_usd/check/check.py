@@ -50,7 +50,7 @@ def check_file(name: str, *, nvidia: bool = True) -> Report:
         except (Tf.ErrorException, UnicodeDecodeError) as error:
             # A damaged file may open, and break off where its values are read.
             said = said_by(error) if isinstance(error, Tf.ErrorException) else "text that is no UTF-8"
-            report.unreadable = f"{name}: damaged, a value cannot be read: {said}".removesuffix(": ")
+            report.unreadable = f"{name}: damaged: a value cannot be read: {said}".removesuffix(": ")
     return report
 
 

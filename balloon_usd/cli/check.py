@@ -3,9 +3,15 @@
 from __future__ import annotations
 
 import json
+from dataclasses import dataclass
 from enum import IntEnum
+from typing import TYPE_CHECKING, Any
 
 import click
+
+if TYPE_CHECKING:
+    from balloon_usd.check import Report
+    from balloon_usd.cli.child_process import ChildProcess
 
 EXIT_CODES = """\b
 Exit codes, the worst of all stages:
@@ -24,6 +30,15 @@ class Result(IntEnum):
     UNREADABLE = 2
 
 
+@dataclass(frozen=True)
+class Told:
+    """What is told of one stage, as text and as a JSON document."""
+
+    result: Result
+    text: str
+    document: dict[str, Any]
+
+
 @click.command(epilog=EXIT_CODES)
 @click.argument("stages", nargs=-1, required=True, metavar="STAGE...")
 @click.option(
@@ -39,18 +54,50 @@ def check(stages: tuple[str, ...], as_json: bool, no_nvidia: bool) -> None:
     properties of a stage, by the validators of usd-core, and by NVIDIA's where `pip install
     'balloon-usd[check]'` has brought it. Nothing is written.
     """
-    from balloon_usd.check import check_file, document_of, text_of  # noqa: PLC0415
+    from balloon_usd.cli.child_process import ChildProcess  # noqa: PLC0415
 
-    reports = []
-    for stage in stages:
-        report = check_file(stage, nvidia=not no_nvidia)
-        reports.append(report)
-        if not as_json:
-            click.echo(text_of(report), err=bool(report.unreadable))
+    told: list[Told] = []
+    with ChildProcess() as child:
+        for stage in stages:
+            told.append(_look(child, stage, nvidia=not no_nvidia))
+            if not as_json:
+                click.echo(told[-1].text, err=told[-1].result is Result.UNREADABLE)
     if as_json:
-        click.echo(json.dumps(document_of(reports), indent=1, allow_nan=False))
-    worst = Result.FINE
-    for report in reports:
-        found = Result.FAULTS if report.faults else Result.FINE
-        worst = max(worst, Result.UNREADABLE if report.unreadable else found)
-    click.get_current_context().exit(int(worst))
+        entries = [entry for each in told for entry in each.document["stages"]]
+        click.echo(json.dumps({**told[0].document, "stages": entries}, indent=1, allow_nan=False))
+    click.get_current_context().exit(int(max(each.result for each in told)))
+
+
+def _look(child: ChildProcess, stage: str, *, nvidia: bool) -> Told:
+    """Check a stage in a child process, whatever becomes of that."""
+    from balloon_usd.cli.child_process import DamagedError  # noqa: PLC0415
+
+    try:
+        told = child.call([stage], _check, stage, nvidia=nvidia)
+    except DamagedError as error:
+        why = str(error)
+    else:
+        if told.result is not Result.UNREADABLE:
+            child.pass_on()
+        return told
+    return child.call([], _damaged, stage, why)
+
+
+def _check(stage: str, *, nvidia: bool) -> Told:
+    from balloon_usd.check import check_file  # noqa: PLC0415
+
+    return _told(check_file(stage, nvidia=nvidia))
+
+
+def _damaged(stage: str, why: str) -> Told:
+    from balloon_usd.check import Report  # noqa: PLC0415
+
+    return _told(Report(stage, unreadable=f"{stage}: damaged: {why}"))
+
+
+def _told(report: Report) -> Told:
+    from balloon_usd.check import document_of, text_of  # noqa: PLC0415
+
+    found = Result.FAULTS if report.faults else Result.FINE
+    result = Result.UNREADABLE if report.unreadable else found
+    return Told(result, text_of(report), document_of([report]))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
@@ -11,7 +12,8 @@ from balloon_usd.batch.order import FrameRange
 from balloon_usd.cli.failure import EXIT_CODES_HELP, ExitCode, Failure
 from balloon_usd.cli.frame_range import moments
 from balloon_usd.cli.output import require_writable
-from balloon_usd.cli.stage_path import stage_file, stage_path
+from balloon_usd.cli.sources import is_folder
+from balloon_usd.cli.stage_path import stage_file, stage_home, stage_path
 
 if TYPE_CHECKING:
     from balloon_usd.exchange.export import Format
@@ -46,6 +48,30 @@ def export(stage: str, form: str, output: Path, frames: FrameRange | tuple[int, 
     and pressure as fields of the points, balloon and bubble as fields of the faces.
     Needs meshio: pip install 'balloon-usd[mesh]'.
     """
+    from balloon_usd.cli.child_process import read_in_child  # noqa: PLC0415
+
+    unfinished = output, stage_home(stage)[1]
+    made = not is_folder(output)
+    try:
+        files = read_in_child(stage, unfinished, _export, stage, cast("Format", form), output, frames)
+    except BaseException:
+        with suppress(OSError):
+            if made:
+                # Nothing came into it.
+                output.rmdir()
+        raise
+    others = f" and {len(files) - 1} more" if len(files) > 1 else ""
+    click.echo(f"{form} {files[0]}{others}")
+
+
+def _export(
+    stage: str, form: Format, output: Path, frames: FrameRange | tuple[int, ...] | None
+) -> tuple[Path, ...]:
+    """Write the files, in a child process.
+
+    Raises:
+        Failure: the stage cannot be exported.
+    """
     from balloon_usd.exchange.error import NotExportedError  # noqa: PLC0415
     from balloon_usd.exchange.export import export_stage  # noqa: PLC0415
     from balloon_usd.mesh_file.error import MeshFileError  # noqa: PLC0415
@@ -54,13 +80,11 @@ def export(stage: str, form: str, output: Path, frames: FrameRange | tuple[int, 
     try:
         codes = _time_codes(file, frames)
         require_writable(output)
-        files = export_stage(file, output, cast("Format", form), frames=codes)
+        return export_stage(file, output, form, frames=codes)
     except NotExportedError as error:
         raise Failure(str(error), ExitCode.NOT_WRITTEN) from error
     except MeshFileError as error:
         raise Failure(str(error), ExitCode.BAD_INPUT) from error
-    others = f" and {len(files) - 1} more" if len(files) > 1 else ""
-    click.echo(f"{form} {files[0]}{others}")
 
 
 def _time_codes(file: Path, frames: FrameRange | tuple[int, ...] | None) -> tuple[int, ...] | None:

@@ -36,6 +36,10 @@ class Failure(click.ClickException):
         super().__init__(message)
         self.exit_code = int(code)  # type: ignore[misc]  # click's is one a class
 
+    def __reduce__(self) -> tuple[type[Failure], tuple[str, ExitCode]]:
+        """Travel between processes."""
+        return Failure, (self.message, ExitCode(self.exit_code))
+
     def show(self, file: IO[Any] | None = None) -> None:
         """Print the message as it is: lines that begin with file:line:column lead editors to the place."""
         click.echo(self.message, file=file, err=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import contextmanager
 from pathlib import Path
 from textwrap import indent
 from typing import TYPE_CHECKING, Any
@@ -15,9 +16,11 @@ from balloon_usd.cli.golden_recipes import golden_recipes
 from balloon_usd.cli.tolerance import tolerance_options
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
     from balloon_usd.cli.golden_recipes import GoldenRecipe
+    from balloon_usd.diff import Comparison
+    from balloon_usd.golden import Compare
 
 DIFFERENT = 1
 EXIT_CODES = """\b
@@ -71,18 +74,25 @@ def verify(recipes: tuple[Path, ...], stages: Path, **options: Any) -> None:
 
     RECIPE is a recipe file or a folder of them; without any, all that golden.yaml lists are verified.
     """
+    with _comparing() as compare:
+        same = _verify(golden_recipes(recipes, stages, **options), stages, compare)
+    if not all(same):
+        raise click.exceptions.Exit(DIFFERENT)
+
+
+def _verify(held: list[GoldenRecipe], stages: Path, compare: Compare) -> list[bool]:
+    """Return of each recipe whether its stage is the same as before."""
     from balloon_usd import golden as room  # noqa: PLC0415
     from balloon_usd.diff.report import diff_text  # noqa: PLC0415
 
     def one(held: GoldenRecipe) -> bool:
-        found = room.verify(held.plan, stages, held.tolerances, held.frames)
+        found = room.verify(held.plan, stages, held.tolerances, held.frames, compare=compare)
         click.echo(f"{held.plan.recipe.name}: {'the same' if found.same else 'different'}")
         if not found.same:
             click.echo(indent(diff_text(found), "  "))
         return found.same
 
-    if not all(_each(golden_recipes(recipes, stages, **options), one)):
-        raise click.exceptions.Exit(DIFFERENT)
+    return _each(held, one)
 
 
 @golden.command(epilog=EXIT_CODES)
@@ -96,11 +106,18 @@ def update(recipes: tuple[Path, ...], stages: Path, always: bool, **options: Any
     RECIPE is a recipe file or a folder of them; without any, all that golden.yaml lists are updated. Recipes
     that it does not list are entered.
     """
+    with _comparing() as compare:
+        _update(golden_recipes(recipes, stages, **options), stages, compare, always=always)
+
+
+def _update(held: list[GoldenRecipe], stages: Path, compare: Compare, *, always: bool) -> None:
+    """Replace the stages that differ."""
     from balloon_usd import golden as room  # noqa: PLC0415
     from balloon_usd.diff.report import diff_text  # noqa: PLC0415
 
     def one(held: GoldenRecipe) -> bool:
-        done = room.update(held.plan, stages, held.tolerances, held.frames, always=always)
+        plan, tolerances = held.plan, held.tolerances
+        done = room.update(plan, stages, tolerances, held.frames, always=always, compare=compare)
         click.echo(f"{held.plan.recipe.name}: {'written' if done.written else 'kept, it is the same'}")
         if done.written and done.comparison is not None:
             click.echo(indent(diff_text(done.comparison), "  "))
@@ -109,7 +126,28 @@ def update(recipes: tuple[Path, ...], stages: Path, always: bool, **options: Any
             click.echo(f"{stages / room.FILE_NAME}: enter {recipe.name} by hand, below the others", err=True)
         return True
 
-    _each(golden_recipes(recipes, stages, **options), one)
+    _each(held, one)
+
+
+@contextmanager
+def _comparing() -> Iterator[Compare]:
+    """Compare stages in a child process, as nobody knows what became of those in a folder."""
+    from balloon_usd.cli.child_process import ChildProcess, DamagedError  # noqa: PLC0415
+
+    def compare(first: Path, second: Path, **options: Any) -> Comparison:
+        from balloon_usd.diff import DamagedStageError, DiffError, compare_files  # noqa: PLC0415
+
+        try:
+            found = child.call([first, second], compare_files, first, second, **options)
+        except (DamagedError, DamagedStageError) as error:
+            raise DiffError(f"{first}: damaged: {error}") from error
+        child.pass_on()
+        return found
+
+    with ChildProcess() as child:
+        # Before this process has more than can be forked.
+        child.start()
+        yield compare
 
 
 def _each(recipes: list[GoldenRecipe], one: Callable[[GoldenRecipe], bool]) -> list[bool]:

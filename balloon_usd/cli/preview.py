@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, cast
 import click
 
 from balloon_usd.batch.order import FrameRange
-from balloon_usd.cli.device import device_option, start_device
+from balloon_usd.cli.child_memory import start_drawing
+from balloon_usd.cli.device import device_option
 from balloon_usd.cli.failure import EXIT_CODES_HELP, ExitCode, Failure
 from balloon_usd.cli.frame_range import moments
-from balloon_usd.cli.stage_path import stage_file, stage_path
+from balloon_usd.cli.stage_path import stage_file, stage_home, stage_path
 
 if TYPE_CHECKING:
     from balloon_usd.preview import View
@@ -68,9 +69,44 @@ def preview(
 
     STAGE is a USD file, or a folder NAME as `run` writes it.
     """
+    from balloon_usd.cli.child_process import read_in_child  # noqa: PLC0415
+
+    unfinished = (output.parent, output.stem) if output else stage_home(stage)
+    sheet = read_in_child(
+        stage,
+        unfinished,
+        _draw,
+        stage,
+        output,
+        frames,
+        columns=columns,
+        size=size,
+        view=cast("View", view),
+        look=look,
+        device=device,
+    )
+    click.echo(f"contact sheet {sheet}")
+
+
+def _draw(
+    stage: str,
+    output: Path | None,
+    frames: FrameRange | tuple[int, ...] | None,
+    *,
+    columns: int,
+    size: tuple[int, int],
+    view: View,
+    look: str | None,
+    device: str,
+) -> Path:
+    """Draw the sheet, in a child process.
+
+    Raises:
+        Failure: the stage cannot be drawn.
+    """
     path = stage_path(stage)
     file = stage_file(path)
-    used = start_device(device)
+    used = start_drawing(device)
     from balloon_usd.preview import (  # noqa: PLC0415
         PictureNotWrittenError,
         PreviewError,
@@ -78,13 +114,13 @@ def preview(
     )
 
     try:
-        sheet = draw_contact_sheet(
+        return draw_contact_sheet(
             file,
             output or path.with_suffix(".png"),
             frames=_moments(file, frames),
             columns=columns,
             size=size,
-            view=cast("View", view),
+            view=view,
             look=look,
             device=used,
         )
@@ -92,7 +128,6 @@ def preview(
         raise Failure(str(error), ExitCode.NOT_WRITTEN) from error
     except PreviewError as error:
         raise Failure(str(error), ExitCode.BAD_INPUT) from error
-    click.echo(f"contact sheet {sheet}")
 
 
 def _moments(file: Path, frames: FrameRange | tuple[int, ...] | None) -> tuple[float, ...] | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from pathlib import Path
 
 from balloon_usd.cli.failure import ExitCode, Failure
@@ -22,6 +23,14 @@ def stage_path(stage: str) -> Path:
         raise Failure(f'"{stage}" is no stage, expected a USD file or a folder', ExitCode.BAD_INPUT)
     require_readable_name(path)
     return path
+
+
+def stage_home(stage: str) -> tuple[Path, str]:
+    """Return the folder that a stage lies in, and the name of what is made of it; "" if it has none."""
+    path = Path(stage)
+    with suppress(OSError):
+        path = path if path.name not in {"", ".."} else path.resolve()
+    return path.parent, path.stem if stage else ""
 
 
 def stage_file(path: Path) -> Path:

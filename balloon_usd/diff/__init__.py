@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from balloon_usd.diff.comparison import differences
 from balloon_usd.diff.difference import Difference, Spread
-from balloon_usd.diff.error import DiffError, DiffNotWrittenError
+from balloon_usd.diff.error import DamagedStageError, DiffError, DiffNotWrittenError
 from balloon_usd.diff.movement import Moment, Movement
 from balloon_usd.diff.tolerance import EXACT, Allowed, Tolerances
 from balloon_usd.diff.two_files import Comparison, compare_files
@@ -13,6 +13,7 @@ __all__ = [
     "EXACT",
     "Allowed",
     "Comparison",
+    "DamagedStageError",
     "DiffError",
     "DiffNotWrittenError",
     "Difference",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-from balloon_usd.diff.error import DiffError
+from balloon_usd.diff.error import DamagedStageError, DiffError
 from balloon_usd.openusd import Sdf, Tf, Usd, UsdGeom
 from balloon_usd.stage.on_disk import file_of, is_cut_package, special_files, why_not_named
 from balloon_usd.stage.opening import said_by, streaming
@@ -20,13 +20,13 @@ def reading() -> Iterator[None]:
     """Open and read stages inside the block quietly, and without their files growing into memory.
 
     Raises:
-        DiffError: a part of a file turns out to be damaged when it is read.
+        DamagedStageError: a part of a file turns out to be damaged when it is read.
     """
     try:
         with streaming():
             yield
     except Tf.ErrorException as error:
-        raise DiffError(f"a stage is damaged: {said_by(error)}".removesuffix(": ")) from error
+        raise DamagedStageError(f"a value cannot be read: {said_by(error)}".removesuffix(": ")) from error
 
 
 def stage_file(path: Path) -> Path:
@@ -56,6 +56,8 @@ def open_stage(file: Path) -> Any:
         with file.open("rb"):
             pass
         layer = Sdf.Layer.FindOrOpen(str(file))
+        if layer is None:
+            raise DiffError(f"{file} is not a USD file, or not a whole one")
         if is_cut_package(file):
             raise DiffError(f"{file} is not a whole package: its end is missing")
         for asset, by in special_files(layer):

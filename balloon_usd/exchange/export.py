@@ -29,6 +29,9 @@ if TYPE_CHECKING:
 
 Format = Literal["obj", "ply", "vtu", "xdmf"]
 
+MOST = 1_000_000
+"""Frames that are exported unasked: a stage that claims more may be a damaged one."""
+
 
 @usd_access()
 def export_stage(
@@ -136,6 +139,8 @@ def _moves(merged: MergedMesh) -> bool:
 def _time_codes(merged: MergedMesh, stage: str, frames: Sequence[int] | None) -> tuple[float, ...]:
     scene = merged.scene
     if frames is None:
+        if scene.end - scene.start > MOST:
+            raise MeshFileError(f"{stage} has frames {scene.start:g} to {scene.end:g}, name some of them")
         return tuple(range(ceil(scene.start), floor(scene.end) + 1)) if _moves(merged) else (scene.start,)
     if not frames or min(frames) < scene.start or max(frames) > scene.end:
         raise MeshFileError(f"{stage} has frames {scene.start:g} to {scene.end:g} only")

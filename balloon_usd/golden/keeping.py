@@ -6,7 +6,7 @@ import tempfile
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from balloon_usd.diff import Comparison, DiffError, Tolerances, compare_files
 from balloon_usd.solver.performance import simulate
@@ -18,6 +18,15 @@ if TYPE_CHECKING:
 
 DETAIL, DEVICE = "draft", "cpu"
 """Golden stages are made as every computer can make them."""
+
+
+class Compare(Protocol):
+    """What compares two stages, as `compare_files` does."""
+
+    def __call__(
+        self, first: Path, second: Path, *, tolerances: Tolerances = ..., variants: bool = ...
+    ) -> Comparison:
+        """Compare them; raises `DiffError` where that cannot be done."""
 
 
 @dataclass(frozen=True)
@@ -45,7 +54,14 @@ def perform(plan: Plan, folder: Path, frames: int | None = None) -> Path:
     return write_stage(plan, islice(performance, frames), folder, detail=DETAIL).files[0]
 
 
-def verify(plan: Plan, folder: Path, tolerances: Tolerances, frames: int | None = None) -> Comparison:
+def verify(
+    plan: Plan,
+    folder: Path,
+    tolerances: Tolerances,
+    frames: int | None = None,
+    *,
+    compare: Compare = compare_files,
+) -> Comparison:
     """Compare the golden stage of a plan with what comes out now.
 
     Args:
@@ -53,6 +69,7 @@ def verify(plan: Plan, folder: Path, tolerances: Tolerances, frames: int | None 
         folder: of the golden stages.
         tolerances: what may differ.
         frames: the first so many; None: all.
+        compare: compares two stages as `compare_files` does, which may crash with a damaged one.
 
     Raises:
         DiffError: there is no golden stage, or it is not whole.
@@ -61,11 +78,17 @@ def verify(plan: Plan, folder: Path, tolerances: Tolerances, frames: int | None 
     """
     with tempfile.TemporaryDirectory() as aside:
         fresh = perform(plan, Path(aside), frames)
-        return compare_files(folder / plan.recipe.name, fresh, tolerances=tolerances, variants=True)
+        return compare(folder / plan.recipe.name, fresh, tolerances=tolerances, variants=True)
 
 
 def update(
-    plan: Plan, folder: Path, tolerances: Tolerances, frames: int | None = None, *, always: bool = False
+    plan: Plan,
+    folder: Path,
+    tolerances: Tolerances,
+    frames: int | None = None,
+    *,
+    always: bool = False,
+    compare: Compare = compare_files,
 ) -> Update:
     """Replace the golden stage of a plan, the whole folder NAME, if what comes out now differs.
 
@@ -77,6 +100,7 @@ def update(
         tolerances: what may differ.
         frames: the first so many; None: all.
         always: replace it even if it is the same within the tolerances.
+        compare: as in `verify`.
 
     Raises:
         SimulationFailed: the physics broke down.
@@ -86,7 +110,7 @@ def update(
     with Workspace(golden) as work:
         fresh = perform(plan, work.built.parent, frames)
         try:
-            comparison = compare_files(golden, fresh, tolerances=tolerances, variants=True)
+            comparison = compare(golden, fresh, tolerances=tolerances, variants=True)
         except DiffError:
             comparison = None
         written = always or comparison is None or not comparison.same

@@ -106,6 +106,8 @@ def _opened(path: str | Path, look: str | None) -> tuple[Any, str]:
     try:
         with quiet():
             layer = Sdf.Layer.FindOrOpen(str(path))
+            if layer is None:
+                raise PreviewError(f"{path} is not a USD file, or a damaged one")
             for asset, by in special_files(layer):
                 raise PreviewError(f"{path} is not whole: {asset}, which {by} needs, is a pipe or a device")
             stage = Usd.Stage.Open(layer)

@@ -151,8 +151,7 @@ def test_not_a_number_is_told_and_is_null_in_json(diff, tmp_path):
     assert points["by"] is None
 
 
-def test_a_picture_and_a_page_are_written(diff, tmp_path, monkeypatch):
-    monkeypatch.setattr("balloon_usd.diff.sheet.SIZE", (96, 64))
+def test_a_picture_and_a_page_are_written(diff, tmp_path):
     result = diff("one/dog", "other/dog", "--png", "d.png", "--html", "d.html", "--device", "cpu")
     assert result.exit_code == 1
     with Image.open(tmp_path / "d.png") as picture:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import sys
-
 import pytest
 
 from balloon_usd.stage import write_stage
@@ -72,8 +70,10 @@ def test_a_format_that_is_not_known_is_refused_with_those_that_are(cli, dog):
 
 
 @pytest.mark.parametrize(("form", "name"), [("obj", "meshio"), ("xdmf", "h5py")])
-def test_a_missing_library_is_named_with_its_remedy(form, name, cli, dog, monkeypatch, left):
-    monkeypatch.setitem(sys.modules, name, None)
+def test_a_missing_library_is_named_with_its_remedy(form, name, cli, dog, tmp_path, monkeypatch, left):
+    # First on the path of every process: as if it were not there.
+    (tmp_path / f"{name}.py").write_text("raise ModuleNotFoundError")
+    monkeypatch.syspath_prepend(tmp_path)
     line = refused(cli("export", "dog", "--format", form, "-o", "out"))
     assert line == f"{name} is not installed: pip install 'balloon-usd[mesh]'"
     assert left() == []

@@ -11,6 +11,8 @@ from pathlib import Path
 
 import pytest
 
+from balloon_usd.diff import compare_files
+from balloon_usd.diff.drawing import draw_comparison
 from balloon_usd.stage import write_stage
 from tests import interruptible
 from tests.check.test_hostile_stages import write
@@ -68,12 +70,15 @@ def test_a_name_that_leaves_no_room_for_a_temporary_one_is_told(cli, dog, tmp_pa
     assert list(tmp_path.iterdir()) == []
 
 
-def test_an_interrupted_picture_leaves_nothing(cli, dog, tmp_path, monkeypatch):
+def test_an_interrupted_picture_leaves_nothing(dog, tmp_path, monkeypatch):
+    comparison = compare_files(dog, dog)
+
     def interrupt(self, target):
         raise KeyboardInterrupt
 
     monkeypatch.setattr("pathlib.Path.replace", interrupt)
-    assert cli("diff", dog, dog, "--html", "page.html").exit_code == 130
+    with pytest.raises(KeyboardInterrupt):
+        draw_comparison(comparison, html=tmp_path / "page.html", device="cpu")
     assert list(tmp_path.iterdir()) == []
 
 

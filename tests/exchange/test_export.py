@@ -182,6 +182,19 @@ def test_frames_that_are_not_there_are_refused(dog: Path, tmp_path: Path) -> Non
         export_stage(dog, tmp_path, "obj", frames=[4, 6])
 
 
+def test_a_range_that_nobody_has_animated_is_refused_unless_frames_are_named(
+    dog: Path, tmp_path: Path
+) -> None:
+    stage = Usd.Stage.CreateNew(str(dog.with_name("long.usda")))
+    stage.GetRootLayer().subLayerPaths.append(str(dog))
+    stage.SetStartTimeCode(1)
+    stage.SetEndTimeCode(1e300)
+    stage.Save()
+    with pytest.raises(MeshFileError, match=r"long.usda has frames 1 to 1e\+300, name some of them"):
+        export_stage(dog.with_name("long.usda"), tmp_path, "ply")
+    assert len(export_stage(dog.with_name("long.usda"), tmp_path, "ply", frames=[2])) == 1
+
+
 def test_a_folder_in_the_way_is_refused_and_nothing_is_written(dog: Path, tmp_path: Path) -> None:
     (tmp_path / "dog.0003.obj").mkdir()
     with pytest.raises(NotExportedError, match=r"dog.0003.obj could not be written: a folder is in the way"):
