@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import shutil
 import stat
+from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -48,6 +49,14 @@ def test_the_result_tells_frames_and_extent(tmp_path: Path) -> None:
     (low, high) = written.extent
     assert low[0] == pytest.approx(-RADIUS)
     assert high[0] == pytest.approx(LENGTH + RADIUS)
+
+
+@pytest.mark.parametrize("form", [{}, {"flat": True, "shot": True}, {"shot": True}, {"usdz": True}])
+def test_the_result_tells_the_hashes_and_the_size_of_its_files(form: dict[str, bool], tmp_path: Path) -> None:
+    written = write_stage(sculpture(), frames(3), tmp_path, **form)
+    contents = {file: file.read_bytes() for file in written.files}
+    assert written.sha256 == {file: sha256(content).hexdigest() for file, content in contents.items()}
+    assert written.size == sum(map(len, contents.values()))
 
 
 @pytest.mark.parametrize(
