@@ -171,7 +171,15 @@ def test_only_what_may_be_found_again_is_tried_again(cluster, tmp_path, error, l
     assert made(tmp_path) == ([] if lost else ["a"])
 
 
-def test_tasks_end_as_by_hand_when_nobody_waits_for_them(cluster, tmp_path):
+@pytest.fixture
+def interruptible():
+    """Ctrl-C is heard, also where the tests run in the background of a shell."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+def test_tasks_end_as_by_hand_when_nobody_waits_for_them(cluster, tmp_path, interruptible):
     def interrupt():
         begun_by(tmp_path, "a")
         begun_by(tmp_path, "b")

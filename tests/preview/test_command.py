@@ -84,11 +84,20 @@ def test_an_output_that_is_a_folder_is_refused_before_anything_is_drawn(preview,
     assert line == "taken.png cannot be written: a folder is in the way"
 
 
-def test_a_full_disk_has_its_own_exit_code(preview, monkeypatch):
-    def full(*_):
-        raise OSError(28, "No space left on device")
+FULL_DISK = """
+import pathlib
 
-    monkeypatch.setattr("pathlib.Path.replace", full)
+def full(*_):
+    raise OSError(28, "No space left on device")
+
+pathlib.Path.replace = full
+"""
+"""What the interpreter runs at its start where it is found."""
+
+
+def test_a_full_disk_has_its_own_exit_code(preview, monkeypatch, tmp_path):
+    (tmp_path / "sitecustomize.py").write_text(FULL_DISK)
+    monkeypatch.syspath_prepend(tmp_path)
     line = refused(preview("capsule.usda", "-o", "x.png", *SMALL), code=1)
     assert line == "x.png cannot be written: No space left on device"
 
