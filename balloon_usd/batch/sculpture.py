@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import signal
 import time
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack
 from typing import TYPE_CHECKING
 
 from balloon_usd.balloon.detail import detail_named
 from balloon_usd.balloon.rubber import BURST_STRETCH
 from balloon_usd.batch.messages import Made
+from balloon_usd.endings import endings_wait
 from balloon_usd.files.hashes import hashes_of
 from balloon_usd.plan.meshing import mesh_of
 from balloon_usd.report import History, write_report
@@ -18,7 +18,7 @@ from balloon_usd.stage import StageWriter
 from balloon_usd.staging import describe_stage, provenance_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Mapping
     from pathlib import Path
 
     from balloon_usd.batch.messages import Part
@@ -26,19 +26,6 @@ if TYPE_CHECKING:
     from balloon_usd.plan import Plan
     from balloon_usd.solver.frame import Frame
     from balloon_usd.stage import WrittenStage
-
-
-@contextmanager
-def _without_end() -> Iterator[None]:
-    """Let SIGTERM wait for the end of the block, where what is half-written is removed."""
-    if not hasattr(signal, "pthread_sigmask"):
-        yield
-        return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGTERM})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 class Sculpture:
@@ -65,7 +52,7 @@ class Sculpture:
 
     def stop(self) -> None:
         """Give up the stage and remove what was written of it; does nothing to a finished one."""
-        with _without_end():
+        with endings_wait():
             self._open.close()
 
     def undone_at(self, time_code: int, news: Mapping[int, Mapping[int, tuple[str, ...]]]) -> tuple[str, ...]:

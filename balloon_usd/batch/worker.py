@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from balloon_usd.batch.forking import end_with
 from balloon_usd.batch.messages import Role, Start
+from balloon_usd.endings import never_dropped
 from balloon_usd.loading import expect_modules
 
 if TYPE_CHECKING:
@@ -24,11 +25,13 @@ def work(connection: Connection[Any, Any]) -> None:
     """Do what comes over the connection, until its other end is closed."""
     start = connection.recv()
     assert isinstance(start, Start), "a worker is told first what it is for"
+    worker = _worker(connection, start)
+    # Until now there is nothing to tidy up, and modules must not be loaded by halves.
     if start.role is not Role.SIMULATOR:
         signal.signal(signal.SIGTERM, _terminate)
-    worker = _worker(connection, start)
     try:
-        worker.run()
+        with never_dropped(_Terminated):
+            worker.run()
     finally:
         worker.close()
 

@@ -27,6 +27,7 @@ from balloon_usd.cli.preview import preview
 from balloon_usd.cli.run import run
 from balloon_usd.cli.schema import schema
 from balloon_usd.cli.vary import vary
+from balloon_usd.endings import never_dropped
 from balloon_usd.loading import expect_modules
 
 if TYPE_CHECKING:
@@ -44,7 +45,7 @@ class Commands(click.Group):
     def invoke(self, ctx: click.Context) -> Any:
         """Run the command; Ctrl-C ends it with its own exit code."""
         try:
-            with _heard(), _terminable():
+            with _heard(), _terminable(), never_dropped(KeyboardInterrupt, _Terminated):
                 return super().invoke(ctx)
         except KeyboardInterrupt as error:
             raise Failure("interrupted, nothing half-written is left", ExitCode.INTERRUPTED) from error

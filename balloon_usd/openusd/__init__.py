@@ -13,28 +13,29 @@ Therefore
 
 from __future__ import annotations
 
+from balloon_usd.endings import endings_wait
 from balloon_usd.openusd.access import each_step_alone, usd_access
 from balloon_usd.openusd.library import load_library
 
-load_library()
+with endings_wait():
+    load_library()
+    from pxr import (
+        Ar,
+        Gf,
+        Kind,
+        Pcp,
+        Sdf,
+        Tf,
+        Usd,
+        UsdGeom,
+        UsdLux,
+        UsdShade,
+        UsdUtils,
+        UsdValidation,
+        Vt,
+    )
 
-from pxr import (  # noqa: E402
-    Ar,
-    Gf,
-    Kind,
-    Pcp,
-    Sdf,
-    Tf,
-    Usd,
-    UsdGeom,
-    UsdLux,
-    UsdShade,
-    UsdUtils,
-    UsdValidation,
-    Vt,
-)
-
-from balloon_usd.openusd.first_calls import make_first_calls  # noqa: E402
+from balloon_usd.openusd.first_calls import make_first_calls
 
 make_first_calls()
 

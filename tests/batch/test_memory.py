@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 import time
 from contextlib import suppress
 from pathlib import Path
@@ -22,15 +23,17 @@ def held(pid):
 def most_held(recipes, folder):
     """Run; return the most memory and open files of the scheduler, the writers and the simulators."""
     process = runs.start(recipes, "-o", folder, "--flat", "--no-preview", "--no-report", "--device", "cpu")
-    most = {}
-    while process.poll() is None:
+    most, told = {}, []
+    # It says more than a pipe holds.
+    listener = threading.Thread(target=lambda: told.extend(process.communicate()))
+    listener.start()
+    while listener.is_alive():
         found = {pid: role for role in ("writer", "simulator") for pid in runs.workers(process.pid, role)}
         for pid, role in {process.pid: "scheduler", **found}.items():
             with suppress(OSError, KeyError, ValueError):
                 most[role] = tuple(map(max, held(pid), most.get(role, (0, 0))))
         time.sleep(0.05)
-    _, err = process.communicate()
-    assert process.returncode == 0, err[-2000:]
+    assert process.returncode == 0, told[1][-2000:]
     return most
 
 
