@@ -96,5 +96,6 @@ def test_lines_of_a_page_are_no_longer_than_130_characters(path: Path) -> None:
 @pytest.mark.parametrize("path", PAGES, ids=[str(path.relative_to(ROOT)) for path in PAGES])
 def test_links_of_a_page_lead_to_files(path: Path) -> None:
     text = re.sub(r"^```.*?^```$", "", path.read_text(encoding="utf-8"), flags=re.DOTALL | re.MULTILINE)
-    for target in re.findall(r"\]\(([^)#]+)[^)]*\)", text):
+    in_place, below = r"\]\(([^)#]+)[^)]*\)", r"^\[[^]]+\]: (\S+)$"
+    for target in re.findall(in_place, text) + re.findall(below, text, re.MULTILINE):
         assert "://" in target or (path.parent / target).is_file(), target
