@@ -31,15 +31,15 @@ class Kosaka(BaseModel):
     kd: Annotated[float, Between(0.0, 1e6, "1/s")] | None = None
     """Damping of the springs, 1/s (eq. 3.1)."""
     alpha: Annotated[float, Between(0.0, 1e9, "1/s2")] | None = None
-    """Repulsion of air particles, 1/s2 (eq. 3.3)."""
+    """Repulsion of air particles, 1/s2 (eq. 3.4)."""
     beta: Annotated[float, Between(0.0, 1e6, "m/s2")] | None = None
-    """Push of the rubber on an air particle, m/s2 (eq. 3.17)."""
+    """Push of the rubber on an air particle, m/s2 (eq. 3.12)."""
     push: Annotated[float, Between(0.0, 1e6, "m/s2")] | None = None
     """Push of an air particle on the rubber, m/s2: the unit of force of eq. 3.10."""
     gamma: Offset | None = None
     """How far a leaked air particle is moved back, m in Python (eq. 3.13)."""
     re: Offset | None = None
-    """Reach of an air particle's repulsion, m in Python (eq. 3.4)."""
+    """Reach of an air particle's repulsion, m in Python (eq. 3.3)."""
     air_offset: Offset | None = None
     """Thickness of the offset region in which air and rubber push each other, m in Python."""
     contact_offset: Offset | None = None

@@ -1,4 +1,4 @@
-"""What the README shows works as it is shown."""
+"""What the README and the pages show works as it is shown."""
 
 from __future__ import annotations
 
@@ -8,11 +8,15 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
+import balloon_usd
 from balloon_usd import Recipe, RecipeError, plan_recipe
 from balloon_usd.cli import main
 from balloon_usd.recipe.steps import KINDS
 
-README = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
+ROOT = Path(__file__).parents[2]
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+EXAMPLES = ROOT / "docs/examples"
+PAGES = sorted(ROOT.glob("*.md")) + sorted((ROOT / "docs").rglob("*.md"))
 TINY = """\
 format: 1
 name: dog
@@ -26,37 +30,72 @@ steps:
 """
 
 
-def blocks(language: str) -> list[str]:
-    """The fenced blocks of a language."""
-    return re.findall(rf"^```{language}\n(.*?)^```$", README, re.DOTALL | re.MULTILINE)
+def page(name: str) -> str:
+    """A page below docs."""
+    return (ROOT / "docs" / name).read_text(encoding="utf-8")
+
+
+def mouse() -> str:
+    """The first recipe."""
+    return (EXAMPLES / "mouse.yaml").read_text(encoding="utf-8")
+
+
+def test_the_readme_is_short() -> None:
+    assert len(README.splitlines()) <= 200
 
 
 def test_the_first_recipe_fits_without_cautions() -> None:
-    (text,) = blocks("yaml")
-    assert plan_recipe(Recipe.parse(text)).cautions == ()
+    assert plan_recipe(Recipe.parse(mouse())).cautions == ()
 
 
-def test_a_slip_is_told_as_shown() -> None:
-    (text,) = blocks("yaml")
+def test_the_readme_shows_the_first_recipe() -> None:
+    assert re.findall(r"^```yaml\n(.*?)^```$", README, re.DOTALL | re.MULTILINE) == [mouse()]
+
+
+@pytest.mark.parametrize("text", [README, page("tutorial/first_figure.md")], ids=["README", "tutorial"])
+def test_a_slip_is_told_as_shown(text: str) -> None:
     with pytest.raises(RecipeError) as raised:
-        Recipe.parse(text.replace("lock: [left_ear,", "lock: [lft_ear,"), file="mouse.yaml")
-    assert f"   {raised.value}\n" in README
+        Recipe.parse(mouse().replace("lock: [left_ear,", "lock: [lft_ear,"), file="mouse.yaml")
+    assert str(raised.value) in [line.strip() for line in text.splitlines()]
 
 
-@pytest.mark.parametrize("code", blocks("python"), ids=["from a recipe", "from a builder"])
-def test_the_python_examples_run(code: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("example", ["from_recipe.py", "from_builder.py"])
+def test_the_python_examples_run(example: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     Path("recipes").mkdir()
     Path("recipes/dog.yaml").write_text(TINY)
-    exec(compile(code, "README.md", "exec"), {})
+    exec(compile((EXAMPLES / example).read_text(encoding="utf-8"), example, "exec"), {})
+
+
+@pytest.mark.parametrize("example", sorted(path.name for path in EXAMPLES.iterdir()))
+def test_every_example_is_shown_on_a_page(example: str) -> None:
+    assert any(f"{{literalinclude}} ../examples/{example}\n" in path.read_text("utf-8") for path in PAGES)
 
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_operation_is_explained(kind: str) -> None:
-    assert f"| `{kind}: " in README
+    assert f"| `{kind}: " in page("reference/recipe.md")
 
 
 @pytest.mark.parametrize("command", main.commands)
 def test_every_command_is_explained(command: str) -> None:
-    assert f"`balloon-usd {command}" in README
+    assert f"`balloon-usd {command}" in page("reference/command_line.md")
     assert CliRunner().invoke(main, [command, "--help"]).exit_code == 0
+
+
+@pytest.mark.parametrize("name", sorted(set(balloon_usd.__all__) - {"__version__"}))
+def test_every_public_name_has_its_docstring_on_a_page(name: str) -> None:
+    assert re.search(rf":: balloon_usd\.{name}(\(\))?$", page("reference/python.md"), re.MULTILINE)
+
+
+@pytest.mark.parametrize("path", PAGES, ids=[str(path.relative_to(ROOT)) for path in PAGES])
+def test_lines_of_a_page_are_no_longer_than_130_characters(path: Path) -> None:
+    assert max(len(line) for line in path.read_text(encoding="utf-8").splitlines()) <= 130
+
+
+@pytest.mark.parametrize("path", PAGES, ids=[str(path.relative_to(ROOT)) for path in PAGES])
+def test_links_of_a_page_lead_to_files(path: Path) -> None:
+    text = re.sub(r"^```.*?^```$", "", path.read_text(encoding="utf-8"), flags=re.DOTALL | re.MULTILINE)
+    in_place, below = r"\]\(([^)#]+)[^)]*\)", r"^\[[^]]+\]: (\S+)$"
+    for target in re.findall(in_place, text) + re.findall(below, text, re.MULTILINE):
+        assert "://" in target or (path.parent / target).is_file(), target

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,6 +19,7 @@ from balloon_usd.report.figure import panels_of
 from balloon_usd.report.step_marks import step_marks
 from balloon_usd.solver.frame import Frame
 
+PAGE = Path(__file__).parents[2] / "docs/reference/report.md"
 TUBE = """\
 format: 1
 name: snake
@@ -167,6 +170,12 @@ def test_the_document_has_its_keys_in_order_and_units_for_its_numbers(history):
     assert {*data["units"]} == {"time", "pressure", "volume", "stretch", "contact", "tail"}
     assert len(data["time"]) == len(data["bubbles"][2]["volume"]) == len(data["balloons"][0]["tail"]) == 199
     assert data["time"][24] == 1.0
+
+
+def test_every_key_of_the_document_is_explained(history):
+    data = report_data(history, detail="draft", provenance=ORIGIN)
+    rows = [row.split("|")[1] for row in PAGE.read_text("utf-8").splitlines() if row.startswith("| `")]
+    assert sorted(re.findall(r"`(\w+)`", " ".join(rows))) == sorted(data)
 
 
 def test_numbers_are_rounded_to_what_single_precision_means(history):

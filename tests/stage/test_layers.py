@@ -1,8 +1,9 @@
-"""What the README tells studios: its layers are composed here as they stand there."""
+"""What the guide for studios tells: its layers are composed here as they stand there."""
 
 from __future__ import annotations
 
 import re
+import shutil
 from collections import Counter
 from pathlib import Path
 
@@ -14,7 +15,8 @@ from balloon_usd.stage import write_stage
 from tests.stage.selections import complaints
 from tests.stage.tubes import frames, sculpture, tube_mesh
 
-README = Path(__file__).parents[2] / "README.md"
+EXAMPLES = Path(__file__).parents[2] / "docs/examples"
+GUIDE = Path(__file__).parents[2] / "docs/howto/studios.md"
 FRAMES = 12
 BLUE = (0.02, 0.1, 0.6)
 NAMES = ("blue_dog.usda", "shelf.usda", "every_dog.usda", "crowd.usda")
@@ -22,7 +24,7 @@ NAMES = ("blue_dog.usda", "shelf.usda", "every_dog.usda", "crowd.usda")
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The asset of a red dog in two details, with the README's layers beside it."""
+    """The asset of a red dog in two details, with the guide's layers beside it."""
     folder = tmp_path_factory.mktemp("studio")
     for detail, rings in (("full", 9), ("draft", 7)):
         names = ("nose", "left_ear", "right_ear")
@@ -30,11 +32,9 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
         object.__setattr__(main, "material", "latex_red")
         second = tube_mesh("second", ("stem", "petal"), rings, (0.1, 0.3, 0.7))
         write_stage(sculpture(meshes=(main, second)), frames(FRAMES, rings), folder, detail=detail)
-    section = README.read_text(encoding="utf-8").partition("\n## For studios\n")[2].partition("\n## ")[0]
-    for text in re.findall(r"^```usda\n(.*?)^```$", section, re.DOTALL | re.MULTILINE):
-        name = re.search(r"^# (\S+)$", text, re.MULTILINE)
-        assert name, text
-        (folder / name[1]).write_text(text)
+    text = GUIDE.read_text(encoding="utf-8")
+    for name in re.findall(r"^```{literalinclude} \.\./examples/(\S+)$", text, re.MULTILINE):
+        shutil.copy(EXAMPLES / name, folder)
     return folder
 
 
@@ -135,7 +135,7 @@ def test_instances_have_their_own_colour_look_time_and_place(folder: Path) -> No
 
 
 def hundred(folder: Path) -> Usd.Stage:
-    """The README's three dogs, over and over up to a hundred, each at its own place."""
+    """The example's three dogs, over and over up to a hundred, each at its own place."""
     layer = Sdf.Layer.OpenAsAnonymous(str(folder / "crowd.usda"))
     for number in range(3, 100):
         copy = Sdf.Path(f"/crowd/dog_{number}")

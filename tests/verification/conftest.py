@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-README = Path(__file__).parents[2] / "README.md"
+PAGE = Path(__file__).parents[2] / "docs/theory/verification.md"
 BEGIN, END = "<!-- verification table -->", "<!-- end of verification table -->"
 TABLE = pytest.StashKey[list["Row"]]()
 NOTES = pytest.StashKey[list[str]]()
@@ -37,7 +37,9 @@ class Row:
 
 
 def pytest_addoption(parser):
-    parser.addoption("--update-table", action="store_true", help="write the README's verification table anew")
+    parser.addoption(
+        "--update-table", action="store_true", help="write the tables of docs/theory/verification.md anew"
+    )
 
 
 @pytest.fixture
@@ -101,7 +103,7 @@ def verification_lines(rows):
     """Lines of a table with the row of every case that is nearest to its tolerance; cases that did not run keep the
     line that they have.
     """
-    written = README.read_text(encoding="utf-8").split(BEGIN)[1].split(END)[0].strip().splitlines()[2:]
+    written = PAGE.read_text(encoding="utf-8").split(BEGIN)[1].split(END)[0].strip().splitlines()[2:]
     lines = {line.split()[1]: line for line in written}
     for case in {row.case for row in rows}:
         all_of_it = [row for row in rows if row.case == case]
@@ -116,7 +118,7 @@ def verification_lines(rows):
 
 
 def write_between(begin, end, lines):
-    """Put lines between two marks of the README."""
-    text = README.read_text(encoding="utf-8")
+    """Put lines between two marks of the page."""
+    text = PAGE.read_text(encoding="utf-8")
     before, after = text.split(begin)[0], text.split(end)[1]
-    README.write_text(before + begin + "\n\n" + "\n".join(lines) + "\n\n" + end + after, encoding="utf-8")
+    PAGE.write_text(before + begin + "\n\n" + "\n".join(lines) + "\n\n" + end + after, encoding="utf-8")

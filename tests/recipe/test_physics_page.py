@@ -1,4 +1,4 @@
-"""The tables of the physics and of the particle model's constants in the README say what there is."""
+"""The tables of the physics and of the particle model's constants in the reference say what there is."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from balloon_usd.recipe.kosaka import KOSAKA_LENGTHS, Kosaka
 from balloon_usd.recipe.quantities import Between
 from balloon_usd.solver.kosaka.parameters import SUBSTEPS, parameters
 
-README = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
+PAGE = (Path(__file__).parents[2] / "docs/reference/physics.md").read_text(encoding="utf-8")
 CAPSULE = (
     "format: 1\nname: air\nunits: cm\nballoons: {main: {size: 260, capsule: 20}}\n"
     "steps: [wait: 1]\nphysics: {model: kosaka}\n"
@@ -24,7 +24,7 @@ CAPSULE = (
 
 def rows() -> list[tuple[str, str, str]]:
     """Key, unit and default of every constant, as the table has them."""
-    table = README.partition("| key | unit | if absent | meaning |\n")[2].partition("\n\n")[0]
+    table = PAGE.partition("| key | unit | if absent | meaning |\n")[2].partition("\n\n")[0]
     cells = [[cell.strip() for cell in row.strip("|").split("|")] for row in table.splitlines()[1:]]
     found = []
     for keys, units, default, _ in cells:
@@ -39,7 +39,7 @@ WITH_NUMBERS = [
 
 
 def test_every_key_of_the_physics_stands_in_its_table_once() -> None:
-    table = README.partition("| key | default | meaning |\n")[2].partition("\n\n")[0]
+    table = PAGE.partition("| key | default | meaning |\n")[2].partition("\n\n")[0]
     keys = [re.findall(r"`(\w+)`", row)[0] for row in table.splitlines()[1:]]
     assert sorted(keys) == sorted(Physics.model_fields)
 

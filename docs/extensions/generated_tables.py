@@ -1,0 +1,83 @@
+"""Tables that are made of the code while the pages are built: they cannot be out of date."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from sphinx.util.docutils import SphinxDirective
+
+from balloon_usd.recipe import recipe_schema
+from balloon_usd.report.document import DIGITS, UNITS
+from balloon_usd.stage.properties import PROPERTIES
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from docutils import nodes
+    from sphinx.application import Sphinx
+
+
+class RecipeKeys(SphinxDirective):
+    """`recipe-keys`: every key of a block of the recipe, out of the schema that editors get."""
+
+    required_arguments = 1
+
+    def run(self) -> list[nodes.Node]:
+        """Return the table of the block that is named: Balloon, Step, Physics or Kosaka."""
+        keys = recipe_schema()["$defs"][self.arguments[0]]["properties"]
+        rows = ((f"`{name}`", _allowed(key), _default(key), key["description"]) for name, key in keys.items())
+        return self.parse_text_to_nodes(_table(("key", "values", "default", "meaning"), rows))
+
+
+class StageProperties(SphinxDirective):
+    """`stage-properties`: what is true of every stage, and what to do where it is not."""
+
+    def run(self) -> list[nodes.Node]:
+        """Return the table of all properties by their numbers."""
+        rows = ((str(number), it.says, it.where, it.remedy) for number, it in PROPERTIES.items())
+        return self.parse_text_to_nodes(_table(("", "property", "tested", "remedy"), rows))
+
+
+class ReportUnits(SphinxDirective):
+    """`report-units`: units of the numbers in a report, and how finely they are written."""
+
+    def run(self) -> list[nodes.Node]:
+        """Return the table of all quantities."""
+        rows = ((f"`{name}`", unit, str(DIGITS[name])) for name, unit in UNITS.items())
+        return self.parse_text_to_nodes(_table(("quantity", "unit", "digits after the point"), rows))
+
+
+def _allowed(key: dict[str, Any]) -> str:
+    """Words, or a range of numbers."""
+    if "enum" in key:
+        return ", ".join(
+            f"`{word}`" for word in key["enum"] if not isinstance(word, str) or not word.isdigit()
+        )
+    if "maximum" in key:
+        return f"{key.get('minimum', 0):g} to {key['maximum']:g}"
+    return {"boolean": "`true`, `false`", "string": "text"}.get(key.get("type", ""), "")
+
+
+def _default(key: dict[str, Any]) -> str:
+    default = key.get("default")
+    return "" if default is None or isinstance(default, dict) else f"`{str(default).lower()}`"
+
+
+def _plain(_app: Sphinx, _context: object, lines: list[str]) -> None:
+    """Take help texts of commands as they are: an asterisk is none of Sphinx's emphasis."""
+    lines[:] = [line.replace("*", r"\*") for line in lines]
+
+
+def _table(head: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:
+    """Return a table in Markdown."""
+    cells = ((" ".join(cell.split()).replace("|", r"\|") for cell in row) for row in rows)
+    return "\n".join(f"| {' | '.join(row)} |" for row in (head, ("---",) * len(head), *cells))
+
+
+def setup(app: Sphinx) -> dict[str, bool]:
+    """Tell Sphinx of the directives."""
+    app.add_directive("recipe-keys", RecipeKeys)
+    app.add_directive("stage-properties", StageProperties)
+    app.add_directive("report-units", ReportUnits)
+    app.connect("sphinx-click-process-description", _plain)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
