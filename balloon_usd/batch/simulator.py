@@ -23,7 +23,7 @@ from balloon_usd.batch.messages import (
     Started,
 )
 from balloon_usd.batch.reading import RecipeChanged, planned
-from balloon_usd.recipe.problem import RecipeError
+from balloon_usd.language.problem import RecipeError
 from balloon_usd.solver import simulation as solver
 from balloon_usd.solver.errors import DeviceUnavailable
 

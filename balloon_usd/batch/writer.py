@@ -30,7 +30,7 @@ from balloon_usd.batch.reading import RecipeChanged, planned
 from balloon_usd.batch.sculpture import Sculpture
 from balloon_usd.batch.sheet import draw
 from balloon_usd.files.hashes import are_whole
-from balloon_usd.recipe.problem import RecipeError
+from balloon_usd.language.problem import RecipeError
 from balloon_usd.report import ReportError
 from balloon_usd.stage import StageError
 

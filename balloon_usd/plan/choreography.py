@@ -11,8 +11,8 @@ from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
+from balloon_usd.language.problem import RecipeError
 from balloon_usd.plan.lengths import cm
-from balloon_usd.recipe.problem import RecipeError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

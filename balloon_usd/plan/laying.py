@@ -7,21 +7,21 @@ from typing import TYPE_CHECKING
 
 from balloon_usd.balloon.rubber import rubber_named
 from balloon_usd.balloon.tube_theory import maxwell_state
+from balloon_usd.language.names import rest_name
+from balloon_usd.language.problem import RecipeError, quoted
 from balloon_usd.plan.capsule import capsule_bubbles
 from balloon_usd.plan.laying_shapes import overlap_problems, shaped_strip
 from balloon_usd.plan.lengths import at_least, at_most, cm
 from balloon_usd.plan.open_tube import OpenTube, inflated_tube, softened, tail_range
 from balloon_usd.plan.strip import BubbleKind, Made, PlannedBubble, Strip
 from balloon_usd.plan.tube_sizes import tube_sizes
-from balloon_usd.recipe.names import rest_name
-from balloon_usd.recipe.problem import RecipeError, quoted
 
 if TYPE_CHECKING:
     from balloon_usd.balloon.rubber import Rubber
     from balloon_usd.balloon.sizes import BalloonSize
+    from balloon_usd.language.problem import Path, Problem
     from balloon_usd.recipe import Recipe
     from balloon_usd.recipe.balloons import Balloon
-    from balloon_usd.recipe.problem import Path, Problem
 
 FULL_TOLERANCE = 0.02
 """An inflated length beyond the full one by this share means full: nominal lengths are rounded."""

@@ -9,9 +9,9 @@ from balloon_usd.plan.choreography import Weld
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from balloon_usd.language.problem import Problem
     from balloon_usd.plan.choreography import Choreography
     from balloon_usd.recipe import Recipe
-    from balloon_usd.recipe.problem import Problem
 
 MOST_WELDED = 32
 """Joints that can be twisted into one: more necks than that leave no room for each other."""

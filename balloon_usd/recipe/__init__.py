@@ -5,12 +5,13 @@ Knows nothing of physics: a `Recipe` is text with its meaning checked.
 
 from __future__ import annotations
 
+from balloon_usd.language.colors import LATEX_COLORS, Color
+from balloon_usd.language.problem import Problem, RecipeError
+
 from .balloons import Balloon
 from .builder import RecipeBuilder
-from .colors import LATEX_COLORS, Color
 from .kosaka import Kosaka
 from .physics import Physics
-from .problem import Problem, RecipeError
 from .recipe import Recipe
 from .schema import recipe_schema
 from .steps import Joint, LockJoints, PushedBubble, Step

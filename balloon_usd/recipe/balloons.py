@@ -4,9 +4,9 @@ from typing import Annotated, Literal, get_args
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema
 
-from .colors import ColorEntry, color
-from .names import Text
-from .quantities import LONGEST, Between, FlatTail, Length, LengthWithin, Units
+from balloon_usd.language.colors import ColorEntry, color
+from balloon_usd.language.names import Text
+from balloon_usd.language.quantities import LONGEST, Between, FlatTail, Length, LengthWithin, Units
 
 BalloonSizeName = Literal["160", "260", "321", "350", "360", "646"]
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Self
 
+from balloon_usd.language.quantities import Units, length_entry
+
 from .kosaka import kosaka_entries
-from .quantities import Units, length_entry
 from .recipe import Recipe
 from .writer import Entries, recipe_text
 

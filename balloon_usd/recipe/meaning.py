@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from balloon_usd.language.choices import one_of, unknown
+from balloon_usd.language.names import NAME_LIMIT, rest_name
+from balloon_usd.language.problem import PROBLEMS_SHOWN, Complaint, Path, path_text, quoted
+
 from .balloons import FILLINGS, FLAT_ONLY
-from .choices import one_of, unknown
 from .mesh_words import mesh_complaints, meshes_in
 from .model_words import model_complaints
-from .names import NAME_LIMIT, rest_name
 from .outline import StepOutline, balloons_in, outlines_in
-from .problem import PROBLEMS_SHOWN, Complaint, Path, path_text, quoted
 from .steps import KINDS, MAKING, MANNERS, PRESSING, Joint
 
 if TYPE_CHECKING:

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from balloon_usd.language.choices import one_of
+from balloon_usd.language.problem import Complaint, quoted
+
 from .balloons import MESH_KEYS, MESH_ONLY, Balloon
-from .choices import one_of
 from .outline import balloons_in, outlines_in
-from .problem import Complaint, quoted
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from .problem import Path
+    from balloon_usd.language.problem import Path
 
 PHYSICS = {
     "gravity": "nothing holds a balloon from a mesh, so it would fall",

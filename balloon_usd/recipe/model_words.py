@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from balloon_usd.language.problem import Complaint
+
 from .outline import balloons_in, outlines_in
-from .problem import Complaint
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from .steps import KINDS, MANNERS, MERGING, PRESSING, Joint, Kind, joint
 
 if TYPE_CHECKING:
-    from .problem import Path
+    from balloon_usd.language.problem import Path
 
 
 @dataclass(frozen=True)

@@ -15,18 +15,19 @@ from pydantic import (
     model_validator,
 )
 
+from balloon_usd.language.marks import Marks
+from balloon_usd.language.names import Name, Text
+from balloon_usd.language.problem import Complaint, Path, Problem, RecipeError, path_text, quoted
+from balloon_usd.language.quantities import METRES, Between, Reading, Units
+from balloon_usd.language.yaml_reader import Document, read_yaml
+
 from .balloons import Balloon
-from .marks import Marks
 from .meaning import meaning_complaints
-from .names import Name, Text
 from .physics import Physics
-from .problem import Complaint, Path, Problem, RecipeError, path_text, quoted
-from .quantities import METRES, Between, Reading, Units
 from .recipe_file import FilePath, read_recipe_file
 from .steps import Step
 from .translation import validation_complaints
 from .writer import recipe_entries, recipe_text
-from .yaml_reader import Document, read_yaml
 
 FRAMES_PER_SECOND = 24.0
 

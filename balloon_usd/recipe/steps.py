@@ -15,9 +15,9 @@ from pydantic import (
     WithJsonSchema,
 )
 
-from .names import NAME_PATTERN, Name, Text
-from .problem import quoted
-from .quantities import Angle, Between, Force, Length
+from balloon_usd.language.names import NAME_PATTERN, Name, Text
+from balloon_usd.language.problem import quoted
+from balloon_usd.language.quantities import Angle, Between, Force, Length
 
 End = Literal["start", "end"]
 Kind = Literal["bubbles", "lock", "loop", "fold", "ear", "rest", "bend", "push", "wait"]

@@ -6,12 +6,13 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+from balloon_usd.language.choices import one_of, unknown
+from balloon_usd.language.problem import PROBLEMS_SHOWN, Complaint, Path, quoted
+from balloon_usd.language.quantities import UnitMissingError
+
 from .balloons import Balloon
-from .choices import one_of, unknown
 from .kosaka import Kosaka
 from .physics import Physics
-from .problem import PROBLEMS_SHOWN, Complaint, Path, quoted
-from .quantities import UnitMissingError
 from .steps import KINDS, LockJoints, PushedBubble, Step
 
 if TYPE_CHECKING:

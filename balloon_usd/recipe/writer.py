@@ -7,10 +7,11 @@ import re
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
+from balloon_usd.language.quantities import angle_entry, duration_entry, length_entry, short_number
+from balloon_usd.language.scalars import plain_scalar
+
 from .balloons import FILLINGS
 from .kosaka import kosaka_entries
-from .quantities import angle_entry, duration_entry, length_entry, short_number
-from .scalars import plain_scalar
 
 if TYPE_CHECKING:
     from .balloons import Balloon

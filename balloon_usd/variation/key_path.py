@@ -5,12 +5,12 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from balloon_usd.language.choices import unknown
+from balloon_usd.language.problem import path_text, printable, quoted
 from balloon_usd.recipe.balloons import Balloon
-from balloon_usd.recipe.choices import unknown
 from balloon_usd.recipe.kosaka import Kosaka
 from balloon_usd.recipe.outline import StepOutline, outlines_in
 from balloon_usd.recipe.physics import Physics
-from balloon_usd.recipe.problem import path_text, printable, quoted
 from balloon_usd.recipe.recipe import Recipe
 from balloon_usd.recipe.steps import MANNERS, LockJoints, PushedBubble
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from pydantic import BaseModel
 
-    from balloon_usd.recipe.problem import Path
+    from balloon_usd.language.problem import Path
 
 GIVEN = ("format", "name")
 """Keys that a variation does not let choose."""

@@ -11,8 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
+from balloon_usd.language.quantities import METRES, angle_entry, length_entry, metres, radians
 from balloon_usd.recipe import LATEX_COLORS, Balloon, Joint, Recipe, RecipeBuilder, RecipeError, Step
-from balloon_usd.recipe.quantities import METRES, angle_entry, length_entry, metres, radians
 from balloon_usd.recipe.steps import KINDS, PushedBubble
 
 RECIPES = sorted((Path(__file__).parents[2] / "recipes").rglob("*.yaml"))

@@ -6,9 +6,9 @@ import math
 
 import pytest
 
+from balloon_usd.language.scalars import plain_scalar
 from balloon_usd.recipe import LATEX_COLORS, Joint, LockJoints, Recipe
 from balloon_usd.recipe.kosaka import Kosaka
-from balloon_usd.recipe.scalars import plain_scalar
 from balloon_usd.recipe.steps import KINDS, MANNERS
 
 HEAD = "format: 1\nname: dog\nunits: cm\nballoons:\n  main: {size: 260, tail: 10}\nsteps:\n"

@@ -10,10 +10,10 @@ from typing import Any, cast
 
 import pytest
 
+from balloon_usd.language.yaml_reader import read_yaml
 from balloon_usd.recipe import Balloon, Physics, Recipe, RecipeError, Step, recipe_schema
 from balloon_usd.recipe.kosaka import Kosaka
 from balloon_usd.recipe.steps import KINDS, PushedBubble
-from balloon_usd.recipe.yaml_reader import read_yaml
 
 RECIPES = sorted((Path(__file__).parents[2] / "recipes").rglob("*.yaml"))
 SCHEMA = recipe_schema()
