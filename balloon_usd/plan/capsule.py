@@ -6,8 +6,8 @@ import math
 from itertools import accumulate
 from typing import TYPE_CHECKING
 
+from balloon_usd.language.lengths import at_least, at_most, cm
 from balloon_usd.language.problem import RecipeError, quoted
-from balloon_usd.plan.lengths import at_least, at_most, cm
 from balloon_usd.plan.necks import bubble_length, wall_length
 from balloon_usd.plan.strip import Made, PlannedBubble
 
@@ -98,7 +98,7 @@ def _remedy(strip: Strip, most: float, length: float, needed: float) -> str:
 
 
 def _place(recipe: Recipe, entry: Made) -> Path:
-    return ("steps", entry.step, recipe.steps[entry.step].kind, entry.bubble)
+    return ("steps", entry.step, recipe.steps[entry.step].word, entry.bubble)
 
 
 def _bubble(

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 
 from balloon_usd.balloon.closed_shape import ClosedShape
 from balloon_usd.balloon.sizes import BalloonSize
+from balloon_usd.language.lengths import cm
 from balloon_usd.language.problem import RecipeError
 from balloon_usd.language.quantities import METRES
-from balloon_usd.plan.lengths import cm
 from balloon_usd.plan.shaped import Shaped
 from balloon_usd.plan.strip import PlannedBubble, Strip
 from balloon_usd.recipe.balloons import USUAL_SWELL

@@ -10,7 +10,7 @@ import math
 from typing import TYPE_CHECKING
 
 from balloon_usd.language.quantities import duration_entry
-from balloon_usd.plan.choreography import Inflate
+from balloon_usd.operations.moves import Inflate
 from balloon_usd.plan.settings_kosaka import kosaka_problems
 from balloon_usd.plan.tube_sizes import tube_sizes
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from balloon_usd.language.problem import Problem
-    from balloon_usd.plan.choreography import Choreography
+    from balloon_usd.operations.moves import Choreography
     from balloon_usd.recipe import Recipe
 
 THICKEST = 0.25

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from balloon_usd.plan.choreography import Weld
+from balloon_usd.operations.moves import Weld
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from balloon_usd.language.problem import Problem
-    from balloon_usd.plan.choreography import Choreography
+    from balloon_usd.operations.moves import Choreography
     from balloon_usd.recipe import Recipe
 
 MOST_WELDED = 32

@@ -13,7 +13,7 @@ from .writer import Entries, recipe_text
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from .steps import Kind, Point
+    from balloon_usd.operations.modifiers import Point
 
 LengthLike = float | str
 """Metres, or a text with its own unit such as "4 in"."""
@@ -227,10 +227,10 @@ class RecipeBuilder:
         """
         return Recipe.parse(self.to_yaml(), file=BUILDER_FILE)
 
-    def _make(self, kind: Kind, lengths: Mapping[str, LengthLike], manner: Mapping[str, object]) -> Self:
+    def _make(self, kind: str, lengths: Mapping[str, LengthLike], manner: Mapping[str, object]) -> Self:
         return self._step(kind, {name: self._length(value) for name, value in lengths.items()}, manner)
 
-    def _step(self, kind: Kind, what: object, manner: Mapping[str, object]) -> Self:
+    def _step(self, kind: str, what: object, manner: Mapping[str, object]) -> Self:
         self._steps.append({kind: what} | _given(manner))
         return self
 

@@ -10,7 +10,7 @@ from click.testing import CliRunner
 
 from balloon_usd import Recipe, RecipeError, plan_recipe
 from balloon_usd.cli import main
-from balloon_usd.recipe.steps import KINDS
+from balloon_usd.operations.table import WORDS
 
 README = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
 TINY = """\
@@ -51,7 +51,7 @@ def test_the_python_examples_run(code: str, tmp_path: Path, monkeypatch: pytest.
     exec(compile(code, "README.md", "exec"), {})
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", WORDS)
 def test_every_operation_is_explained(kind: str) -> None:
     assert f"| `{kind}: " in README
 
