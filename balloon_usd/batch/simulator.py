@@ -106,7 +106,7 @@ class Simulator:
         return Simulated(task.batch)
 
     def _simulation(self, parts: Sequence[Part]) -> Simulation:
-        plans = [planned(part) for part in parts]
+        plans = [planned(part.file, part.origin, part.plan) for part in parts]
         return solver.simulate_many(plans, detail=self._order.detail, device=self._device)
 
 

@@ -133,7 +133,7 @@ class Writer:
             del self._batches[begin.batch]
 
     def _start(self, part: Part, batch: _Batch) -> None:
-        plan = planned(part)
+        plan = planned(part.file, part.origin, part.plan)
         remove_leftovers(self._order.folder, plan.recipe.name)
         sculpture = batch.sculptures[part.place] = Sculpture(part, plan, self._order)
         sculpture.start()
