@@ -14,6 +14,8 @@ from importlib import import_module
 from threading import RLock
 from typing import TYPE_CHECKING
 
+from balloon_usd.version import __version__
+
 if TYPE_CHECKING:
     from balloon_usd.batch.engine import run_batch
     from balloon_usd.batch.machine import Machine
@@ -36,7 +38,6 @@ if TYPE_CHECKING:
     from balloon_usd.staging import describe_stage, write_stage
     from balloon_usd.variation import VariationError, Variations, vary_recipe
 
-__version__ = "0.1.0"
 
 __all__ = [
     "BatchError",

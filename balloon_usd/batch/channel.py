@@ -1,124 +1,28 @@
-"""Worker processes and the connections to them."""
+"""Shared memory handed from process to process over their connections."""
 
 from __future__ import annotations
 
-import os
-import signal
-import socket
-import subprocess
-import sys
-from contextlib import suppress
 from multiprocessing import reduction
-from multiprocessing.connection import Connection
 from typing import TYPE_CHECKING, Any
 
-from balloon_usd.batch.forking import (
-    ONE_THREAD,
-    ForkedProcess,
-    fork_worker,
-    import_paths,
-    interrupts_blocked,
-)
 from balloon_usd.batch.shared_memory import SharedMemory
 
 if TYPE_CHECKING:
-    from balloon_usd.batch.messages import Ring, Role, Started
+    from multiprocessing.connection import Connection
 
-WORKER = "balloon_usd.batch.worker"
-"""Module that workers run."""
+    from balloon_usd.batch.messages import Ring
 
 
-class Worker:
-    """A process of this program at the other end of a connection.
+def send_ring(connection: Connection[Any, Any], ring: Ring, memory: SharedMemory, process_id: int) -> None:
+    """Tell a process of a ring and hand over its memory.
 
-    A new interpreter runs a module of its own, so that a script that calls this program needs no guard
-    against being imported again. A forked process has all modules from the start, and shares their memory.
+    Raises:
+        BrokenPipeError: the process is gone.
+        ConnectionResetError: the same.
     """
-
-    def __init__(self, role: Role, device: str, *, fork: bool = False) -> None:
-        """Start the process; `fork`: as a copy of this one, see `forking`."""
-        self.role = role
-        self.device = device
-        """Device that it was started for; its full name once it has told."""
-        ours, theirs = socket.socketpair()
-        try:
-            with interrupts_blocked():
-                self._process: ForkedProcess | subprocess.Popen[bytes] = (
-                    fork_worker(role, theirs.fileno()) if fork else _spawn(role, theirs.fileno())
-                )
-        except BaseException:
-            ours.close()
-            raise
-        finally:
-            theirs.close()
-        self.connection: Connection[Any, Any] = Connection(ours.detach())
-        self.told: Started | None = None
-        """What it said when it was ready."""
-
-    @property
-    def ready(self) -> bool:
-        """Whether it can work."""
-        return self.told is not None and not self.told.problem
-
-    @property
-    def process_id(self) -> int:
-        """Number of the process."""
-        return self._process.pid
-
-    def send(self, message: object) -> None:
-        """Tell it something; a worker that is gone is found out when its connection is read."""
-        # What was begun by a worker that has been removed may go on elsewhere: nobody is told then.
-        if not self.connection.closed:
-            with suppress(BrokenPipeError, ConnectionResetError):
-                self.connection.send(message)
-
-    def send_ring(self, ring: Ring, memory: SharedMemory) -> None:
-        """Tell it of a ring and hand over its memory."""
-        with suppress(BrokenPipeError, ConnectionResetError):
-            self.connection.send(ring)
-            if isinstance(memory.handle, int):
-                reduction.send_handle(self.connection, memory.handle, self.process_id)
-
-    def close(self) -> None:
-        """Close the connection, which ends the process in its own time."""
-        self.connection.close()
-
-    def wait(self, seconds: float) -> bool:
-        """Wait for its end; return whether that came in time."""
-        try:
-            self._process.wait(seconds)
-        except subprocess.TimeoutExpired:
-            return False
-        return True
-
-    def end(self) -> None:
-        """Ask it to end now: a writer removes what is half-written before."""
-        self._process.terminate()
-
-    def kill(self) -> None:
-        """End it at once."""
-        self._process.kill()
-        self._process.wait()
-
-    def how_it_ended(self) -> str:
-        """Say how it ended, as "SIGKILL" or "exit code 1"."""
-        code = self._process.wait()
-        if code >= 0:
-            return f"exit code {code}"
-        with suppress(ValueError):
-            return signal.Signals(-code).name
-        return f"signal {-code}"
-
-
-def _spawn(role: Role, descriptor: int) -> subprocess.Popen[bytes]:
-    """Start a new interpreter that works at the other end of a connection."""
-    os.set_inheritable(descriptor, True)
-    return subprocess.Popen(  # noqa: S603  # our own module
-        [sys.executable, "-P", "-m", WORKER, role.value, str(descriptor), str(os.getpid())],
-        stdin=subprocess.DEVNULL,
-        env=_surroundings(),
-        pass_fds=(descriptor,),
-    )
+    connection.send(ring)
+    if isinstance(memory.handle, int):
+        reduction.send_handle(connection, memory.handle, process_id)
 
 
 def receive_ring(connection: Connection[Any, Any], ring: Ring) -> SharedMemory:
@@ -126,8 +30,3 @@ def receive_ring(connection: Connection[Any, Any], ring: Ring) -> SharedMemory:
     if ring.name:
         return SharedMemory(ring.size, ring.name)
     return SharedMemory(ring.size, reduction.recv_handle(connection))
-
-
-def _surroundings() -> dict[str, str]:
-    """Return the environment of a worker, which imports from where this process does."""
-    return {**ONE_THREAD, **os.environ, "PYTHONPATH": import_paths()}

@@ -21,9 +21,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
     from pathlib import Path
 
-    from balloon_usd.batch.channel import Worker
     from balloon_usd.batch.order import Order
     from balloon_usd.batch.watch import Watch
+    from balloon_usd.batch.worker_process import Worker
 
 CHUNK = 16
 """Recipes that a writer is asked about at a time, at most."""

@@ -74,7 +74,7 @@ def _is_pipe_or_device(file: Path) -> bool:
 
 def _judge(plan: Plan, order: Order) -> Facts | Refusal:
     from balloon_usd.balloon.detail import detail_named  # noqa: PLC0415
-    from balloon_usd.batch.reading import packed  # noqa: PLC0415
+    from balloon_usd.batch.reading import origin_of, packed  # noqa: PLC0415
     from balloon_usd.plan.meshing import mesh_of  # noqa: PLC0415
 
     recipe = plan.recipe
@@ -101,15 +101,6 @@ def _judge(plan: Plan, order: Order) -> Facts | Refusal:
         tuple(_cautions(plan)),
         packed(plan),
     )
-
-
-def origin_of(plan: Plan) -> dict[str, str]:
-    """Return the hashes of a recipe's text and of its meshes, and the version of the solver."""
-    from balloon_usd.staging import provenance_of  # noqa: PLC0415
-
-    hashes = [strip.shape.file_sha256 for strip in plan.strips.values() if strip.shape is not None]
-    meshes = {"mesh_sha256": " ".join(hashes)} if hashes else {}
-    return {**provenance_of(plan.recipe), **meshes}
 
 
 def _group(plan: Plan) -> tuple[str, ...]:

@@ -21,7 +21,6 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from balloon_usd.batch.messages import Role
 
 THREADS = Path("/proc/self/task")
 """Where Linux lists the threads of a process, those of libraries too."""
@@ -103,30 +102,6 @@ class ForkedProcess:
     def _signal(self, number: int) -> None:
         if self.poll() is None:
             os.kill(self.pid, number)
-
-
-def fork_worker(role: Role, descriptor: int) -> ForkedProcess:
-    """Start a worker at the other end of a connection as a copy of this process."""
-    sys.stdout.flush()
-    sys.stderr.flush()
-    parent = os.getpid()
-    pid = os.fork()
-    if pid:
-        return ForkedProcess(pid)
-    # Nothing of the parent's clean-up may run here.
-    code = 1
-    try:
-        signal.signal(signal.SIGTERM, signal.SIG_DFL)
-        close_all_but(descriptor)
-        from balloon_usd.batch.worker import main  # noqa: PLC0415
-
-        main(role.value, str(descriptor), str(parent))
-        code = 0
-    except BaseException:
-        sys.excepthook(*sys.exc_info())
-    finally:
-        sys.stderr.flush()
-        os._exit(code)
 
 
 def close_all_but(descriptor: int) -> None:

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from balloon_usd.batch.channel import Worker
     from balloon_usd.batch.facts import Facts
     from balloon_usd.batch.messages import Frames, Part
     from balloon_usd.batch.record import Record
+    from balloon_usd.batch.worker_process import Worker
 
 
 @dataclass

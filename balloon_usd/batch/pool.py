@@ -6,8 +6,8 @@ import time
 from multiprocessing.connection import wait
 from typing import TYPE_CHECKING, Any
 
-from balloon_usd.batch.channel import Worker
 from balloon_usd.batch.messages import Role, Start
+from balloon_usd.batch.worker_process import Worker
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -7,8 +7,8 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-import balloon_usd
 from balloon_usd.batch.ray_cluster import ClusterError, one_line
+from balloon_usd.version import __version__
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -89,7 +89,7 @@ def _ask_all(ray: ModuleType, nodes: list[dict[str, Any]], mark: Path) -> set[st
     asked = {
         question.options(
             scheduling_strategy=NodeAffinitySchedulingStrategy(node["NodeID"], soft=False)
-        ).remote(str(mark), balloon_usd.__version__, FILE_SECONDS): node["NodeManagerHostname"]
+        ).remote(str(mark), __version__, FILE_SECONDS): node["NodeManagerHostname"]
         for node in nodes
     }
     ready, silent = ray.wait(list(asked), num_returns=len(asked), timeout=ANSWER_SECONDS)
@@ -113,11 +113,11 @@ def _question(ray: ModuleType) -> Any:
         from pathlib import Path  # noqa: PLC0415
 
         try:
-            import balloon_usd  # noqa: PLC0415
+            from balloon_usd.version import __version__ as found  # noqa: PLC0415
         except ImportError:
             return f"balloon_usd is not installed, expected version {version}"
-        if balloon_usd.__version__ != version:
-            return f"balloon_usd is of version {balloon_usd.__version__}, expected {version} as here"
+        if found != version:
+            return f"balloon_usd is of version {found}, expected {version} as here"
         end = time.monotonic() + patience
         while not Path(path).exists():
             if time.monotonic() > end:

@@ -8,18 +8,25 @@ import zlib
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from balloon_usd.batch.facts import origin_of
 from balloon_usd.plan import Plan, plan
 from balloon_usd.recipe import Recipe
 from balloon_usd.recipe.recipe_file import read_recipe_file
+from balloon_usd.staging import provenance_of
 
 if TYPE_CHECKING:
-    from balloon_usd.batch.messages import Part
+    from collections.abc import Mapping
 
 LARGEST = 2**16
 """Packed plan that the scheduler keeps, at most: those of meshes hold their vertices [B]."""
 FAST = 1
 """Level of compression: a plan of 15 kB becomes one of 5 kB in 0.2 ms."""
+
+
+def origin_of(plan: Plan) -> dict[str, str]:
+    """Return the hashes of a recipe's text and of its meshes, and the version of the solver."""
+    hashes = [strip.shape.file_sha256 for strip in plan.strips.values() if strip.shape is not None]
+    meshes = {"mesh_sha256": " ".join(hashes)} if hashes else {}
+    return {**provenance_of(plan.recipe), **meshes}
 
 
 class RecipeChanged(Exception):  # noqa: N818
@@ -34,18 +41,23 @@ def packed(plan: Plan) -> bytes:
     return data if len(data) <= LARGEST else b""
 
 
-def planned(part: Part) -> Plan:
+def planned(file: str, origin: Mapping[str, str], known: bytes = b"") -> Plan:
     """Return the plan of a sculpture.
+
+    Args:
+        file: of its recipe.
+        origin: as it was surveyed, see `origin_of`.
+        known: the plan, packed, if it is.
 
     Raises:
         RecipeChanged: its file, or that of a mesh, says something else than before.
         RecipeError: it is no recipe any more.
     """
-    text = read_recipe_file(part.file)
-    if part.plan and hashlib.sha256(text.encode("utf-8")).hexdigest() == part.origin["recipe_sha256"]:
-        found: Plan = pickle.loads(zlib.decompress(part.plan))  # noqa: S301  # from ourselves
+    text = read_recipe_file(file)
+    if known and hashlib.sha256(text.encode("utf-8")).hexdigest() == origin["recipe_sha256"]:
+        found: Plan = pickle.loads(zlib.decompress(known))  # noqa: S301  # from ourselves
         return found
-    found = plan(Recipe.load(Path(part.file)))
-    if origin_of(found) != part.origin:
-        raise RecipeChanged(f"{part.file}: the recipe was changed during the run")
+    found = plan(Recipe.load(Path(file)))
+    if origin_of(found) != origin:
+        raise RecipeChanged(f"{file}: the recipe was changed during the run")
     return found

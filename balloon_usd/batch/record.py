@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass, field, replace
 from enum import StrEnum
 from typing import TYPE_CHECKING, Any
 
-from balloon_usd import __version__
+from balloon_usd.version import __version__
 
 if TYPE_CHECKING:
     from balloon_usd.batch.facts import Facts

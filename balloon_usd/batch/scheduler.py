@@ -36,12 +36,12 @@ from balloon_usd.batch.watch import Count
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from balloon_usd.batch.channel import Worker
     from balloon_usd.batch.journal import Journal
     from balloon_usd.batch.machine import Machine
     from balloon_usd.batch.order import Order
     from balloon_usd.batch.pool import Pool
     from balloon_usd.batch.watch import Watch
+    from balloon_usd.batch.worker_process import Worker
 
 MOST_FAILED_STARTS = 3
 """Workers that may end before they are ready, before the batch is given up."""

@@ -23,7 +23,7 @@ from balloon_usd.batch.messages import (
     Started,
 )
 from balloon_usd.batch.reading import RecipeChanged, planned
-from balloon_usd.recipe.problem import RecipeError
+from balloon_usd.language.problem import RecipeError
 from balloon_usd.solver import simulation as solver
 from balloon_usd.solver.errors import DeviceUnavailable
 
@@ -106,7 +106,7 @@ class Simulator:
         return Simulated(task.batch)
 
     def _simulation(self, parts: Sequence[Part]) -> Simulation:
-        plans = [planned(part) for part in parts]
+        plans = [planned(part.file, part.origin, part.plan) for part in parts]
         return solver.simulate_many(plans, detail=self._order.detail, device=self._device)
 
 

@@ -30,7 +30,7 @@ from balloon_usd.batch.reading import RecipeChanged, planned
 from balloon_usd.batch.sculpture import Sculpture
 from balloon_usd.batch.sheet import draw
 from balloon_usd.files.hashes import are_whole
-from balloon_usd.recipe.problem import RecipeError
+from balloon_usd.language.problem import RecipeError
 from balloon_usd.report import ReportError
 from balloon_usd.stage import StageError
 
@@ -133,7 +133,7 @@ class Writer:
             del self._batches[begin.batch]
 
     def _start(self, part: Part, batch: _Batch) -> None:
-        plan = planned(part)
+        plan = planned(part.file, part.origin, part.plan)
         remove_leftovers(self._order.folder, plan.recipe.name)
         sculpture = batch.sculptures[part.place] = Sculpture(part, plan, self._order)
         sculpture.start()

@@ -22,7 +22,7 @@ def require_form(*, flat: bool, usdz: bool, look: str | None, shot: bool) -> Non
     if look is None or look in LOOKS:
         return
     if look != WITH_AIR:
-        from balloon_usd.recipe.choices import unknown  # noqa: PLC0415
+        from balloon_usd.language.choices import unknown  # noqa: PLC0415
 
         raise Failure(f"--look: {unknown('look', look, (*LOOKS, WITH_AIR))}", ExitCode.BAD_INPUT)
     if usdz:

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from balloon_usd import __version__
 from balloon_usd.cli.bench import bench
 from balloon_usd.cli.blender_extension import blender_extension
 from balloon_usd.cli.check import check
@@ -29,6 +28,7 @@ from balloon_usd.cli.schema import schema
 from balloon_usd.cli.vary import vary
 from balloon_usd.endings import never_dropped
 from balloon_usd.loading import expect_modules
+from balloon_usd.version import __version__
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

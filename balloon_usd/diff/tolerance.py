@@ -57,7 +57,7 @@ class Tolerances:
 
     def unknown_names(self, attributes: Collection[str]) -> Iterable[str]:
         """Say of each name that no attribute has what was probably meant."""
-        from balloon_usd.recipe.choices import unknown  # noqa: PLC0415
+        from balloon_usd.language.choices import unknown  # noqa: PLC0415
 
         bases = {base_name(name) for name in attributes}
         for name in self.named:

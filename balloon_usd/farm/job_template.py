@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from balloon_usd import __version__
+from balloon_usd.version import __version__
 
 SPECIFICATION = "jobtemplate-2023-09"
 DETAILS = ("draft", "preview", "full")

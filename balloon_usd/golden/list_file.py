@@ -19,14 +19,14 @@ from typing import TYPE_CHECKING
 from balloon_usd.diff import Allowed, Tolerances
 from balloon_usd.golden.entry import GoldenEntry
 from balloon_usd.golden.error import GoldenError
-from balloon_usd.recipe.choices import unknown
-from balloon_usd.recipe.problem import Complaint, RecipeError, quoted
-from balloon_usd.recipe.yaml_reader import read_yaml
+from balloon_usd.language.choices import unknown
+from balloon_usd.language.problem import Complaint, RecipeError, quoted
+from balloon_usd.language.yaml_reader import read_yaml
 
 if TYPE_CHECKING:
     from pathlib import Path as File
 
-    from balloon_usd.recipe.problem import Path
+    from balloon_usd.language.problem import Path
 
 FILE_NAME = "golden.yaml"
 FORMAT = 1

@@ -6,17 +6,17 @@ import math
 from itertools import accumulate
 from typing import TYPE_CHECKING
 
-from balloon_usd.plan.lengths import at_least, at_most, cm
+from balloon_usd.language.lengths import at_least, at_most, cm
+from balloon_usd.language.problem import RecipeError, quoted
 from balloon_usd.plan.necks import bubble_length, wall_length
 from balloon_usd.plan.strip import Made, PlannedBubble
-from balloon_usd.recipe.problem import RecipeError, quoted
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
+    from balloon_usd.language.problem import Path, Problem
     from balloon_usd.plan.strip import Strip
     from balloon_usd.recipe import Recipe
-    from balloon_usd.recipe.problem import Path, Problem
 
 SHORTEST = 0.58
 """Length of the shortest bubble and of the shortest rest, in radii: 1.5 cm of a 260, a few rows of faces."""
@@ -98,7 +98,7 @@ def _remedy(strip: Strip, most: float, length: float, needed: float) -> str:
 
 
 def _place(recipe: Recipe, entry: Made) -> Path:
-    return ("steps", entry.step, recipe.steps[entry.step].kind, entry.bubble)
+    return ("steps", entry.step, recipe.steps[entry.step].word, entry.bubble)
 
 
 def _bubble(

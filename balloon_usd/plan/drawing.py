@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from balloon_usd.balloon.bubble_shape import tube_diameter
+from balloon_usd.language.lengths import cm
 from balloon_usd.plan import svg
 from balloon_usd.plan.graph_drawing import HEIGHT, graph_shapes, graph_width
-from balloon_usd.plan.lengths import cm
 from balloon_usd.plan.open_tube import softened
 
 if TYPE_CHECKING:

@@ -10,11 +10,13 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal
 
+from balloon_usd.language.joint import Joint
+from balloon_usd.operations.disjoint_sets import DisjointSets
+from balloon_usd.operations.modifiers import Turned
 from balloon_usd.plan.connections import Connections
-from balloon_usd.recipe.steps import MERGING, Joint
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Mapping
 
     import networkx as nx
 
@@ -154,12 +156,10 @@ def sculpture_graph(
     turns than `least_turns`.
     """
     bubbles = [bubble for strip in strips.values() for bubble in strip.bubbles]
-    groups = _Groups(Joint(bubble.name, "start") for bubble in bubbles)
-    for bubble in bubbles:
-        groups.add(Joint(bubble.name, "end"))
+    groups: DisjointSets[Joint] = DisjointSets()
     for strip in strips.values():
         for before, after in zip(strip.bubbles, strip.bubbles[1:], strict=False):
-            groups.merge(Joint(before.name, "end"), Joint(after.name, "start"))
+            groups.merge([Joint(before.name, "end"), Joint(after.name, "start")])
     merged = _merge_steps(recipe, groups, least_turns)
     joints = _joints(bubbles, groups, merged)
     index = {end: joint.index for joint in joints for end in joint.ends}
@@ -170,23 +170,21 @@ def sculpture_graph(
     return SculptureGraph(joints, edges)
 
 
-def _merge_steps(recipe: Recipe, groups: _Groups, least_turns: float) -> list[Joint]:
+def _merge_steps(recipe: Recipe, groups: DisjointSets[Joint], least_turns: float) -> list[Joint]:
     """Merge what the steps merge; return one bubble end of every merged joint."""
     merged: list[Joint] = []
     for step in recipe.steps:
-        if step.turns < least_turns:
+        if isinstance(step, Turned) and step.turns < least_turns:
             continue
-        meetings = [step.joints] if step.joints else []
-        if step.kind in MERGING:
-            meetings = [(Joint(name, "start"), Joint(name, "end")) for name in step.lengths]
-        for first, *others in meetings:
-            merged.append(first)
-            for other in others:
-                groups.merge(first, other)
+        for meeting in step.joined:
+            merged.append(meeting[0])
+            groups.merge(meeting)
     return merged
 
 
-def _joints(bubbles: list[PlannedBubble], groups: _Groups, merged: list[Joint]) -> tuple[GraphJoint, ...]:
+def _joints(
+    bubbles: list[PlannedBubble], groups: DisjointSets[Joint], merged: list[Joint]
+) -> tuple[GraphJoint, ...]:
     members: dict[Joint, list[Joint]] = {}
     for bubble in bubbles:
         for end in (Joint(bubble.name, "start"), Joint(bubble.name, "end")):
@@ -195,22 +193,3 @@ def _joints(bubbles: list[PlannedBubble], groups: _Groups, merged: list[Joint]) 
     return tuple(
         GraphJoint(index, tuple(ends), root in roots) for index, (root, ends) in enumerate(members.items())
     )
-
-
-class _Groups:
-    """Bubble ends that are one joint (disjoint sets)."""
-
-    def __init__(self, ends: Iterable[Joint]) -> None:
-        self._parent = {end: end for end in ends}
-
-    def add(self, end: Joint) -> None:
-        self._parent[end] = end
-
-    def root(self, end: Joint) -> Joint:
-        while self._parent[end] != end:
-            self._parent[end] = self._parent[self._parent[end]]
-            end = self._parent[end]
-        return end
-
-    def merge(self, first: Joint, second: Joint) -> None:
-        self._parent[self.root(second)] = self.root(first)

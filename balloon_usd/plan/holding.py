@@ -15,10 +15,10 @@ from balloon_usd.plan.graph import sculpture_graph
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from balloon_usd.language.joint import Joint
     from balloon_usd.plan.graph import SculptureGraph
     from balloon_usd.plan.strip import Strip
     from balloon_usd.recipe import Recipe
-    from balloon_usd.recipe.steps import Joint
 
 HOLDING_TURNS = 2.0
 """Turns below which a twist unwinds: makers advise 2 to 4, three as a rule."""

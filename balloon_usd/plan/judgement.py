@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING
 
 from balloon_usd.balloon.bubble_shape import shortest_stable_bubble
 from balloon_usd.balloon.rubber import BURST_ENERGY, BURST_STRETCH
+from balloon_usd.language.lengths import at_least, cm
+from balloon_usd.operations.lock import Lock
+from balloon_usd.operations.modifiers import Turned
 from balloon_usd.plan.holding import HOLDING_TURNS
-from balloon_usd.plan.lengths import at_least, cm
 from balloon_usd.plan.open_tube import softened
 
 if TYPE_CHECKING:
@@ -73,7 +75,7 @@ def _of_latex(
 
 def _turns(recipe: Recipe) -> Iterator[Caution]:
     for index, step in enumerate(recipe.steps):
-        if step.kind in {"rest", "bend", "push", "wait"}:
+        if not isinstance(step, Turned):
             continue
         if step.turns < HOLDING_TURNS:
             yield Caution(
@@ -98,7 +100,7 @@ def _turns_text(turns: float) -> str:
 def _unequal_pairs(recipe: Recipe) -> Iterator[Caution]:
     lengths = {name: length for step in recipe.steps for name, length in step.lengths.items()}
     for index, step in enumerate(recipe.steps):
-        if not isinstance(step.lock, tuple) or len(step.lock) != 2:
+        if not isinstance(step, Lock) or not isinstance(step.lock, tuple) or len(step.lock) != 2:
             continue
         first, second = (lengths.get(name) for name in step.lock)
         if first is None or second is None:

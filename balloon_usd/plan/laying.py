@@ -7,21 +7,23 @@ from typing import TYPE_CHECKING
 
 from balloon_usd.balloon.rubber import rubber_named
 from balloon_usd.balloon.tube_theory import maxwell_state
+from balloon_usd.language.lengths import at_least, at_most, cm
+from balloon_usd.language.names import rest_name
+from balloon_usd.language.problem import RecipeError, quoted
+from balloon_usd.operations.modifiers import OnBalloon
 from balloon_usd.plan.capsule import capsule_bubbles
 from balloon_usd.plan.laying_shapes import overlap_problems, shaped_strip
-from balloon_usd.plan.lengths import at_least, at_most, cm
 from balloon_usd.plan.open_tube import OpenTube, inflated_tube, softened, tail_range
-from balloon_usd.plan.strip import BubbleKind, Made, PlannedBubble, Strip
+from balloon_usd.plan.strip import Made, PlannedBubble, Strip
 from balloon_usd.plan.tube_sizes import tube_sizes
-from balloon_usd.recipe.names import rest_name
-from balloon_usd.recipe.problem import RecipeError, quoted
 
 if TYPE_CHECKING:
     from balloon_usd.balloon.rubber import Rubber
     from balloon_usd.balloon.sizes import BalloonSize
+    from balloon_usd.language.problem import Path, Problem
+    from balloon_usd.operations.operation import Operation
     from balloon_usd.recipe import Recipe
     from balloon_usd.recipe.balloons import Balloon
-    from balloon_usd.recipe.problem import Path, Problem
 
 FULL_TOLERANCE = 0.02
 """An inflated length beyond the full one by this share means full: nominal lengths are rounded."""
@@ -85,7 +87,7 @@ def _tube(recipe: Recipe, name: str, rubber: Rubber) -> Strip:
     for index, kind, bubble, length in _made(recipe, name):
         shape, left = tube.pinched(length)
         if not left.blown_up:
-            path: Path = ("steps", index, recipe.steps[index].kind, bubble)
+            path: Path = ("steps", index, recipe.steps[index].word, bubble)
             raise RecipeError([recipe.problem(path, _misfit(recipe, name, bubble, length, tube))])
         rest_end = rest_along + shape.rest_length
         bubbles.append(
@@ -119,11 +121,10 @@ def _beyond_full(length: float, size: BalloonSize, full: float) -> str:
 
 def _made(recipe: Recipe, name: str) -> list[Made]:
     """What the steps make of one balloon."""
-    kinds: dict[str, BubbleKind] = {"bubbles": "bubble", "loop": "loop", "fold": "fold", "ear": "ear"}
     return [
-        Made(index, kinds[step.kind], bubble, length)
+        Made(index, step.bubble_kind, bubble, length)
         for index, step in enumerate(recipe.steps)
-        if step.kind in kinds and _balloon_of(recipe, step.balloon) == name
+        if step.bubble_kind is not None and _balloon_of(recipe, step) == name
         for bubble, length in step.lengths.items()
     ]
 
@@ -131,9 +132,9 @@ def _made(recipe: Recipe, name: str) -> list[Made]:
 def _rest(recipe: Recipe, name: str) -> tuple[str, int]:
     """Name of what is left of a balloon, and the step that names it, or the number of steps."""
     for at, step in enumerate(recipe.steps):
-        if step.rest is not None and _balloon_of(recipe, step.balloon) == name:
-            return step.rest, at
-    taken = {bubble for step in recipe.steps for bubble in (*step.lengths, step.rest or "")}
+        if step.named_rest is not None and _balloon_of(recipe, step) == name:
+            return step.named_rest, at
+    taken = {bubble for step in recipe.steps for bubble in (*step.lengths, step.named_rest or "")}
     return rest_name(name, taken), len(recipe.steps)
 
 
@@ -156,8 +157,9 @@ def _rest_of_tube(
     )
 
 
-def _balloon_of(recipe: Recipe, named: str | None) -> str:
+def _balloon_of(recipe: Recipe, step: Operation) -> str:
     """The balloon that a step works on: the one it names, else the only one."""
+    named = step.balloon if isinstance(step, OnBalloon) else None
     return named if named is not None else next(iter(recipe.balloons))
 
 

@@ -9,19 +9,19 @@ from typing import TYPE_CHECKING
 
 from balloon_usd.balloon.closed_shape import ClosedShape
 from balloon_usd.balloon.sizes import BalloonSize
-from balloon_usd.plan.lengths import cm
+from balloon_usd.language.lengths import cm
+from balloon_usd.language.problem import RecipeError
+from balloon_usd.language.quantities import METRES
 from balloon_usd.plan.shaped import Shaped
 from balloon_usd.plan.strip import PlannedBubble, Strip
 from balloon_usd.recipe.balloons import USUAL_SWELL
-from balloon_usd.recipe.problem import RecipeError
-from balloon_usd.recipe.quantities import METRES
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from balloon_usd.balloon.rubber import Rubber
+    from balloon_usd.language.problem import Problem
     from balloon_usd.recipe import Recipe
-    from balloon_usd.recipe.problem import Problem
 
 WALL = 0.25e-3
 """Wall of a balloon from a mesh, if the recipe does not say, m: that of a party balloon."""

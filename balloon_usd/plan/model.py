@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from balloon_usd.operations.moves import Choreography
     from balloon_usd.plan.budget import Budget
-    from balloon_usd.plan.choreography import Choreography
     from balloon_usd.plan.graph import SculptureGraph
     from balloon_usd.plan.holding import Holding
     from balloon_usd.plan.judgement import Caution

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from balloon_usd.language.problem import RecipeError
 from balloon_usd.plan.budget import budget_of
 from balloon_usd.plan.choreography import choreograph
 from balloon_usd.plan.graph import sculpture_graph
@@ -14,7 +15,6 @@ from balloon_usd.plan.model import Plan
 from balloon_usd.plan.rings import RingTable
 from balloon_usd.plan.settings import pace_problems, settings_problems
 from balloon_usd.plan.welding import weld_problems
-from balloon_usd.recipe.problem import RecipeError
 
 if TYPE_CHECKING:
     from balloon_usd.recipe import Recipe

@@ -6,20 +6,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from balloon_usd.balloon.tube_theory import maxwell_state
-from balloon_usd.recipe.steps import Joint
+from balloon_usd.language.joint import Joint
+from balloon_usd.operations.table import BY_KIND
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from balloon_usd.plan.strip import PlannedBubble, Strip
 
-GUIDES: dict[str, tuple[float, ...]] = {
-    "bubble": (0.5,),
-    "loop": tuple(k / 8 for k in range(1, 8)),
-    "fold": (0.5,),
-    "ear": (0.5,),
-}
-"""Where hands lead a bubble of each kind, as shares of its length."""
 REST_GUIDE = 0.07
 """Inflated distance from its joint at which the last bubble is felt by the friction of that joint, m."""
 
@@ -109,8 +103,8 @@ def _rings(strip: Strip) -> list[PlannedRing]:
 
 
 def _guide_shares(bubble: PlannedBubble, strip: Strip) -> tuple[float, ...]:
-    if bubble.kind in GUIDES:
-        return GUIDES[bubble.kind]
+    if bubble.kind != "rest":
+        return BY_KIND[bubble.kind].guides
     stretch = 1.0 if strip.capsule else maxwell_state(strip.rubber).bulged.b
     share = min(REST_GUIDE / stretch / bubble.rest_length, 0.5)
     return share, max(1.0 - TIP_GUIDE * strip.size.radius / bubble.rest_length, 0.5 * (1.0 + share))

@@ -9,17 +9,17 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from balloon_usd.plan.choreography import Inflate
+from balloon_usd.language.quantities import duration_entry
+from balloon_usd.operations.moves import Inflate
 from balloon_usd.plan.settings_kosaka import kosaka_problems
 from balloon_usd.plan.tube_sizes import tube_sizes
-from balloon_usd.recipe.quantities import duration_entry
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from balloon_usd.plan.choreography import Choreography
+    from balloon_usd.language.problem import Problem
+    from balloon_usd.operations.moves import Choreography
     from balloon_usd.recipe import Recipe
-    from balloon_usd.recipe.problem import Problem
 
 THICKEST = 0.25
 """Thickness of a wall in radii of its tube, up to which it bends and stretches as a membrane."""

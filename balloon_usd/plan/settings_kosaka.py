@@ -17,8 +17,8 @@ from balloon_usd.plan.tube_sizes import tube_sizes
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from balloon_usd.language.problem import Path, Problem
     from balloon_usd.recipe import Recipe
-    from balloon_usd.recipe.problem import Path, Problem
 
 USUAL_RATE = 144.0
 """Time steps in a second that the model chooses."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from balloon_usd.balloon.bubble_shape import pinch_length
 from balloon_usd.balloon.tube_theory import maxwell_state
@@ -13,9 +13,8 @@ from balloon_usd.plan.open_tube import softened
 if TYPE_CHECKING:
     from balloon_usd.balloon.rubber import Rubber
     from balloon_usd.balloon.sizes import BalloonSize
+    from balloon_usd.operations.operation import BubbleKind
     from balloon_usd.plan.shaped import Shaped
-
-BubbleKind = Literal["bubble", "loop", "fold", "ear", "rest", "shape"]
 
 
 class Made(NamedTuple):

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from balloon_usd.plan.choreography import Weld
+from balloon_usd.operations.moves import Weld
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from balloon_usd.plan.choreography import Choreography
+    from balloon_usd.language.problem import Problem
+    from balloon_usd.operations.moves import Choreography
     from balloon_usd.recipe import Recipe
-    from balloon_usd.recipe.problem import Problem
 
 MOST_WELDED = 32
 """Joints that can be twisted into one: more necks than that leave no room for each other."""

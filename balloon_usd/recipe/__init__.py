@@ -5,15 +5,19 @@ Knows nothing of physics: a `Recipe` is text with its meaning checked.
 
 from __future__ import annotations
 
+from balloon_usd.language.colors import LATEX_COLORS, Color
+from balloon_usd.language.joint import Joint
+from balloon_usd.language.problem import Problem, RecipeError
+from balloon_usd.operations.lock import LockJoints
+from balloon_usd.operations.operation import Operation
+from balloon_usd.operations.push import PushedBubble
+
 from .balloons import Balloon
 from .builder import RecipeBuilder
-from .colors import LATEX_COLORS, Color
 from .kosaka import Kosaka
 from .physics import Physics
-from .problem import Problem, RecipeError
 from .recipe import Recipe
 from .schema import recipe_schema
-from .steps import Joint, LockJoints, PushedBubble, Step
 
 __all__ = [
     "LATEX_COLORS",
@@ -22,12 +26,12 @@ __all__ = [
     "Joint",
     "Kosaka",
     "LockJoints",
+    "Operation",
     "Physics",
     "Problem",
     "PushedBubble",
     "Recipe",
     "RecipeBuilder",
     "RecipeError",
-    "Step",
     "recipe_schema",
 ]

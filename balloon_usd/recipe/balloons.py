@@ -4,9 +4,9 @@ from typing import Annotated, Literal, get_args
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema
 
-from .colors import ColorEntry, color
-from .names import Text
-from .quantities import LONGEST, Between, FlatTail, Length, LengthWithin, Units
+from balloon_usd.language.colors import ColorEntry, color
+from balloon_usd.language.names import Text
+from balloon_usd.language.quantities import LONGEST, Between, FlatTail, Length, LengthWithin, Units
 
 BalloonSizeName = Literal["160", "260", "321", "350", "360", "646"]
 
@@ -68,3 +68,9 @@ class Balloon(BaseModel):
     """Unstressed length, where a brand differs; m in Python."""
     thickness: Annotated[float, LengthWithin(0.00002, 0.003)] | None = None
     """Unstressed wall thickness, where a brand differs; m in Python."""
+
+
+def balloons_in(data: object) -> dict[str, object]:
+    """Return the entries of `balloons` in the plain data of a recipe, as far as they are a mapping."""
+    balloons = data.get("balloons") if isinstance(data, dict) else None
+    return balloons if isinstance(balloons, dict) else {}

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Self
 
+from balloon_usd.language.quantities import Units, length_entry
+
 from .kosaka import kosaka_entries
-from .quantities import Units, length_entry
 from .recipe import Recipe
 from .writer import Entries, recipe_text
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from .steps import Kind, Point
+    from balloon_usd.operations.modifiers import Point
 
 LengthLike = float | str
 """Metres, or a text with its own unit such as "4 in"."""
@@ -226,10 +227,10 @@ class RecipeBuilder:
         """
         return Recipe.parse(self.to_yaml(), file=BUILDER_FILE)
 
-    def _make(self, kind: Kind, lengths: Mapping[str, LengthLike], manner: Mapping[str, object]) -> Self:
+    def _make(self, kind: str, lengths: Mapping[str, LengthLike], manner: Mapping[str, object]) -> Self:
         return self._step(kind, {name: self._length(value) for name, value in lengths.items()}, manner)
 
-    def _step(self, kind: Kind, what: object, manner: Mapping[str, object]) -> Self:
+    def _step(self, kind: str, what: object, manner: Mapping[str, object]) -> Self:
         self._steps.append({kind: what} | _given(manner))
         return self
 

@@ -9,7 +9,7 @@ from typing import Annotated
 
 from pydantic import BaseModel, ConfigDict
 
-from .quantities import Between, LengthWithin, length_entry
+from balloon_usd.language.quantities import Between, LengthWithin, length_entry
 
 Offset = Annotated[float, LengthWithin(0.0, 0.1)]
 

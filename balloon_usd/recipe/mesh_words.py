@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .balloons import MESH_KEYS, MESH_ONLY, Balloon
-from .choices import one_of
-from .outline import balloons_in, outlines_in
-from .problem import Complaint, quoted
+from balloon_usd.language.choices import one_of
+from balloon_usd.language.problem import Complaint, quoted
+from balloon_usd.operations.entries import steps_in
+from balloon_usd.operations.wait import Wait
+
+from .balloons import MESH_KEYS, MESH_ONLY, Balloon, balloons_in
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from .problem import Path
+    from balloon_usd.language.problem import Path
 
 PHYSICS = {
     "gravity": "nothing holds a balloon from a mesh, so it would fall",
@@ -58,9 +60,9 @@ def _others(data: object, meshes: list[str]) -> Iterator[Complaint]:
 
 
 def _steps(data: object, mesh: str) -> Iterator[Complaint]:
-    for step in outlines_in(data):
-        if step.kinds != ("wait",):
-            path = (*step.path, *step.kinds[:1])
+    for step in steps_in(data):
+        if step.words != (Wait.word,):
+            path = (*step.path, *step.words[:1])
             what = f"{quoted(mesh)} is a mesh, which is blown up and not twisted"
             yield Complaint(path, f"{what}, expected wait")
 

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from .outline import balloons_in, outlines_in
-from .problem import Complaint
+from balloon_usd.language.problem import Complaint
+from balloon_usd.operations.entries import steps_in
+
+from .balloons import balloons_in
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -34,8 +36,8 @@ def model_complaints(data: object) -> Iterator[Complaint]:
             if key in LATEX_ONLY:
                 what = f"makes no sense with model kosaka: {LATEX_ONLY[key]}, expected no such line"
                 yield Complaint(("physics", key), what)
-        for step in outlines_in(data):
-            if "turns" in step.keys:
+        for step in steps_in(data):
+            if "turns" in step.entries:
                 what = "makes no sense with model kosaka: its joints freeze and are not wound"
                 yield Complaint((*step.path, "turns"), f"{what}, expected no turns")
     elif model == "latex":

@@ -4,8 +4,9 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, StrictBool
 
+from balloon_usd.language.quantities import Between, Duration
+
 from .kosaka import Kosaka
-from .quantities import Between, Duration
 
 ModelName = Literal["latex", "kosaka"]
 

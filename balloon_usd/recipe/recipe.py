@@ -15,18 +15,19 @@ from pydantic import (
     model_validator,
 )
 
+from balloon_usd.language.marks import Marks
+from balloon_usd.language.names import Name, Text
+from balloon_usd.language.problem import Complaint, Path, Problem, RecipeError, path_text, quoted
+from balloon_usd.language.quantities import METRES, Between, Reading, Units
+from balloon_usd.language.yaml_reader import Document, read_yaml
+from balloon_usd.operations.table import Step
+
 from .balloons import Balloon
-from .marks import Marks
 from .meaning import meaning_complaints
-from .names import Name, Text
 from .physics import Physics
-from .problem import Complaint, Path, Problem, RecipeError, path_text, quoted
-from .quantities import METRES, Between, Reading, Units
 from .recipe_file import FilePath, read_recipe_file
-from .steps import Step
 from .translation import validation_complaints
 from .writer import recipe_entries, recipe_text
-from .yaml_reader import Document, read_yaml
 
 FRAMES_PER_SECOND = 24.0
 
@@ -105,7 +106,7 @@ class Recipe(BaseModel):
     @model_validator(mode="after")
     def _check_meaning(self, info: ValidationInfo) -> Self:
         if not isinstance(info.context, Reading):  # parse() reports meaning with places
-            complaints = meaning_complaints(recipe_entries(self))
+            complaints = meaning_complaints(self._entries())
             if complaints:
                 texts = [f"{path_text(complaint.path)}: {complaint.text}" for complaint in complaints]
                 raise ValueError("; ".join(texts))
@@ -128,7 +129,11 @@ class Recipe(BaseModel):
 
     def to_yaml(self) -> str:
         """Write the recipe as YAML text that reads back as an equal recipe."""
-        return recipe_text(recipe_entries(self))
+        return recipe_text(self._entries())
+
+    def _entries(self) -> dict[str, object]:
+        written = self.model_dump(exclude_defaults=True)
+        return recipe_entries(written, self.balloons, self.steps, self.units)
 
     def __eq__(self, other: object) -> bool:
         """Compare what the recipes say, not where they were written."""

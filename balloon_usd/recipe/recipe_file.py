@@ -5,9 +5,9 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from .marks import Marks
-from .problem import Place, RecipeError
-from .yaml_reader import BYTES_LIMIT, place_in
+from balloon_usd.language.marks import Marks
+from balloon_usd.language.problem import Place, RecipeError
+from balloon_usd.language.yaml_reader import BYTES_LIMIT, place_in
 
 FilePath = str | os.PathLike[str]
 

@@ -6,13 +6,15 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+from balloon_usd.language.choices import one_of, unknown
+from balloon_usd.language.problem import PROBLEMS_SHOWN, Complaint, Path, quoted
+from balloon_usd.language.quantities import UnitMissingError
+from balloon_usd.operations.modifiers import MODIFIERS
+from balloon_usd.operations.table import BY_WORD, WORDS, words_in
+
 from .balloons import Balloon
-from .choices import one_of, unknown
 from .kosaka import Kosaka
 from .physics import Physics
-from .problem import PROBLEMS_SHOWN, Complaint, Path, quoted
-from .quantities import UnitMissingError
-from .steps import KINDS, LockJoints, PushedBubble, Step
 
 if TYPE_CHECKING:
     from pydantic import BaseModel, ValidationError
@@ -57,7 +59,7 @@ def _complaint(detail: ErrorDetails, data: object, root: type[BaseModel]) -> Com
         path = (*path, detail["loc"][-1])
         return Complaint(path, f"is missing, expected {_wanted(path)}")
     if kind == "extra_forbidden":
-        return Complaint(path, _unknown_key(path, root))
+        return Complaint(path, _unfit_key(path, data) or _unknown_key(path, root))
     if kind == "literal_error":
         return Complaint(path, _unknown_choice(path, value, str(detail["ctx"]["expected"])))
     cause = _cause(detail)
@@ -89,19 +91,33 @@ def _path(location: Sequence[str | int], data: object) -> Path:
 def _model_at(path: Path, root: type[BaseModel]) -> type[BaseModel]:
     if not path:
         return root
+    block, key = str(path[0]), str(path[-1])
+    if block == "steps" and key in BY_WORD:
+        return BY_WORD[key].value_model or root
     models: dict[tuple[str, str], type[BaseModel]] = {
         ("balloons", ""): Balloon,
-        ("steps", ""): Step,
-        ("steps", "lock"): LockJoints,
-        ("steps", "push"): PushedBubble,
         ("physics", ""): Physics,
         ("physics", "kosaka"): Kosaka,
     }
-    block = str(path[0])
-    return models.get((block, str(path[-1]))) or models.get((block, ""), root)
+    return models.get((block, key)) or models.get((block, ""), root)
+
+
+def _unfit_key(path: Path, data: object) -> str | None:
+    """Say why a key of the language does not fit into a step; None of other keys, and of other places."""
+    if path[0] != "steps" or len(path) != 3:
+        return None
+    step, key = data["steps"][path[1]], path[2]  # type: ignore[index]  # the key was found there
+    first = words_in(step)[0] if words_in(step) else None
+    if first is not None and key in WORDS:
+        return f"stands beside {first}, expected one operation in a step: begin a new step"
+    if first is not None and key in MODIFIERS:
+        return f"makes no sense with {first}, expected {one_of(BY_WORD[first].modifiers())}"
+    return None
 
 
 def _unknown_key(path: Path, root: type[BaseModel]) -> str:
+    if path[0] == "steps" and len(path) == 3:
+        return unknown("key", path[-1], [*WORDS, *MODIFIERS])
     model = _model_at(path[:-1], root)
     return unknown("key", path[-1], model.model_fields)
 
@@ -119,7 +135,7 @@ def _wanted(path: Path) -> str:
         "format": "format: 1",
         "name": "a name for the file such as dog",
         "balloons": "balloons such as {main: {size: 260, color: red, tail: 10}}",
-        "steps": f"a list of steps, each with {one_of(KINDS)}",
+        "steps": f"a list of steps, each with {one_of(WORDS)}",
         "joints": "a list such as [nose.end, tail.start]",
         "bubble": "the bubble that is pushed",
     }

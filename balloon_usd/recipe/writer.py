@@ -7,15 +7,19 @@ import re
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
+from balloon_usd.language.quantities import duration_entry, length_entry, short_number
+from balloon_usd.language.scalars import plain_scalar
+from balloon_usd.operations.modifiers import MODIFIERS
+
 from .balloons import FILLINGS
 from .kosaka import kosaka_entries
-from .quantities import angle_entry, duration_entry, length_entry, short_number
-from .scalars import plain_scalar
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from balloon_usd.operations.operation import Operation
+
     from .balloons import Balloon
-    from .recipe import Recipe
-    from .steps import PushedBubble, Step
 
 Entries = dict[str, object]
 
@@ -25,15 +29,27 @@ HEAD = ("name", "title", "source", "units", "fps")
 _PLAIN_WORD = re.compile(r"[A-Za-z_][A-Za-z0-9_.+ -]*", re.ASCII)
 
 
-def recipe_entries(recipe: Recipe) -> Entries:
-    """Plain data of a recipe as it stands in a file: lengths in its units, angles in degrees."""
-    written = recipe.model_dump(exclude_defaults=True)
+def recipe_entries(
+    written: Entries, balloons: Mapping[str, Balloon], steps: Iterable[Operation], units: str | None
+) -> Entries:
+    """Plain data of a recipe as it stands in a file: lengths in its units, angles in degrees.
+
+    Args:
+        written: all of the recipe that differs from what is usual.
+        balloons: by name.
+        steps: in order.
+        units: of lengths that are bare numbers.
+    """
     kept: Entries = {key: written[key] for key in HEAD if key in written}
-    balloons = {name: _balloon_entries(entry, recipe.units) for name, entry in recipe.balloons.items()}
-    steps = [_step_entries(step, recipe.units) for step in recipe.steps]
-    entries: Entries = {"format": recipe.format, **kept, "balloons": balloons, "steps": steps}
-    if "physics" in written:
-        entries["physics"] = _physics_entries(written["physics"], recipe.units)
+    entries: Entries = {
+        "format": written["format"],
+        **kept,
+        "balloons": {name: _balloon_entries(entry, units) for name, entry in balloons.items()},
+        "steps": [_step_entries(step, units) for step in steps],
+    }
+    physics = written.get("physics")
+    if isinstance(physics, dict):
+        entries["physics"] = _physics_entries(physics, units)
     return entries
 
 
@@ -67,22 +83,10 @@ def _balloon_entries(balloon: Balloon, units: str | None) -> Entries:
     return entries
 
 
-def _step_entries(step: Step, units: str | None) -> Entries:
-    entries: Entries = step.model_dump(exclude_defaults=True)
-    if step.lengths:
-        entries[step.kind] = {name: length_entry(length, units) for name, length in step.lengths.items()}
-    if step.bend:
-        entries["bend"] = {name: angle_entry(angle) for name, angle in step.bend.items()}
-    if step.push:
-        entries["push"] = _push_entries(step.push, units)
-    return entries
-
-
-def _push_entries(push: PushedBubble, units: str | None) -> Entries:
-    lengths = {"at": push.at, "depth": push.depth}
-    entries: Entries = {"bubble": push.bubble}
-    entries |= {key: length_entry(length, units) for key, length in lengths.items() if length is not None}
-    return entries if push.force is None else entries | {"force": push.force}
+def _step_entries(step: Operation, units: str | None) -> Entries:
+    written = step.model_dump(exclude_defaults=True)
+    beside = {key: written[key] for key in MODIFIERS if key in written}
+    return {step.word: step.entry(units), **beside}
 
 
 def _physics_entries(physics: Entries, units: str | None) -> Entries:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from balloon_usd.plan.choreography import Pinch
+from balloon_usd.operations.moves import Pinch
 from balloon_usd.report.step_marks import StepMark, step_marks
 from balloon_usd.solver.tally import flat_tail
 

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from balloon_usd.plan import Plan
-    from balloon_usd.recipe import Step
 
 
 @dataclass(frozen=True)
@@ -33,23 +32,7 @@ def step_marks(plan: Plan) -> tuple[StepMark, ...]:
         begun = move.step
         # Before the first step the hands blow up, after the last one they hold: only the move says so.
         inside = 0 <= move.step < len(steps)
-        text = step_text(steps[move.step]) if inside else move.text
+        text = steps[move.step].label if inside else move.text
         code = 1 + round(move.start * plan.recipe.fps)
         marks.append(StepMark(code, move.step if inside else None, text))
     return tuple(marks)
-
-
-def step_text(step: Step) -> str:
-    """Return a step in a few words, such as `lock: left_ear, right_ear`."""
-    if step.wait is not None:
-        return f"wait: {step.wait:g} s"
-    return f"{step.kind}: {', '.join(_names(step))}"
-
-
-def _names(step: Step) -> tuple[str, ...]:
-    if step.push is not None:
-        return (step.push.bubble,)
-    if isinstance(step.lock, tuple):
-        return step.lock
-    named = (*step.lengths, *map(str, step.joints), *(step.bend or ()))
-    return named if step.rest is None else (step.rest,)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from balloon_usd.balloon.tube_theory import maxwell_state
-from balloon_usd.plan.choreography import Bend, Bring, Gather, LetGo, Move, Push, Weld
+from balloon_usd.operations.moves import Bend, Bring, Gather, LetGo, Move, Push, Weld
 from balloon_usd.plan.closing import ClosingChain, smooth
 from balloon_usd.solver.gathering import Gathering
 from balloon_usd.solver.model import Told

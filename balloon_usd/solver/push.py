@@ -12,7 +12,7 @@ from balloon_usd.plan.closing import smooth
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from balloon_usd.plan.choreography import Push
+    from balloon_usd.operations.moves import Push
     from balloon_usd.solver.scene import Scene
 
 FINGER_RADIUS = 0.012

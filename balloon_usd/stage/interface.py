@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from balloon_usd import __version__
 from balloon_usd.openusd import Sdf, Vt
 from balloon_usd.stage.detail_files import detail_files
 from balloon_usd.stage.layer_metadata import set_provenance, set_units
 from balloon_usd.stage.prim_paths import class_path, root_path
 from balloon_usd.stage.variant_sets import DETAIL, FINISHED, MADE, STATE, add_variant
+from balloon_usd.version import __version__
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

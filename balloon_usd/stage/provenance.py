@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from balloon_usd import __version__
+from balloon_usd.version import __version__
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping

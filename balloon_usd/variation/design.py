@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from math import prod
 from typing import TYPE_CHECKING
 
+from balloon_usd.language.yaml_reader import read_yaml
 from balloon_usd.recipe import Recipe, RecipeError
 from balloon_usd.recipe.recipe_file import read_recipe_file
-from balloon_usd.recipe.yaml_reader import read_yaml
 from balloon_usd.variation.error import VariationError
 from balloon_usd.variation.mesh_paths import mesh_paths, moved_value
 from balloon_usd.variation.naming import FEW, names_with_values, numbered_names
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
     from pathlib import Path as File
 
-    from balloon_usd.recipe.problem import Path
+    from balloon_usd.language.problem import Path
     from balloon_usd.variation.parameters import Parameter, Settings
     from balloon_usd.variation.sampling import Combination
     from balloon_usd.variation.template import Template

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from balloon_usd.recipe.problem import PROBLEMS_SHOWN
+from balloon_usd.language.problem import PROBLEMS_SHOWN
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

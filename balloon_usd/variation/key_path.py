@@ -5,21 +5,21 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from balloon_usd.language.choices import unknown
+from balloon_usd.language.problem import path_text, printable, quoted
+from balloon_usd.operations.entries import steps_in
+from balloon_usd.operations.table import BY_WORD, words_in
 from balloon_usd.recipe.balloons import Balloon
-from balloon_usd.recipe.choices import unknown
 from balloon_usd.recipe.kosaka import Kosaka
-from balloon_usd.recipe.outline import StepOutline, outlines_in
 from balloon_usd.recipe.physics import Physics
-from balloon_usd.recipe.problem import path_text, printable, quoted
 from balloon_usd.recipe.recipe import Recipe
-from balloon_usd.recipe.steps import MANNERS, LockJoints, PushedBubble
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from pydantic import BaseModel
 
-    from balloon_usd.recipe.problem import Path
+    from balloon_usd.language.problem import Path
 
 GIVEN = ("format", "name")
 """Keys that a variation does not let choose."""
@@ -81,7 +81,7 @@ def _kind(path: Path) -> str:
     match path:
         case ("balloons",):
             return "balloon"
-        case ("steps", int(), "bubbles" | "loop" | "fold" | "ear" | "bend"):
+        case ("steps", int(), str(word)) if word in BY_WORD and BY_WORD[word].by_bubble:
             return "bubble"
     return "key"
 
@@ -96,10 +96,8 @@ def _keys(path: Path, node: dict[str, object]) -> list[str]:
             return _step_keys(node)
         case ("balloons", _):
             model = Balloon
-        case ("steps", int(), "lock"):
-            model = LockJoints
-        case ("steps", int(), "push"):
-            model = PushedBubble
+        case ("steps", int(), str(word)) if word in BY_WORD:
+            model = BY_WORD[word].value_model
         case ("physics",):
             model = Physics
         case ("physics", "kosaka"):
@@ -109,7 +107,7 @@ def _keys(path: Path, node: dict[str, object]) -> list[str]:
 
 def _step_keys(step: dict[str, object]) -> list[str]:
     """List what a step has, and what may stand beside its operation."""
-    beside = [key for kind, manners in MANNERS.items() if kind in step for key in manners]
+    beside = [key for word in words_in(step) for key in BY_WORD[word].modifiers()]
     return list(dict.fromkeys([*step, *beside]))
 
 
@@ -119,7 +117,7 @@ def _index(path: Path, entries: list[object], part: str, following: Sequence[str
             last = len(entries) - 1
             raise ValueError(f"{path_text(path)} has no place {printable(part)}, expected 0 to {last}")
         return int(part)
-    steps = {int(step.path[1]): _bubbles_of(step) for step in outlines_in(data)} if path == ("steps",) else {}
+    steps = {int(step.path[1]): step.names for step in steps_in(data)} if path == ("steps",) else {}
     names = [steps.get(at, ()) if steps else (entry,) for at, entry in enumerate(entries)]
     found = [at for at, known in enumerate(names) if part in known]
     if len(found) > 1 and following:
@@ -140,10 +138,3 @@ def _unknown_place(part: str, known: Iterable[str]) -> str:
 
 def _leads_on(step: object, part: str) -> bool:
     return isinstance(step, dict) and part in _step_keys(step)
-
-
-def _bubbles_of(step: StepOutline) -> tuple[str, ...]:
-    """Return the bubbles that a step makes or works on."""
-    made = (name for name, _, _ in step.made)
-    joined = (joint.bubble for joint in step.joints or ())
-    return (*made, *(step.lock or ()), *joined, *step.bent, *filter(None, [step.pushed]))

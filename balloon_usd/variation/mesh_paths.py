@@ -6,13 +6,13 @@ import os
 from pathlib import Path as File
 from typing import TYPE_CHECKING
 
-from balloon_usd.recipe.problem import escaped
+from balloon_usd.language.problem import escaped
 from balloon_usd.variation.error import VariationError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from balloon_usd.recipe.problem import Path
+    from balloon_usd.language.problem import Path
 
 DEPTH = 3
 """Keys down to a mesh: balloons, name, mesh."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from balloon_usd.recipe.names import NAME_LIMIT
+from balloon_usd.language.names import NAME_LIMIT
 from balloon_usd.recipe.writer import flow_text
 
 if TYPE_CHECKING:

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from itertools import combinations
 from typing import TYPE_CHECKING
 
-from balloon_usd.recipe.problem import path_text, printable, quoted
+from balloon_usd.language.problem import path_text, printable, quoted
 from balloon_usd.variation.key_path import find_path
 from balloon_usd.variation.values import listed, read_values
 
 if TYPE_CHECKING:
-    from balloon_usd.recipe.problem import Path
+    from balloon_usd.language.problem import Path
     from balloon_usd.variation.values import Values
 
 Setting = str | Sequence[object]

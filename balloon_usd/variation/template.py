@@ -17,16 +17,16 @@ from ruamel.yaml.error import YAMLError
 from ruamel.yaml.resolver import VersionedResolver
 from ruamel.yaml.scalarstring import PlainScalarString
 
-from balloon_usd.recipe.problem import RecipeError, escaped
+from balloon_usd.language.problem import RecipeError, escaped
+from balloon_usd.language.yaml_reader import read_yaml
 from balloon_usd.recipe.writer import flow_text
-from balloon_usd.recipe.yaml_reader import read_yaml
 from balloon_usd.variation.error import VariationError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from balloon_usd.recipe.marks import Marks
-    from balloon_usd.recipe.problem import Path
+    from balloon_usd.language.marks import Marks
+    from balloon_usd.language.problem import Path
 
 MARKS = range(0xE000, 0xF900)
 """Characters for private use: no recipe needs them, and values are written without."""

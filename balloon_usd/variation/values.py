@@ -10,10 +10,10 @@ from fractions import Fraction
 from numbers import Integral, Real
 from typing import TYPE_CHECKING
 
-from balloon_usd.recipe.problem import RecipeError, quoted
-from balloon_usd.recipe.quantities import short_number
+from balloon_usd.language.problem import RecipeError, quoted
+from balloon_usd.language.quantities import short_number
+from balloon_usd.language.yaml_reader import read_yaml
 from balloon_usd.recipe.writer import flow_text
-from balloon_usd.recipe.yaml_reader import read_yaml
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -6,9 +6,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from balloon_usd.language.problem import escaped
 from balloon_usd.plan import plan
 from balloon_usd.recipe import Recipe, RecipeError
-from balloon_usd.recipe.problem import escaped
 from balloon_usd.variation.design import design_of
 from balloon_usd.variation.error import VariationError
 from balloon_usd.variation.reasons import reason_lines

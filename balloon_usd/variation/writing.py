@@ -8,7 +8,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from balloon_usd.recipe.problem import escaped
+from balloon_usd.language.problem import escaped
 from balloon_usd.variation.error import VariationError, VariationNotWrittenError
 
 if TYPE_CHECKING:

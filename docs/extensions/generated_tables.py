@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from sphinx.util.docutils import SphinxDirective
 
+from balloon_usd.operations.table import OPERATIONS
 from balloon_usd.recipe import recipe_schema
 from balloon_usd.report.document import DIGITS, UNITS
 from balloon_usd.stage.properties import PROPERTIES
@@ -16,6 +17,8 @@ if TYPE_CHECKING:
     from docutils import nodes
     from sphinx.application import Sphinx
 
+    from balloon_usd.operations.operation import Operation
+
 
 class RecipeKeys(SphinxDirective):
     """`recipe-keys`: every key of a block of the recipe, out of the schema that editors get."""
@@ -23,10 +26,18 @@ class RecipeKeys(SphinxDirective):
     required_arguments = 1
 
     def run(self) -> list[nodes.Node]:
-        """Return the table of the block that is named: Balloon, Step, Physics or Kosaka."""
+        """Return the table of the block that is named: Balloon, Physics, Kosaka or a step."""
         keys = recipe_schema()["$defs"][self.arguments[0]]["properties"]
         rows = ((f"`{name}`", _allowed(key), _default(key), key["description"]) for name, key in keys.items())
         return self.parse_text_to_nodes(_table(("key", "values", "default", "meaning"), rows))
+
+
+class Operations(SphinxDirective):
+    """`operations`: every operation with what may stand beside it, and a whole short recipe."""
+
+    def run(self) -> list[nodes.Node]:
+        """Return a paragraph and an example of each, in the order of their table."""
+        return self.parse_text_to_nodes("\n\n".join(map(_operation, OPERATIONS)))
 
 
 class StageProperties(SphinxDirective):
@@ -45,6 +56,13 @@ class ReportUnits(SphinxDirective):
         """Return the table of all quantities."""
         rows = ((f"`{name}`", unit, str(DIGITS[name])) for name, unit in UNITS.items())
         return self.parse_text_to_nodes(_table(("quantity", "unit", "digits after the point"), rows))
+
+
+def _operation(operation: type[Operation]) -> str:
+    """Return what an operation does, with its example."""
+    says = (operation.__doc__ or "").splitlines()[0]
+    beside = ", ".join(f"`{key}`" for key in operation.modifiers())
+    return f"**`{operation.word}`**: {says} Beside it: {beside}.\n\n```yaml\n{operation.example}```"
 
 
 def _allowed(key: dict[str, Any]) -> str:
@@ -77,6 +95,7 @@ def _table(head: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:
 def setup(app: Sphinx) -> dict[str, bool]:
     """Tell Sphinx of the directives."""
     app.add_directive("recipe-keys", RecipeKeys)
+    app.add_directive("operations", Operations)
     app.add_directive("stage-properties", StageProperties)
     app.add_directive("report-units", ReportUnits)
     app.connect("sphinx-click-process-description", _plain)

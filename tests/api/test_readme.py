@@ -11,7 +11,7 @@ from click.testing import CliRunner
 import balloon_usd
 from balloon_usd import Recipe, RecipeError, plan_recipe
 from balloon_usd.cli import main
-from balloon_usd.recipe.steps import KINDS
+from balloon_usd.operations.table import WORDS
 
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -72,7 +72,7 @@ def test_every_example_is_shown_on_a_page(example: str) -> None:
     assert any(f"{{literalinclude}} ../examples/{example}\n" in path.read_text("utf-8") for path in PAGES)
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", WORDS)
 def test_every_operation_is_explained(kind: str) -> None:
     assert f"| `{kind}: " in page("reference/recipe.md")
 

@@ -133,7 +133,7 @@ def test_a_machine_that_does_not_share_the_folder_is_told_before_any_work(cluste
 
 
 def test_a_machine_with_another_version_is_told_before_any_work(cluster, tmp_path, monkeypatch):
-    monkeypatch.setattr("balloon_usd.__version__", "9.0.0")
+    monkeypatch.setattr("balloon_usd.batch.ray_machines.__version__", "9.0.0")
     with pytest.raises(ClusterError, match=r": balloon_usd is of version [\d.]+, expected 9.0.0 as here$"):
         list(make_on_cluster(chunks(4), ChunkTask(tmp_path), ONE_CPU, tmp_path, cluster.address))
     assert list(tmp_path.iterdir()) == []

@@ -1,12 +1,8 @@
 from __future__ import annotations
 
-from dataclasses import replace
-
 import pytest
 
-from balloon_usd.batch.facts import origin_of
-from balloon_usd.batch.messages import Part
-from balloon_usd.batch.reading import LARGEST, RecipeChanged, packed, planned
+from balloon_usd.batch.reading import LARGEST, RecipeChanged, origin_of, packed, planned
 from balloon_usd.plan import plan
 from balloon_usd.recipe import Recipe
 from tests.batch.runs import ROOT
@@ -15,9 +11,9 @@ from tests.command_line import RECIPE
 DOG = ROOT / "recipes" / "dog.yaml"
 
 
-def part_of(file):
+def surveyed(file):
     found = plan(Recipe.load(file))
-    return Part(0, 0, 0, str(file), origin_of(found), found.frame_count, packed(found))
+    return str(file), origin_of(found), packed(found)
 
 
 def assert_same(one, other):
@@ -26,13 +22,13 @@ def assert_same(one, other):
 
 
 def test_a_plan_is_the_same_in_another_process():
-    part = part_of(DOG)
-    assert 0 < len(part.plan) < LARGEST
-    assert_same(planned(part), plan(Recipe.load(DOG)))
+    found = surveyed(DOG)
+    assert 0 < len(found[-1]) < LARGEST
+    assert_same(planned(*found), plan(Recipe.load(DOG)))
 
 
 def test_a_recipe_that_is_not_packed_is_planned_again():
-    assert_same(planned(replace(part_of(DOG), plan=b"")), planned(part_of(DOG)))
+    assert_same(planned(*surveyed(DOG)[:2]), planned(*surveyed(DOG)))
 
 
 def test_a_plan_of_meshes_is_not_packed():
@@ -43,7 +39,7 @@ def test_a_plan_of_meshes_is_not_packed():
 def test_a_packed_recipe_that_was_changed_is_noticed(tmp_path):
     file = tmp_path / "a.yaml"
     file.write_text(RECIPE.format(name="a", fps=24))
-    part = part_of(file)
+    found = surveyed(file)
     file.write_text(file.read_text() + "# more\n")
     with pytest.raises(RecipeChanged, match="was changed during the run"):
-        planned(part)
+        planned(*found)

@@ -6,8 +6,8 @@ import math
 
 import pytest
 
+from balloon_usd.operations.moves import Bend, Gather, Inflate, LetGo, Pinch, Spin, Weld
 from balloon_usd.plan import plan
-from balloon_usd.plan.choreography import Bend, Gather, Inflate, LetGo, Pinch, Spin, Weld
 from balloon_usd.recipe import RecipeBuilder, RecipeError
 
 

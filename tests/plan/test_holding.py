@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from balloon_usd.plan.choreography import LetGo, Weld
+from balloon_usd.operations.moves import LetGo, Weld
 
 HEAD = "balloons: {a: {size: 260, tail: 10}}\nsteps:\n"
 CHAIN = f"{HEAD}- bubbles: {{b: 8, c: 8, d: 8}}\n"

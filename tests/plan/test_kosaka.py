@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from balloon_usd.operations.moves import Inflate, LetGo, Pinch, Spin
 from balloon_usd.plan import plan, plan_json, plan_text
-from balloon_usd.plan.choreography import Inflate, LetGo, Pinch, Spin
 from balloon_usd.recipe import Recipe
 
 RECIPES = sorted((Path(__file__).parents[2] / "recipes" / "kosaka").glob("*.yaml"))

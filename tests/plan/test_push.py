@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from balloon_usd.plan.choreography import LetGo, Push
+from balloon_usd.operations.moves import LetGo, Push
 from balloon_usd.recipe import RecipeError
 
 CM = 0.01

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from balloon_usd.balloon.detail import DETAILS, detail_named
+from balloon_usd.operations.moves import Inflate, LetGo
 from balloon_usd.plan import plan, plan_json, plan_svg, plan_text
-from balloon_usd.plan.choreography import Inflate, LetGo
 from balloon_usd.plan.meshing import mesh_of
 from balloon_usd.recipe import Recipe, RecipeError
 from balloon_usd.staging import describe_stage

@@ -11,9 +11,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
-from balloon_usd.recipe import LATEX_COLORS, Balloon, Joint, Recipe, RecipeBuilder, RecipeError, Step
-from balloon_usd.recipe.quantities import METRES, angle_entry, length_entry, metres, radians
-from balloon_usd.recipe.steps import KINDS, PushedBubble
+from balloon_usd.language.quantities import METRES, angle_entry, length_entry, metres, radians
+from balloon_usd.operations.bubbles import Bubbles
+from balloon_usd.operations.lock import Lock
+from balloon_usd.operations.push import PushedBubble
+from balloon_usd.operations.rest import Rest
+from balloon_usd.operations.table import WORDS
+from balloon_usd.recipe import LATEX_COLORS, Balloon, Joint, Recipe, RecipeBuilder, RecipeError
 
 RECIPES = sorted((Path(__file__).parents[2] / "recipes").rglob("*.yaml"))
 EXAMPLES = settings(deadline=None, max_examples=120)
@@ -75,7 +79,7 @@ def test_a_built_recipe_tells_that_it_was_built() -> None:
 
 def test_the_builder_knows_every_operation_and_manner() -> None:
     recipe = full().build()
-    assert {step.kind for step in recipe.steps} == set(KINDS)
+    assert {step.word for step in recipe.steps} == set(WORDS)
     assert recipe.title == 'a "title": #1\nline two'
     assert recipe.fps == 30.0
     assert recipe.balloons["one"].color.rgb == (0.1, 0.2, 1.0)
@@ -84,7 +88,7 @@ def test_the_builder_knows_every_operation_and_manner() -> None:
     assert recipe.steps[0].lengths == {"a": 0.1, "b": 0.1016}
     assert (recipe.steps[0].turns, recipe.steps[0].seconds, recipe.steps[0].note) == (2.5, 1.0, "on")
     assert recipe.steps[3].note == "5"
-    assert recipe.steps[5].joints == (Joint("a", "start"), Joint("d", "end"))
+    assert recipe.steps[5].ends == (Joint("a", "start"), Joint("d", "end"))
     assert recipe.steps[7].bend == {"a": math.radians(60), "b": 0.3}
     assert recipe.steps[8].push == PushedBubble(bubble="b", at=0.0254, depth=0.012)
     assert recipe.steps[9].push == PushedBubble(bubble="two_rest", force=0.5)
@@ -184,13 +188,13 @@ def test_a_written_force_reads_back_bit_for_bit(force: float) -> None:
 def test_a_recipe_made_of_models_is_checked_and_written_in_metres() -> None:
     balloon = Balloon(size="260", tail=0.1)
     made = Recipe(
-        format=1, name="dog", balloons={"m": balloon}, steps=(Step(bubbles={"a": 0.1}), Step(rest="r"))
+        format=1, name="dog", balloons={"m": balloon}, steps=(Bubbles(bubbles={"a": 0.1}), Rest(rest="r"))
     )
     assert made.file == "<python>"
     assert 'bubbles: {a: "0.1 m"}' in made.to_yaml()
     assert Recipe.parse(made.to_yaml()) == made
     with pytest.raises(ValidationError, match=r"steps\[0\].lock: unknown bubble"):
-        Recipe(format=1, name="dog", balloons={"m": balloon}, steps=(Step(lock=("a", "b")),))
+        Recipe(format=1, name="dog", balloons={"m": balloon}, steps=(Lock(lock=("a", "b")),))
 
 
 @given(length=st.floats(1e-7, 5.0), units=st.sampled_from([None, *(unit for unit in METRES if unit != '"')]))
@@ -205,7 +209,7 @@ def test_a_written_angle_reads_back_bit_for_bit(angle: float) -> None:
     assert radians(angle_entry(angle)) == angle
 
 
-WORDS = st.one_of(
+TEXTS = st.one_of(
     st.text(st.characters(exclude_categories=["Cc", "Cs", "Zl", "Zp", "Cn", "Co"]), max_size=30),
     st.sampled_from(
         ["yes", "on", "null", "~", "1", "0x1F", ".nan", "a: b", "- a", "# a", "a #b", " a ", "'", '"', "\\"]
@@ -231,7 +235,7 @@ def builders(draw: st.DrawFn) -> RecipeBuilder:
     """Builders of recipes that make sense."""
     units = draw(st.sampled_from(["mm", "cm", "m", "in", "ft"]))
     fps = draw(st.none() | st.floats(1, 240))
-    builder = RecipeBuilder(draw(NAMES), title=draw(WORDS), source=draw(WORDS), units=units, fps=fps)
+    builder = RecipeBuilder(draw(NAMES), title=draw(TEXTS), source=draw(TEXTS), units=units, fps=fps)
     balloons = draw(st.lists(NAMES, min_size=1, max_size=2, unique=True))
     for name in balloons:
         filling = draw(st.sampled_from(["tail", "inflated"]))
@@ -250,7 +254,7 @@ def builders(draw: st.DrawFn) -> RecipeBuilder:
         builder.lock(joints=[f"{names[0]}.start", f"{names[1]}.end"], **manner(draw, "lock"))
     builder.rest(names[2], balloon=balloons[0])
     builder.bend({names[2]: draw(st.floats(0.01, 180)), names[3]: "1.25 rad"}, point="back")
-    builder.wait(draw(st.floats(0.2, 60)), note=draw(WORDS))
+    builder.wait(draw(st.floats(0.2, 60)), note=draw(TEXTS))
     return builder.physics(friction=draw(st.floats(0, 3)), softening=draw(st.booleans()))
 
 
@@ -259,7 +263,7 @@ def manner(draw: st.DrawFn, kind: str) -> dict[str, Any]:
     found: dict[str, Any] = {
         "turns": draw(st.none() | st.integers(1, 20).map(lambda halves: halves / 2)),
         "seconds": draw(st.none() | st.floats(0.2, 60)),
-        "note": draw(st.none() | WORDS),
+        "note": draw(st.none() | TEXTS),
     }
     if kind != "bubbles":
         found["point"] = draw(st.none() | st.sampled_from(["up", "down", "left", "right", "forward", "back"]))

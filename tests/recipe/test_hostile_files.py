@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from balloon_usd.language.yaml_reader import BYTES_LIMIT, DEPTH_LIMIT, NODES_LIMIT
 from balloon_usd.recipe import Recipe, RecipeError
-from balloon_usd.recipe.yaml_reader import BYTES_LIMIT, DEPTH_LIMIT, NODES_LIMIT
 
 if TYPE_CHECKING:
     from pathlib import Path

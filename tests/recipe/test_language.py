@@ -6,10 +6,11 @@ import math
 
 import pytest
 
+from balloon_usd.language.scalars import plain_scalar
+from balloon_usd.operations.modifiers import MODIFIERS
+from balloon_usd.operations.table import BY_WORD, WORDS
 from balloon_usd.recipe import LATEX_COLORS, Joint, LockJoints, Recipe
 from balloon_usd.recipe.kosaka import Kosaka
-from balloon_usd.recipe.scalars import plain_scalar
-from balloon_usd.recipe.steps import KINDS, MANNERS
 
 HEAD = "format: 1\nname: dog\nunits: cm\nballoons:\n  main: {size: 260, tail: 10}\nsteps:\n"
 ABC = "  - bubbles: {a: 10, b: 5, c: 4}\n"
@@ -36,7 +37,7 @@ def test_a_short_recipe_has_the_documented_defaults() -> None:
     assert short.balloons["main"].color.name == "red"
     assert short.balloons["main"].inflated is None
     step, physics = short.steps[0], short.physics
-    assert (step.turns, step.seconds, step.point, step.note, step.balloon) == (3.0, None, None, None, None)
+    assert (step.turns, step.seconds, step.note, step.balloon) == (3.0, None, None, None)
     assert (physics.model, physics.rubber, physics.softening) == ("latex", "ogden", True)
     assert (physics.gravity, physics.friction, physics.substeps) == (0.0, 0.8, None)
     assert (physics.burst, physics.hold, physics.mass_scaling) == ("report", 2.0, "selective")
@@ -44,34 +45,34 @@ def test_a_short_recipe_has_the_documented_defaults() -> None:
 
 def test_bubbles_keep_their_order_and_become_metres() -> None:
     step = recipe("  - bubbles: {nose: 10, ear: 2.5, tip: 12 mm}\n").steps[0]
-    assert step.kind == "bubbles"
+    assert step.word == "bubbles"
     assert list(step.lengths.items()) == [("nose", 0.1), ("ear", 0.025), ("tip", 0.012)]
-    assert step.joints == ()
+    assert step.joined == ()
 
 
 @pytest.mark.parametrize("kind", ["loop", "fold", "ear"])
 def test_loop_fold_and_ear_make_bubbles_of_a_length(kind: str) -> None:
     step = recipe(f"  - {kind}: {{a: 10, b: 5}}\n    point: back\n").steps[0]
-    assert (step.kind, step.lengths, step.point) == (kind, {"a": 0.1, "b": 0.05}, "back")
+    assert (step.word, step.lengths, step.point) == (kind, {"a": 0.1, "b": 0.05}, "back")
 
 
 def test_a_lock_list_joins_the_start_of_the_first_and_the_end_of_the_last() -> None:
     step = recipe(ABC + "  - lock: [a, b, c]\n").steps[1]
-    assert (step.kind, step.lock) == ("lock", ("a", "b", "c"))
-    assert step.joints == (Joint("a", "start"), Joint("c", "end"))
+    assert (step.word, step.lock) == ("lock", ("a", "b", "c"))
+    assert step.ends == (Joint("a", "start"), Joint("c", "end"))
     assert step.lengths == {}
 
 
 def test_a_lock_of_joints_names_the_ends_itself() -> None:
     step = recipe(ABC + "  - lock: {joints: [a.start, a.end, c.end]}\n").steps[1]
     assert isinstance(step.lock, LockJoints)
-    assert step.joints == (Joint("a", "start"), Joint("a", "end"), Joint("c", "end"))
-    assert str(step.joints[2]) == "c.end"
+    assert step.ends == (Joint("a", "start"), Joint("a", "end"), Joint("c", "end"))
+    assert str(step.ends[2]) == "c.end"
 
 
 def test_rest_wait_and_bend_have_their_own_values() -> None:
     steps = recipe("  - rest: tail\n  - wait: 1.5\n  - bend: {tail: 90}\n    point: left\n").steps
-    assert [step.kind for step in steps] == ["rest", "wait", "bend"]
+    assert [step.word for step in steps] == ["rest", "wait", "bend"]
     assert steps[0].rest == "tail"
     assert steps[1].wait == 1.5
     assert steps[2].bend == {"tail": math.pi / 2}
@@ -106,16 +107,16 @@ OPERATIONS = {
 
 
 def test_this_file_tries_every_operation_and_manner() -> None:
-    assert set(OPERATIONS) == set(KINDS)
-    assert set(VALUES) == {manner for manners in MANNERS.values() for manner in manners}
+    assert set(OPERATIONS) == set(WORDS)
+    assert set(VALUES) == set(MODIFIERS)
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", WORDS)
 def test_every_manner_that_makes_sense_with_an_operation_is_read(kind: str) -> None:
-    manners = MANNERS[kind]  # type: ignore[index]
+    manners = BY_WORD[kind].modifiers()
     lines = "".join(f"    {manner}: {VALUES[manner]}\n" for manner in manners)
     step = recipe(f"{ABC}  - {kind}: {OPERATIONS[kind]}\n{lines}").steps[1]
-    assert step.kind == kind
+    assert step.word == kind
     for manner in manners:
         assert str(getattr(step, manner)) == VALUES[manner]
 

@@ -100,11 +100,11 @@ def test_the_rest_that_no_step_names_can_be_pushed_and_bent() -> None:
     steps = Recipe.parse(
         f"{TUBE}{AB}  - push: {{bubble: main_rest, depth: 1}}\n  - bend: {{main_rest: 30}}\n"
     ).steps
-    assert [step.kind for step in steps] == ["bubbles", "push", "bend"]
+    assert [step.word for step in steps] == ["bubbles", "push", "bend"]
 
 
 def test_a_recipe_may_make_nothing_at_all() -> None:
-    assert Recipe.parse(f"{TUBE}  - wait: 1\n  - bend: {{main_rest: 30}}\n").steps[1].kind == "bend"
+    assert Recipe.parse(f"{TUBE}  - wait: 1\n  - bend: {{main_rest: 30}}\n").steps[1].word == "bend"
 
 
 def test_the_unnamed_rest_exists_when_nothing_more_is_made_of_its_balloon() -> None:

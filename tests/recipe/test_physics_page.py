@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 
 from balloon_usd.balloon.detail import detail_named
+from balloon_usd.language.quantities import Between
 from balloon_usd.plan import plan
 from balloon_usd.recipe import Physics, Recipe
 from balloon_usd.recipe.kosaka import KOSAKA_LENGTHS, Kosaka
-from balloon_usd.recipe.quantities import Between
 from balloon_usd.solver.kosaka.parameters import SUBSTEPS, parameters
 
 PAGE = (Path(__file__).parents[2] / "docs/reference/physics.md").read_text(encoding="utf-8")

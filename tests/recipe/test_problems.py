@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from balloon_usd.language.problem import Problem
 from balloon_usd.recipe import Recipe, RecipeError
-from balloon_usd.recipe.problem import Problem
 
 HEAD = "format: 1\nname: dog\nunits: cm\nballoons:\n  main: {size: 260, tail: 10}\nsteps:\n"
 TWO = HEAD.replace("steps:", "  other: {size: 160, tail: 5}\nsteps:")

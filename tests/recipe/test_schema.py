@@ -10,10 +10,11 @@ from typing import Any, cast
 
 import pytest
 
-from balloon_usd.recipe import Balloon, Physics, Recipe, RecipeError, Step, recipe_schema
+from balloon_usd.language.yaml_reader import read_yaml
+from balloon_usd.operations.push import PushedBubble
+from balloon_usd.operations.table import OPERATIONS
+from balloon_usd.recipe import Balloon, Physics, Recipe, RecipeError, recipe_schema
 from balloon_usd.recipe.kosaka import Kosaka
-from balloon_usd.recipe.steps import KINDS, PushedBubble
-from balloon_usd.recipe.yaml_reader import read_yaml
 
 RECIPES = sorted((Path(__file__).parents[2] / "recipes").rglob("*.yaml"))
 SCHEMA = recipe_schema()
@@ -134,7 +135,7 @@ SHAPES = (
 
 @pytest.mark.parametrize("text", [EVERYTHING, AIR, SHAPES], ids=["latex", "kosaka", "meshes"])
 def test_the_schema_and_the_reader_accept_a_recipe_with_every_key(text: str) -> None:
-    assert Recipe.parse(text).steps[-1].kind == "wait"
+    assert Recipe.parse(text).steps[-1].word == "wait"
     assert accepts(SCHEMA, plain(text))
 
 
@@ -201,7 +202,7 @@ def test_the_schema_and_the_reader_refuse_the_same_slips(text: str) -> None:
     [
         (SCHEMA, Recipe),
         (SCHEMA["$defs"]["Balloon"], Balloon),
-        (SCHEMA["$defs"]["Step"], Step),
+        *((SCHEMA["$defs"][each.__name__], each) for each in OPERATIONS),
         (SCHEMA["$defs"]["Physics"], Physics),
         (SCHEMA["$defs"]["Kosaka"], Kosaka),
         (SCHEMA["$defs"]["PushedBubble"], PushedBubble),
@@ -217,7 +218,11 @@ def test_the_schema_requires_what_the_reader_requires() -> None:
     assert SCHEMA["required"] == ["format", "name", "balloons", "steps"]
     assert SCHEMA["$defs"]["Balloon"]["oneOf"] == [{"required": ["size"]}, {"required": ["mesh"]}]
     assert "required" not in SCHEMA["$defs"]["Physics"]
-    assert SCHEMA["$defs"]["Step"]["oneOf"] == [{"required": [kind]} for kind in KINDS]
+    steps = SCHEMA["properties"]["steps"]["items"]["oneOf"]
+    assert steps == [{"$ref": f"#/$defs/{each.__name__}"} for each in OPERATIONS]
+    assert [SCHEMA["$defs"][each.__name__]["required"] for each in OPERATIONS] == [
+        [w.word] for w in OPERATIONS
+    ]
 
 
 def test_null_is_nowhere_allowed() -> None:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from balloon_usd.operations.moves import Push
 from balloon_usd.plan import plan
-from balloon_usd.plan.choreography import Push
 from balloon_usd.recipe import Recipe, RecipeBuilder
 from balloon_usd.solver.errors import DeviceUnavailable, SimulationFailed
 from balloon_usd.solver.frame import Frame

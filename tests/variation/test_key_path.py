@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from balloon_usd.recipe.yaml_reader import read_yaml
+from balloon_usd.language.yaml_reader import read_yaml
 from balloon_usd.variation.key_path import find_path
 
 DOG = read_yaml((Path(__file__).parents[2] / "recipes" / "dog.yaml").read_text(encoding="utf-8"), "").data

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from balloon_usd.recipe.names import name
+from balloon_usd.language.names import name
 from balloon_usd.variation.naming import FEW, names_with_values, numbered_names
 from balloon_usd.variation.sampling import draw, sweep
 

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from balloon_usd.recipe.yaml_reader import read_yaml
+from balloon_usd.language.yaml_reader import read_yaml
 from balloon_usd.variation.error import VariationError
 from balloon_usd.variation.template import template_of
 from tests.variation.layouts import RECIPE, Layout

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from balloon_usd import Recipe, VariationError, plan_recipe, vary_recipe
-from balloon_usd.recipe.yaml_reader import read_yaml
+from balloon_usd.language.yaml_reader import read_yaml
 from balloon_usd.variation import VariationNotWrittenError
 
 ROOT = Path(__file__).parents[2]

@@ -17,8 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from balloon_usd.balloon.tube_mesh import BalloonMesh
+from balloon_usd.operations.moves import Move
 from balloon_usd.plan import Plan, plan
-from balloon_usd.plan.choreography import Move
 from balloon_usd.recipe import Recipe
 from balloon_usd.solver.frame import Frame
 from balloon_usd.solver.kosaka.model import KosakaModel

@@ -11,7 +11,7 @@ import pytest
 
 from balloon_usd.balloon.bubble_shape import bubble_of_length, tube_diameter
 from balloon_usd.balloon.tube_theory import gauge_pressure, maxwell_state
-from balloon_usd.plan.choreography import Pinch
+from balloon_usd.operations.moves import Pinch
 from tests.verification.kosaka_experiments import (
     bubble_diameters,
     bubble_lengths,

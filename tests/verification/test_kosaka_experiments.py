@@ -7,7 +7,8 @@ import pytest
 import warp as wp
 
 from balloon_usd.balloon.bubble_shape import bubble_of_length
-from balloon_usd.plan.choreography import SPREAD_SECONDS, Pinch, Push
+from balloon_usd.operations.moves import Pinch, Push
+from balloon_usd.plan.choreography import SPREAD_SECONDS
 from balloon_usd.solver.body import NECK_RADIUS
 from balloon_usd.solver.push import RELEASING
 from tests.verification.kosaka_experiments import (

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from balloon_usd.plan.choreography import Weld
+from balloon_usd.operations.moves import Weld
 from balloon_usd.solver.crossing import deepest_crossing
 from tests.verification.kosaka_experiments import (
     joints,

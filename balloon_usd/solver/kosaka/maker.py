@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from balloon_usd.plan.choreography import Pinch, Weld
+from balloon_usd.operations.moves import Pinch, Weld
 from balloon_usd.plan.closing import smooth
 from balloon_usd.solver.kosaka.memory import BEND_SET, LOOP_SET, set_bend
 from balloon_usd.solver.maker import Maker

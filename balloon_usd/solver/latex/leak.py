@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from balloon_usd.balloon.leak import conductance
-from balloon_usd.plan.choreography import LetGo
+from balloon_usd.operations.moves import LetGo
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

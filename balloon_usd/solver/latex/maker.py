@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from balloon_usd.balloon.bubble_shape import tail_volume_per_rest_length, tube_volume_per_rest_length
 from balloon_usd.balloon.tube_theory import maxwell_state, pressure_maximum
-from balloon_usd.plan.choreography import Inflate, LetGo, Pinch, Spin
+from balloon_usd.operations.moves import Inflate, LetGo, Pinch, Spin
 from balloon_usd.plan.closing import smooth
 from balloon_usd.solver.latex.friction import Friction
 from balloon_usd.solver.latex.memory import set_bend

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from balloon_usd.balloon.bubble_shape import neck_rubber
 from balloon_usd.balloon.tube_theory import maxwell_state
-from balloon_usd.plan.choreography import Weld
+from balloon_usd.operations.moves import Weld
 from balloon_usd.plan.holding import HOLDING_TURNS
 from balloon_usd.plan.open_tube import softened
 from balloon_usd.solver.latex.hinge import Hinge

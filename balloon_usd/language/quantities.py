@@ -10,8 +10,8 @@ from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, core_schema
 
-from .choices import one_of
-from .problem import quoted
+from balloon_usd.language.choices import one_of
+from balloon_usd.language.problem import quoted
 
 Units = Literal["mm", "cm", "m", "in", "ft"]
 

@@ -12,9 +12,9 @@ from typing import NoReturn
 
 import yaml
 
-from .marks import Marks
-from .problem import Complaint, Path, Place, RecipeError, quoted, shortened
-from .scalars import plain_scalar
+from balloon_usd.language.marks import Marks
+from balloon_usd.language.problem import Complaint, Path, Place, RecipeError, quoted, shortened
+from balloon_usd.language.scalars import plain_scalar
 
 BYTES_LIMIT = 256 * 1024
 NODES_LIMIT = 20_000

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from .problem import Complaint, Path, Place, Problem, escaped, path_text
+from balloon_usd.language.problem import Complaint, Path, Place, Problem, escaped, path_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

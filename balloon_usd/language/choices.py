@@ -5,7 +5,7 @@ from __future__ import annotations
 import difflib
 from typing import TYPE_CHECKING
 
-from .problem import printable, quoted
+from balloon_usd.language.problem import printable, quoted
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence

@@ -7,8 +7,8 @@ from typing import Annotated
 
 from pydantic import BeforeValidator, PlainSerializer, WithJsonSchema
 
-from .choices import one_of, unknown
-from .problem import quoted
+from balloon_usd.language.choices import one_of, unknown
+from balloon_usd.language.problem import quoted
 
 LATEX_COLORS: dict[str, str] = {
     "red": "#d7141e",

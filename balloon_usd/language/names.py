@@ -7,7 +7,7 @@ from typing import Annotated
 
 from pydantic import BeforeValidator, Field, WithJsonSchema
 
-from .problem import quoted
+from balloon_usd.language.problem import quoted
 
 NAME_PATTERN = "[A-Za-z_][A-Za-z0-9_]*"
 NAME_LIMIT = 64

@@ -1,0 +1,1 @@
+"""What balloon twisters do: one operation of the recipe language, one file."""

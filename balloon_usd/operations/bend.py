@@ -1,0 +1,74 @@
+"""`bend`: bubbles bent by an angle, which they keep a part of."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, ClassVar
+
+from pydantic import Field
+
+from balloon_usd.language.names import Name
+from balloon_usd.language.quantities import Angle, angle_entry
+from balloon_usd.operations.modifiers import OnBalloon, Pointed, Timed
+from balloon_usd.operations.moves import POINTS
+from balloon_usd.operations.moves import Bend as BendMove
+from balloon_usd.operations.operation import Operation
+
+if TYPE_CHECKING:
+    from balloon_usd.operations.score import Score
+    from balloon_usd.operations.workpiece import Place, Workpiece
+
+BEND_SECONDS = 0.9
+"""Bending one bubble, s."""
+
+
+class Bend(OnBalloon, Pointed, Timed, Operation):
+    """Bend bubbles by an angle, their ends towards a point."""
+
+    word: ClassVar[str] = "bend"
+    by_bubble: ClassVar[bool] = True
+    example: ClassVar[str] = """\
+format: 1
+name: swan_neck
+units: cm
+balloons:
+  main: {size: 260, color: white, tail: 10}
+steps:
+  - bubbles: {head: 6, neck: 25}
+  - bend: {neck: 90}
+    point: up
+  - rest: body
+"""
+
+    bend: Annotated[dict[Name, Angle], Field(min_length=1)]
+    """Bend bubbles by an angle (degrees; radians in Python), their ends towards point."""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Bubbles that it bends."""
+        return tuple(self.bend)
+
+    def entry(self, units: str | None) -> object:
+        """Return its value as it stands in a file."""
+        return {name: angle_entry(angle) for name, angle in self.bend.items()}
+
+    @classmethod
+    def uses(cls, value: object) -> tuple[str, ...]:
+        """Return the bubbles that it bends."""
+        return tuple(value) if isinstance(value, dict) else ()
+
+    @classmethod
+    def check(cls, value: object, place: Place, piece: Workpiece) -> None:
+        """Complain of bubbles that do not exist by now."""
+        for name in cls.uses(value):
+            piece.find_whole(name, place, (*place.path, cls.word, name))
+
+    def perform(self, score: Score, index: int) -> None:
+        """Lead the start and the middle of each bubble onto an arc."""
+        point = POINTS[self.point or "up"]
+        for bubble, angle in self.bend.items():
+            start, end = score.layout.ends(bubble)
+            guides = score.layout.guides(bubble)
+            rings = (start, *guides) if end is None else (start, *guides, end)
+            text = f"bend: {bubble}"
+            score.add(BendMove(score.now, BEND_SECONDS, index, text, rings=rings, angle=angle, point=point))
+            score.let_go(index)

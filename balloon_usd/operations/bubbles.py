@@ -1,0 +1,36 @@
+"""`bubbles`: twist off one bubble after another, the basic twist of every figure."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, ClassVar
+
+from balloon_usd.operations.modifiers import Turned
+from balloon_usd.operations.operation import BubbleKind, Lengths, TwistsOff
+
+if TYPE_CHECKING:
+    from balloon_usd.operations.score import Score
+
+
+class Bubbles(Turned, TwistsOff):
+    """Twist off bubbles of these lengths, one after another."""
+
+    word: ClassVar[str] = "bubbles"
+    bubble_kind: ClassVar[BubbleKind | None] = "bubble"
+    example: ClassVar[str] = """\
+format: 1
+name: snake
+units: cm
+balloons:
+  main: {size: 260, color: green, tail: 20}
+steps:
+  - bubbles: {head: 8, neck: 6}
+  - rest: tail
+"""
+
+    bubbles: Lengths
+    """Twist off bubbles of these lengths, one after another."""
+
+    def perform(self, score: Score, index: int) -> None:
+        """Pinch and turn at the end of each bubble."""
+        for bubble in self.bubbles:
+            score.twist(bubble, self.turns, index)

@@ -1,0 +1,103 @@
+"""Steps as they stand in a file, read as far as possible even where parts of them are wrong.
+
+The checks of meaning work on these, so that one slip does not hide all the others.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from balloon_usd.language.choices import one_of
+from balloon_usd.language.names import rest_name
+from balloon_usd.operations.rest import Rest
+from balloon_usd.operations.table import BY_WORD, WORDS, words_in
+from balloon_usd.operations.workpiece import Place, UnnamedRest, Workpiece
+
+if TYPE_CHECKING:
+    from collections.abc import Container, Iterable, Sequence
+
+    from balloon_usd.language.problem import Path
+
+
+@dataclass(frozen=True)
+class StepEntry:
+    """The plain data of one step."""
+
+    path: Path
+    entries: dict[str, object]
+
+    @property
+    def words(self) -> tuple[str, ...]:
+        """Words of operations in it: one, if it is right."""
+        return words_in(self.entries)
+
+    @property
+    def balloon(self) -> str | None:
+        """The balloon that it names."""
+        balloon = self.entries.get("balloon")
+        return balloon if isinstance(balloon, str) else None
+
+    @property
+    def makes(self) -> dict[str, Path]:
+        """Bubbles that it makes, with their places."""
+        return {
+            name: (*self.path, word) if word == Rest.word else (*self.path, word, name)
+            for word in self.words
+            for name in BY_WORD[word].makes(self.entries[word])
+        }
+
+    @property
+    def uses(self) -> tuple[str, ...]:
+        """Bubbles that it works on."""
+        return tuple(name for word in self.words for name in BY_WORD[word].uses(self.entries[word]))
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Bubbles that it makes or works on."""
+        return (*self.makes, *self.uses)
+
+    def check(self, piece: Workpiece) -> None:
+        """Complain of what makes no sense on this workpiece, and change it."""
+        if not self.words:
+            piece.complain(self.path, f"no operation, expected {one_of(WORDS)}")
+        unnamed = "balloon" not in self.entries
+        makes = any(BY_WORD[word].bubble_kind is not None for word in self.words) and unnamed
+        place = Place(self.path, piece.balloon_of(self.path, self.balloon, makes=makes))
+        for word in self.words:
+            BY_WORD[word].check(self.entries[word], place, piece)
+        piece.check_owner(self.path, self.balloon, self.uses)
+
+
+def steps_in(data: object) -> list[StepEntry]:
+    """Return all steps of the plain data of a recipe that are mappings."""
+    steps = data.get("steps") if isinstance(data, dict) else None
+    entries = steps if isinstance(steps, (list, tuple)) else ()
+    return [StepEntry(("steps", at), step) for at, step in enumerate(entries) if isinstance(step, dict)]
+
+
+def workpiece_of(balloons: Iterable[str], steps: Sequence[StepEntry]) -> Workpiece:
+    """Return the workpiece on which steps begin."""
+    names = list(balloons)
+    made_ever: dict[str, Path] = {}
+    for step in steps:
+        for name, path in step.makes.items():
+            made_ever.setdefault(name, path)
+    return Workpiece(names, made_ever, _unnamed_rests(names, steps, made_ever))
+
+
+def _unnamed_rests(
+    balloons: Sequence[str], steps: Sequence[StepEntry], made_ever: Container[str]
+) -> dict[str, UnnamedRest]:
+    """Return what is left of balloons whose rest no step names, by the names that it gets."""
+    only = balloons[0] if len(balloons) == 1 else None
+    last = dict.fromkeys(balloons, -1)
+    ended = set()
+    for step in steps:
+        balloon = step.balloon or only
+        if balloon in last and step.makes:
+            last[balloon] = int(step.path[1])
+        if isinstance(step.entries.get(Rest.word), str):
+            ended.add(balloon)
+    names = {rest_name(balloon, made_ever): balloon for balloon in last if balloon not in ended}
+    return {name: UnnamedRest(balloon, last[balloon]) for name, balloon in names.items()}

@@ -1,0 +1,175 @@
+"""`lock`: the lock twist, which holds neighbouring bubbles, or any joints, together."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import TYPE_CHECKING, Annotated, ClassVar
+
+from pydantic import Discriminator, Tag
+
+from balloon_usd.language.joint import Joint, JointEntry, joint
+from balloon_usd.language.names import Name
+from balloon_usd.operations.modifiers import Entries, OnBalloon, Pointed, Timed, Turned
+from balloon_usd.operations.operation import Operation
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from balloon_usd.language.problem import Path
+    from balloon_usd.operations.score import Score
+    from balloon_usd.operations.workpiece import Place, Workpiece
+
+
+class LockJoints(Entries):
+    """The general form of a lock: any joints, also of different balloons."""
+
+    joints: tuple[JointEntry, ...]
+    """Joints that become one, each written bubble.start or bubble.end."""
+
+
+def _form(value: object) -> str | None:
+    if isinstance(value, (dict, LockJoints)):
+        return "joints"
+    return "bubbles" if isinstance(value, (list, tuple)) else None
+
+
+class Lock(OnBalloon, Pointed, Turned, Timed, Operation):
+    """Fold these neighbouring bubbles and twist the start of the first to the end of the last."""
+
+    word: ClassVar[str] = "lock"
+    value_model: ClassVar[type[Entries] | None] = LockJoints
+    example: ClassVar[str] = """\
+format: 1
+name: mouse_ears
+units: cm
+balloons:
+  main: {size: 260, color: grey, tail: 20}
+steps:
+  - bubbles: {nose: 5, left_ear: 4, right_ear: 4}
+  - lock: [left_ear, right_ear]
+  - rest: tail
+"""
+
+    lock: Annotated[
+        Annotated[tuple[Name, ...], Tag("a list of bubbles")] | Annotated[LockJoints, Tag("joints of any")],
+        Discriminator(lambda value: _TAGS.get(_form(value))),
+    ]
+    """Fold these neighbouring bubbles and twist the start of the first to the end of the last."""
+
+    @property
+    def ends(self) -> tuple[Joint, ...]:
+        """Joints that it brings together."""
+        if isinstance(self.lock, LockJoints):
+            return self.lock.joints
+        return Joint(self.lock[0], "start"), Joint(self.lock[-1], "end")
+
+    @property
+    def joined(self) -> tuple[tuple[Joint, ...], ...]:
+        """Joints that become one, in groups."""
+        return (self.ends,)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Bubbles or joints that it brings together."""
+        return tuple(map(str, self.ends)) if isinstance(self.lock, LockJoints) else self.lock
+
+    @classmethod
+    def uses(cls, value: object) -> tuple[str, ...]:
+        """Return the bubbles that it names."""
+        names, joints = _names_in(value), _joints_in(value)
+        return (*(names or ()), *(each.bubble for each in joints or ()))
+
+    @classmethod
+    def check(cls, value: object, place: Place, piece: Workpiece) -> None:
+        """Bring joints together that are there and are not one yet."""
+        path = (*place.path, cls.word)
+        if (names := _names_in(value)) is not None:
+            _check_bubbles(names, _is_read(names, value), path, piece)
+        if (joints := _joints_in(value)) is not None:
+            _check_joints(joints, _is_read(joints, value), (*path, "joints"), piece)
+
+    def perform(self, score: Score, index: int) -> None:
+        """Bring each joint to the next, and twist all into one."""
+        rings = [score.layout.joint(end) for end in self.ends]
+        found = [ring for ring in rings if ring is not None]
+        if len(found) < len(rings):
+            tip = next(end for end, ring in zip(self.ends, rings, strict=True) if ring is None)
+            text = "is the tip of its balloon and cannot be twisted, expected a joint between two bubbles"
+            score.refuse(index, {(self.word,): f"{tip} {text}"})
+        text = f"lock twist: {', '.join(str(end.bubble) for end in self.ends)}"
+        for first, last in pairwise(found):
+            score.together(min(first, last), max(first, last), self.point, text, index)
+        score.weld(tuple(found), self.turns, text, index)
+
+
+_TAGS: dict[str | None, str] = {"bubbles": "a list of bubbles", "joints": "joints of any"}
+
+
+def _names_in(value: object) -> tuple[str, ...] | None:
+    if not isinstance(value, (list, tuple)):
+        return None
+    return tuple(name for name in value if isinstance(name, str))
+
+
+def _joints_in(value: object) -> tuple[Joint, ...] | None:
+    written = value.get("joints") if isinstance(value, dict) else None
+    if not isinstance(written, (list, tuple)):
+        return None
+    found = []
+    for entry in written:
+        try:
+            found.append(joint(entry))
+        except ValueError:
+            continue
+    return tuple(found)
+
+
+def _is_read(found: Sequence[object], value: object) -> bool:
+    """Whether every entry could be read."""
+    written = value["joints"] if isinstance(value, dict) else value
+    return isinstance(written, (list, tuple)) and len(found) == len(written)
+
+
+def _check_bubbles(names: Sequence[str], read: bool, path: Path, piece: Workpiece) -> None:
+    found = [piece.find(name, path) for name in names]
+    if not read or not all(found):
+        return
+    if len(set(names)) < len(names):
+        piece.complain(path, "names a bubble twice, expected each once")
+    elif len(names) < 2:
+        what = "expected at least two bubbles; one bubble closes on itself with loop, fold or ear"
+        piece.complain(path, f"{len(names)} bubbles cannot be locked, {what}")
+    else:
+        _check_neighbours(names, path, piece)
+
+
+def _check_neighbours(names: Sequence[str], path: Path, piece: Workpiece) -> None:
+    places = [place for name in names if (place := piece.place_of(name))]
+    if len(places) < len(names):
+        return
+    joints = f"lock: {{joints: [{names[0]}.start, {names[-1]}.end]}}"
+    balloons = list(dict.fromkeys(balloon for balloon, _ in places))
+    if len(balloons) > 1:
+        piece.complain(path, f"bubbles of different balloons ({', '.join(balloons)}), expected {joints}")
+        return
+    first, last = min(at for _, at in places), max(at for _, at in places)
+    run = piece.row(balloons[0])[first : last + 1]
+    if list(run) == list(names):
+        piece.join(path, [(balloons[0], first), (balloons[0], last + 1)], names)
+    elif len(run) == len(names):
+        piece.complain(path, f"not in the order of the balloon, expected [{', '.join(run)}]")
+    else:
+        between = ", ".join(name for name in run if name not in names)
+        piece.complain(path, f"no neighbours ({between} between them), expected all of them or {joints}")
+
+
+def _check_joints(joints: Sequence[Joint], read: bool, path: Path, piece: Workpiece) -> None:
+    found = [piece.find(each.bubble, path) for each in joints]
+    if not read or not all(found):
+        return
+    if len(joints) < 2:
+        piece.complain(path, f"{len(joints)} joints cannot be locked, expected at least two")
+        return
+    vertices = [vertex for each in joints if (vertex := piece.vertex(each))]
+    if len(vertices) == len(joints):
+        piece.join(path, vertices, [str(each) for each in joints])

@@ -1,0 +1,52 @@
+"""What may stand beside an operation: how, where and how long it is done."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict
+
+from balloon_usd.language.names import Name
+from balloon_usd.language.quantities import Between
+
+Point = Literal["up", "down", "left", "right", "forward", "back"]
+Seconds = Annotated[float, Between(0.2, 60.0, "s")]
+
+TURNS = 3.0
+"""Full turns of a twist: the common advice of makers."""
+MODIFIERS = ("balloon", "point", "turns", "seconds", "note")
+"""All modifiers, in the order in which they are written."""
+
+
+class Entries(BaseModel):
+    """Keys of a recipe, of which none is unknown."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
+
+
+class OnBalloon(Entries):
+    """Of an operation on one balloon."""
+
+    balloon: Name | None = None
+    """The balloon worked on; needed when there are several."""
+
+
+class Pointed(Entries):
+    """Of an operation with a direction."""
+
+    point: Point | None = None
+    """Where the folded or bent bubbles or the pushing finger go, as seen by the maker."""
+
+
+class Turned(Entries):
+    """Of an operation that twists."""
+
+    turns: Annotated[float, Between(0.5, 10.0, "turns", step=0.5)] = TURNS
+    """Full turns of each twist."""
+
+
+class Timed(Entries):
+    """Of an operation that takes time."""
+
+    seconds: Seconds | None = None
+    """Time the hands take; chosen by the plan when absent."""

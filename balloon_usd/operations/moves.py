@@ -1,0 +1,135 @@
+"""Moves of the hands: every operation is made of these, and only these reach the solver.
+
+Seen by the maker the balloons lie along x with the knot at the far end: forward is -x, up is +z, left is -y.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+Vector = tuple[float, float, float]
+
+POINTS: dict[str, Vector] = {
+    "up": (0.0, 0.0, 1.0),
+    "down": (0.0, 0.0, -1.0),
+    "left": (0.0, -1.0, 0.0),
+    "right": (0.0, 1.0, 0.0),
+    # Along the balloon nothing can fold; these lean between up and the way named.
+    "forward": (-math.sqrt(0.5), 0.0, math.sqrt(0.5)),
+    "back": (math.sqrt(0.5), 0.0, math.sqrt(0.5)),
+}
+"""Directions as seen by the maker."""
+
+
+@dataclass(frozen=True)
+class Move:
+    """One move of the hands."""
+
+    start: float
+    """Time at which it begins, s."""
+    seconds: float
+    """Time that it takes, s; 0 for an instant."""
+    step: int
+    """Step of the recipe that it belongs to; -1 before the first."""
+    text: str
+    """What the hands do, for people."""
+
+    @property
+    def end(self) -> float:
+        """Time at which it ends, s."""
+        return self.start + self.seconds
+
+
+@dataclass(frozen=True)
+class Inflate(Move):
+    """Blow up a balloon with a pump, its knot held."""
+
+    balloon: str = ""
+
+
+@dataclass(frozen=True)
+class Pinch(Move):
+    """Close the neck at a ring between two fingers."""
+
+    ring: int = 0
+
+
+@dataclass(frozen=True)
+class Spin(Move):
+    """Turn the balloon beyond a closed ring about its own axis."""
+
+    ring: int = 0
+    turns: float = 0.0
+
+
+@dataclass(frozen=True)
+class Gather(Move):
+    """Bring the first ring of a chain to its last, which is held, and lead what is between to a side."""
+
+    corners: tuple[int, ...] = ()
+    """Rings of the chain from the moving one to the held one."""
+    cheeks: tuple[tuple[int, int], ...] = ()
+    """Guide rings in the middle of sides that are pressed outwards, with the index of the side."""
+    point: Vector = (0.0, 0.0, 1.0)
+    """Unit direction to which the chain rises."""
+
+
+@dataclass(frozen=True)
+class Bring(Move):
+    """Bring a ring of one balloon to a ring of another, which is held."""
+
+    ring: int = 0
+    to: int = 0
+
+
+@dataclass(frozen=True)
+class Bend(Move):
+    """Bend a bubble by leading its start and middle onto an arc, its end held."""
+
+    rings: tuple[int, ...] = ()
+    angle: float = 0.0
+    """Angle between the directions of its ends, radians."""
+    point: Vector = (0.0, 0.0, 1.0)
+
+
+@dataclass(frozen=True)
+class Push(Move):
+    """Press a finger into a wall, hold it there, and take it away, while the other hand holds some rings."""
+
+    balloon: str = ""
+    along: float = 0.0
+    """Place of the finger: unstressed distance from the knot, m."""
+    point: Vector = (0.0, 0.0, -1.0)
+    """Unit direction in which the finger moves."""
+    force: float = 0.0
+    """How hard it presses, N; 0 where depth is given."""
+    depth: float = 0.0
+    """How deep it presses, m; 0 where force is given."""
+    holds: tuple[int, ...] = ()
+    """Rings that the other hand holds."""
+
+
+@dataclass(frozen=True)
+class Weld(Move):
+    """Twist joints that lie together into one."""
+
+    rings: tuple[int, ...] = ()
+    turns: float = 0.0
+
+
+@dataclass(frozen=True)
+class LetGo(Move):
+    """Take the hands away."""
+
+    for_good: bool = False
+    """Whether nothing is made any more: until then makers hold by hand what would come undone."""
+
+
+@dataclass(frozen=True)
+class Choreography:
+    """All moves of a sculpture in time."""
+
+    moves: tuple[Move, ...]
+    seconds: float
+    """Length of the animation, s."""

@@ -1,0 +1,121 @@
+"""What an operation is: its words, its checks, its effect, and the moves of the hands that it takes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+
+from pydantic import Field
+
+from balloon_usd.language.joint import Joint
+from balloon_usd.language.names import Name, Text
+from balloon_usd.language.quantities import Length, length_entry
+from balloon_usd.operations.modifiers import MODIFIERS, Entries, OnBalloon, Timed
+
+if TYPE_CHECKING:
+    from balloon_usd.operations.score import Score
+    from balloon_usd.operations.workpiece import Place, Workpiece
+
+BubbleKind = Literal["bubble", "loop", "fold", "ear", "rest", "shape"]
+Lengths = Annotated[dict[Name, Length], Field(min_length=1)]
+
+
+class Operation(Entries):
+    """One step of a recipe. A subclass has a field that is called like its word."""
+
+    word: ClassVar[str]
+    """Key in the recipe."""
+    example: ClassVar[str]
+    """A whole short recipe with it."""
+    bubble_kind: ClassVar[BubbleKind | None] = None
+    """Of the bubbles that it makes."""
+    closes: ClassVar[bool] = False
+    """Whether it twists the two ends of each of them together."""
+    guides: ClassVar[tuple[float, ...]] = (0.5,)
+    """Where hands lead each of them, as shares of its length."""
+    by_bubble: ClassVar[bool] = False
+    """Whether its value has an entry for each bubble."""
+    value_model: ClassVar[type[Entries] | None] = None
+    """Of the keys of its value, where that has any."""
+    keeps_time: ClassVar[bool] = False
+    """Whether its moves take the time that the recipe gives without being stretched."""
+
+    note: Text | None = None
+    """A remark for the reader."""
+
+    @classmethod
+    def modifiers(cls) -> tuple[str, ...]:
+        """Return what may stand beside it."""
+        return tuple(key for key in MODIFIERS if key in cls.model_fields)
+
+    @property
+    def lengths(self) -> dict[str, float]:
+        """Bubbles that it twists off: inflated length (m) by name."""
+        return {}
+
+    @property
+    def named_rest(self) -> str | None:
+        """Name that it gives to what is left of a balloon."""
+        return None
+
+    @property
+    def joined(self) -> tuple[tuple[Joint, ...], ...]:
+        """Joints that become one, in groups."""
+        return tuple((Joint(name, "start"), Joint(name, "end")) for name in self.lengths if self.closes)
+
+    @property
+    def label(self) -> str:
+        """The step in a few words, such as `lock: left_ear, right_ear`."""
+        return f"{self.word}: {', '.join(self.names)}"
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """What it makes or works on."""
+        return tuple(self.lengths)
+
+    def entry(self, units: str | None) -> object:
+        """Return its value as it stands in a file: lengths in units, angles in degrees."""
+        return self.model_dump(include={self.word})[self.word]
+
+    @classmethod
+    def makes(cls, value: object) -> tuple[str, ...]:
+        """Return the bubbles that it makes, as far as its value in a file can be read."""
+        return ()
+
+    @classmethod
+    def uses(cls, value: object) -> tuple[str, ...]:
+        """Return the bubbles that it works on, as far as its value in a file can be read."""
+        return ()
+
+    @classmethod
+    def check(cls, value: object, place: Place, piece: Workpiece) -> None:
+        """Complain of what makes no sense on a workpiece, and change it as far as the value can be read."""
+
+    def perform(self, score: Score, index: int) -> None:
+        """Write the moves of a step of this index; raises `RecipeError` where no hand can make it."""
+
+
+class TwistsOff(OnBalloon, Timed, Operation):
+    """An operation that twists bubbles off, one after another."""
+
+    by_bubble: ClassVar[bool] = True
+
+    @property
+    def lengths(self) -> dict[str, float]:
+        """Bubbles that it twists off: inflated length (m) by name."""
+        found: dict[str, float] = getattr(self, self.word)
+        return found
+
+    def entry(self, units: str | None) -> object:
+        """Return its value as it stands in a file."""
+        return {name: length_entry(length, units) for name, length in self.lengths.items()}
+
+    @classmethod
+    def makes(cls, value: object) -> tuple[str, ...]:
+        """Return the bubbles that it makes."""
+        return tuple(value) if isinstance(value, dict) else ()
+
+    @classmethod
+    def check(cls, value: object, place: Place, piece: Workpiece) -> None:
+        """Make its bubbles."""
+        for name in cls.makes(value):
+            piece.make(name, (*place.path, cls.word, name), place.balloon, closed=cls.closes)

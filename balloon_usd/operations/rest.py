@@ -1,0 +1,55 @@
+"""`rest`: a name for what is left of a balloon."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, ClassVar
+
+from balloon_usd.language.names import Name
+from balloon_usd.operations.modifiers import OnBalloon, Timed
+from balloon_usd.operations.operation import BubbleKind, Operation
+
+if TYPE_CHECKING:
+    from balloon_usd.operations.workpiece import Place, Workpiece
+
+
+class Rest(OnBalloon, Timed, Operation):
+    """Name what is left of the balloon: nothing more is made of it."""
+
+    word: ClassVar[str] = "rest"
+    bubble_kind: ClassVar[BubbleKind | None] = "rest"
+    example: ClassVar[str] = """\
+format: 1
+name: worm
+units: cm
+balloons:
+  main: {size: 260, color: brown, tail: 10}
+steps:
+  - bubbles: {head: 6}
+  - rest: body
+"""
+
+    rest: Name
+    """Name what is left of the balloon: nothing more is made of it."""
+
+    @property
+    def named_rest(self) -> str | None:
+        """Name that it gives to what is left."""
+        return self.rest
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """What it names."""
+        return (self.rest,)
+
+    @classmethod
+    def makes(cls, value: object) -> tuple[str, ...]:
+        """Return the name."""
+        return (value,) if isinstance(value, str) else ()
+
+    @classmethod
+    def check(cls, value: object, place: Place, piece: Workpiece) -> None:
+        """Name the rest, and let nothing more be made of the balloon."""
+        path = (*place.path, cls.word)
+        for name in cls.makes(value):
+            piece.make(name, path, place.balloon)
+            piece.end(place.balloon, path)

@@ -1,0 +1,168 @@
+"""The score: the timeline of moves that operations write, and the layout of bubbles that they ask."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, NoReturn, Protocol
+
+from balloon_usd.language.problem import RecipeError
+from balloon_usd.operations.moves import POINTS, Bring, Gather, LetGo, Move, Pinch, Spin, Weld
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from balloon_usd.language.joint import Joint
+    from balloon_usd.language.problem import Path, Problem
+    from balloon_usd.operations.modifiers import Point
+
+SETTLE_SECONDS = 0.4
+"""Pause after inflating, gathering or bending, in which the rubber comes to rest, s."""
+PINCH_SECONDS = 0.55
+"""Closing of a neck between two fingers, s."""
+TURN_SECONDS = 0.14
+"""One full turn of a twist, s."""
+HAND_SPEED = 0.22
+"""Mean speed of a hand that brings joints together, m/s; its peak is 1.9 times this."""
+CARRYING_SPEED = 0.08
+"""The same in model kosaka, where air particles must follow the bubble that carries them, m/s."""
+DRAWING_SECONDS = 1.0
+"""Closing of a ring by force in model kosaka, with time for the air to leave, s."""
+GATHER_LEAST = 0.8
+"""Shortest gathering, s."""
+BRING_SECONDS = 1.5
+"""Bringing a joint to one of another balloon, s."""
+
+
+class Ring(Protocol):
+    """A place along a balloon that hands can hold."""
+
+    @property
+    def balloon(self) -> str:
+        """Its balloon."""
+
+    @property
+    def joint(self) -> bool:
+        """Whether it can be closed."""
+
+    @property
+    def bubble(self) -> str:
+        """Bubble that it ends or lies in."""
+
+
+class PlacedBubble(Protocol):
+    """A bubble on its balloon."""
+
+    @property
+    def balloon(self) -> str:
+        """Its balloon."""
+
+    @property
+    def length(self) -> float:
+        """Inflated length, m."""
+
+    @property
+    def width(self) -> float:
+        """Diameter of its balloon, m."""
+
+    @property
+    def size(self) -> str:
+        """Name of the size of its balloon."""
+
+    def rest_place(self, at: float) -> float:
+        """Return the unstressed distance from the knot (m) of a place in the bubble (m, inflated)."""
+
+
+class Layout(Protocol):
+    """Rings and bubbles of a sculpture, by name."""
+
+    def ring(self, index: int) -> Ring:
+        """Return a ring by its number, in order along the balloons."""
+
+    def bubble(self, name: str) -> PlacedBubble:
+        """Return a bubble."""
+
+    def joint(self, end: Joint) -> int | None:
+        """Return the ring of a bubble's end, None for the tip, which has none."""
+
+    def ends(self, bubble: str) -> tuple[int, int | None]:
+        """Return the rings of a bubble's start and end."""
+
+    def guides(self, bubble: str) -> tuple[int, ...]:
+        """Return the guide rings inside a bubble, from its start to its end."""
+
+
+@dataclass
+class Score:
+    """Moves written so far, and the time reached."""
+
+    layout: Layout
+    problem: Callable[[Path, str], Problem]
+    """Makes a problem at its place in the recipe."""
+    blown_up: bool
+    """Whether balloons start blown up and joints freeze instead of being wound, as in model kosaka."""
+    now: float = 0.0
+    moves: list[Move] = field(default_factory=list)
+
+    def add(self, move: Move) -> None:
+        """Write a move behind those that are there."""
+        self.moves.append(move)
+        self.now = move.end
+
+    def let_go(self, index: int) -> None:
+        """Take the hands away."""
+        self.add(LetGo(self.now, 0.0, index, "let go"))
+
+    def refuse(self, index: int, told: Mapping[tuple[str, ...], str]) -> NoReturn:
+        """Refuse a step for what is wrong at some of its keys; raises `RecipeError`."""
+        raise RecipeError([self.problem(("steps", index, *keys), text) for keys, text in told.items()])
+
+    def twist(self, bubble: str, turns: float, index: int) -> None:
+        """Pinch and, where joints are wound, turn at the end of a bubble, unless that is the tip."""
+        ring = self.layout.ends(bubble)[1]
+        if ring is None:
+            return
+        seconds = DRAWING_SECONDS if self.blown_up else PINCH_SECONDS
+        self.add(Pinch(self.now, seconds, index, f"pinch: {bubble}", ring=ring))
+        if not self.blown_up:
+            seconds = turns * TURN_SECONDS
+            self.add(Spin(self.now, seconds, index, f"twist: {bubble}", ring=ring, turns=turns))
+        self.let_go(index)
+
+    def together(self, first: int, last: int, point: Point | None, text: str, index: int) -> None:
+        """Bring two joints together: along their balloon if it is the same, else straight."""
+        if self.layout.ring(first).balloon == self.layout.ring(last).balloon:
+            self.gather(first, last, point, text, index)
+        else:
+            self.add(Bring(self.now, BRING_SECONDS, index, text, ring=last, to=first))
+
+    def gather(self, first: int, last: int, point: Point | None, text: str, index: int) -> None:
+        """Bring two joints of one balloon together, what is between them to a side."""
+        layout = self.layout
+        joints = [k for k in range(first, last + 1) if layout.ring(k).joint]
+        corners = tuple(joints)
+        cheeks: tuple[tuple[int, int], ...] = ()
+        if len(joints) == 2:
+            corners = (first, *layout.guides(layout.ring(last).bubble), last)
+        elif len(joints) == 3:
+            cheeks = tuple((layout.guides(layout.ring(j).bubble)[0], k) for k, j in enumerate(joints[1:]))
+        length = sum(layout.bubble(layout.ring(j).bubble).length for j in joints[1:])
+        seconds = max(GATHER_LEAST, length / (CARRYING_SPEED if self.blown_up else HAND_SPEED))
+        aim = POINTS[point or "up"]
+        self.add(Gather(self.now, seconds, index, text, corners=corners, cheeks=cheeks, point=aim))
+
+    def weld(self, rings: tuple[int, ...], turns: float, text: str, index: int) -> None:
+        """Twist joints that lie together into one."""
+        self.add(Weld(self.now, 0.0, index, text, rings=rings, turns=turns))
+        self.add(Move(self.now, SETTLE_SECONDS, index, text))
+        self.let_go(index)
+
+    def retime(self, first: int, begin: float, seconds: float) -> None:
+        """Stretch the moves from a first one on to the time that the recipe gives their step."""
+        taken = self.now - begin
+        if taken > 0.0:
+            scale = seconds / taken
+            for k in range(first, len(self.moves)):
+                move = self.moves[k]
+                start = begin + scale * (move.start - begin)
+                self.moves[k] = replace(move, start=start, seconds=scale * move.seconds)
+            self.now = begin + seconds

@@ -1,0 +1,67 @@
+"""The table of operations: the only list of them."""
+
+from __future__ import annotations
+
+import functools
+import operator
+from typing import TYPE_CHECKING, Annotated, Any
+
+from pydantic import Discriminator, Tag
+
+from balloon_usd.operations.bend import Bend
+from balloon_usd.operations.bubbles import Bubbles
+from balloon_usd.operations.ear import Ear
+from balloon_usd.operations.fold import Fold
+from balloon_usd.operations.lock import Lock
+from balloon_usd.operations.loop import Loop
+from balloon_usd.operations.modifiers import OnBalloon, Pointed, Timed, Turned
+from balloon_usd.operations.operation import Operation
+from balloon_usd.operations.push import Push
+from balloon_usd.operations.rest import Rest
+from balloon_usd.operations.wait import Wait
+
+if TYPE_CHECKING:
+    from pydantic import GetJsonSchemaHandler
+    from pydantic.json_schema import JsonSchemaValue
+
+OPERATIONS: tuple[type[Operation], ...] = (Bubbles, Lock, Loop, Fold, Ear, Rest, Bend, Push, Wait)
+
+BY_WORD: dict[str, type[Operation]] = {operation.word: operation for operation in OPERATIONS}
+WORDS: tuple[str, ...] = tuple(BY_WORD)
+BY_KIND = {operation.bubble_kind: operation for operation in OPERATIONS if operation.bubble_kind is not None}
+"""Operations that make bubbles, by the kind of these."""
+
+
+class NoOperation(OnBalloon, Pointed, Turned, Timed, Operation):
+    """A step without a word of the table: never right, but what stands in it is looked at all the same."""
+
+    word = ""
+    example = ""
+
+
+def words_in(step: object) -> tuple[str, ...]:
+    """Return the words of operations in the plain data of a step, in the order of the table."""
+    return tuple(word for word in WORDS if word in step) if isinstance(step, dict) else ()
+
+
+def _tag(step: object) -> str:
+    if isinstance(step, Operation):
+        return f"the step {step.word}"
+    return f"the step {next(iter(words_in(step)), '')}"
+
+
+class _WithoutNoOperation:
+    """Leaves what is never right out of the schema."""
+
+    def __get_pydantic_json_schema__(self, core: Any, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
+        schema = handler(core)
+        schema["oneOf"] = [each for each in schema["oneOf"] if NoOperation.__name__ not in each["$ref"]]
+        return schema
+
+
+if TYPE_CHECKING:
+    Step = Operation
+else:
+    # Tags never occur as keys of a recipe: so they can be told from these in the place of an error.
+    _TAGGED = [Annotated[each, Tag(f"the step {each.word}")] for each in (*OPERATIONS, NoOperation)]
+    Step = Annotated[functools.reduce(operator.or_, _TAGGED), Discriminator(_tag), _WithoutNoOperation()]

@@ -1,0 +1,42 @@
+"""`wait`: the hands do nothing."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, ClassVar
+
+from balloon_usd.operations.modifiers import Seconds
+from balloon_usd.operations.moves import Move
+from balloon_usd.operations.operation import Operation
+
+if TYPE_CHECKING:
+    from balloon_usd.operations.score import Score
+
+
+class Wait(Operation):
+    """Do nothing for some seconds."""
+
+    word: ClassVar[str] = "wait"
+    keeps_time: ClassVar[bool] = True
+    example: ClassVar[str] = """\
+format: 1
+name: waiting
+units: cm
+balloons:
+  main: {size: 260, color: red, tail: 10}
+steps:
+  - bubbles: {a: 8}
+  - wait: 1.5
+  - rest: b
+"""
+
+    wait: Seconds
+    """Do nothing for some seconds."""
+
+    @property
+    def label(self) -> str:
+        """The step in a few words."""
+        return f"wait: {self.wait:g} s"
+
+    def perform(self, score: Score, index: int) -> None:
+        """Let time go by."""
+        score.add(Move(score.now, self.wait, index, "wait"))
