@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from balloon_usd.batch.shared_memory import SharedMemory
-    from balloon_usd.solver.sight import Extent, Place, Sight
+    from balloon_usd.solver.frame_arrays import Extent, Place, Sight
 
 SLOT_BYTES = 16 * 2**20
 """Frames that travel together [B]: four of 128 draft dogs. One at a time, the scheduler of four simulators

@@ -13,7 +13,7 @@ from balloon_usd.batch.messages import Made
 from balloon_usd.files.hashes import hashes_of
 from balloon_usd.plan.meshing import mesh_of
 from balloon_usd.report import History, write_report
-from balloon_usd.solver.tally import Tally
+from balloon_usd.solver.run_summary import Tally
 from balloon_usd.stage import StageWriter
 from balloon_usd.staging import describe_stage, provenance_of
 

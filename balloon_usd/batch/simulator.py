@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from balloon_usd.batch.messages import Part, Start
-    from balloon_usd.solver.sight import Sight
+    from balloon_usd.solver.frame_arrays import Sight
     from balloon_usd.solver.simulation import Simulation
     from balloon_usd.solver.snapshot import Change, Snapshot
 

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from balloon_usd.solver.capture_lock import turn
+from balloon_usd.solver.checks import Lookout
 from balloon_usd.solver.errors import SimulationFailed
-from balloon_usd.solver.sight import Extent
+from balloon_usd.solver.frame_arrays import Extent
 from balloon_usd.solver.snapshot import Change, Snapshot
-from balloon_usd.solver.turns import turn
-from balloon_usd.solver.watch import Lookout
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator, Iterable, Sequence
@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
+    from balloon_usd.solver.frame_arrays import Sight
     from balloon_usd.solver.model import Model, ModelMaker, Told
-    from balloon_usd.solver.sight import Sight
     from balloon_usd.solver.snapshot import Memory
 
 

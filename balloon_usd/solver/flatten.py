@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from balloon_usd.solver.corners import corner_table
-from balloon_usd.solver.kernels.lanes import WARP
+from balloon_usd.solver.kernels.device.warp_reduce import WARP
 
 if TYPE_CHECKING:
     from balloon_usd.solver.scene import Scene

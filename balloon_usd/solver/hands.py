@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from balloon_usd.plan.welding import MOST_WELDED
 from balloon_usd.solver.gathering import pose_chains
-from balloon_usd.solver.kernels.joints import CLASP_MODE, GRIP_MODE, LEAD_MODE
-from balloon_usd.solver.parcel import Letter, Parcel
+from balloon_usd.solver.kernels.physics.joints import CLASP_MODE, GRIP_MODE, LEAD_MODE
+from balloon_usd.solver.upload import Letter, Parcel
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping

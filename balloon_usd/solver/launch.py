@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import warp as wp
 
-from balloon_usd.solver.turns import turn_given_away
+from balloon_usd.solver.capture_lock import turn_given_away
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Hashable, Iterator

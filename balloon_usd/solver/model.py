@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     from balloon_usd.balloon.detail import Detail
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
+    from balloon_usd.solver.frame_arrays import Sight
     from balloon_usd.solver.layout import Layout
-    from balloon_usd.solver.sight import Sight
 
 
 class Told(NamedTuple):

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from balloon_usd.plan.welding import MOST_WELDED
 from balloon_usd.solver.flatten import Arrays, chunk_arrays, mesh_arrays, ring_arrays, segment_arrays
-from balloon_usd.solver.kernels.contact import HITS, TARGETS, Touch
-from balloon_usd.solver.kernels.fingers import Finger
+from balloon_usd.solver.kernels.physics.contact import HITS, TARGETS, Touch
+from balloon_usd.solver.kernels.physics.fingers import Finger
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -15,7 +15,7 @@ from balloon_usd.balloon.detail import Detail, detail_named
 from balloon_usd.plan.meshing import mesh_of
 from balloon_usd.solver.batch import Batch, snapshots_of
 from balloon_usd.solver.device import device_named
-from balloon_usd.solver.sight import Extent
+from balloon_usd.solver.frame_arrays import Extent
 from balloon_usd.solver.snapshot import frames_of
 
 if TYPE_CHECKING:
@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
+    from balloon_usd.solver.frame_arrays import Place
     from balloon_usd.solver.model import Model, ModelMaker
-    from balloon_usd.solver.sight import Place
     from balloon_usd.solver.snapshot import Memory, Outcome, Snapshot
 
 T = TypeVar("T")

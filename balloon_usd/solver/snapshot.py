@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from balloon_usd.solver.sight import Place, Sight
+    from balloon_usd.solver.frame_arrays import Place, Sight
 
     Memory = Callable[[], Sight]
     """Gives the sight into which the next snapshot is written."""

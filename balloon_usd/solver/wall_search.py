@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from balloon_usd.solver.kernels.contact import (
+from balloon_usd.solver.kernels.device.warp_reduce import WARP
+from balloon_usd.solver.kernels.physics.contact import (
     chunk_surface,
     find_own_walls,
     find_walls,
     order_hits,
     ring_radii,
 )
-from balloon_usd.solver.kernels.lanes import WARP
 
 if TYPE_CHECKING:
     from balloon_usd.solver.launch import Launcher

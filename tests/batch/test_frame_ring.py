@@ -16,7 +16,7 @@ from balloon_usd.batch.frame_ring import (
     frame_bytes,
 )
 from balloon_usd.batch.shared_memory import SharedMemory
-from balloon_usd.solver.sight import Extent, Place
+from balloon_usd.solver.frame_arrays import Extent, Place
 from tests.batch.runs import ROOT
 
 EXTENT = Extent(7, 3)
@@ -27,7 +27,7 @@ import sys
 import numpy as np
 from balloon_usd.batch.frame_ring import FrameLayout, FrameRing, RingShape
 from balloon_usd.batch.shared_memory import SharedMemory
-from balloon_usd.solver.sight import Extent, Place
+from balloon_usd.solver.frame_arrays import Extent, Place
 
 extent = Extent(7, 3)
 shape = RingShape(4, int(sys.argv[2]), 3)

@@ -16,7 +16,7 @@ from balloon_usd.balloon.detail import detail_named
 from balloon_usd.plan.meshing import mesh_of
 from balloon_usd.solver.errors import SimulationFailed
 from balloon_usd.solver.frame import Frame
-from balloon_usd.solver.sight import Extent, Place
+from balloon_usd.solver.frame_arrays import Extent, Place
 from balloon_usd.solver.snapshot import Change, Snapshot
 
 FRAMES = 6

@@ -12,8 +12,8 @@ import pytest
 from balloon_usd.plan import Plan, plan
 from balloon_usd.recipe import Recipe
 from balloon_usd.solver.frame import Frame
+from balloon_usd.solver.run_summary import Tally
 from balloon_usd.solver.simulation import Simulation, simulate_many
-from balloon_usd.solver.tally import Tally
 from balloon_usd.stage import StageWriter
 from balloon_usd.staging import describe_stage
 

@@ -2,7 +2,7 @@
 
 import warp as wp
 
-from balloon_usd.solver.kernels.at import (
+from balloon_usd.solver.kernels.device.array_access import (
     float_at,
     int_at,
     int_in,
@@ -15,8 +15,8 @@ from balloon_usd.solver.kernels.at import (
     vec4_at,
     vec4i_at,
 )
-from balloon_usd.solver.kernels.planes import put, seen_in
-from balloon_usd.solver.kernels.seen import float_seen, vec2_seen, vec3_seen
+from balloon_usd.solver.kernels.device.coherent_load import float_seen, vec2_seen, vec3_seen
+from balloon_usd.solver.kernels.device.soa import put, seen_in
 
 
 @wp.kernel

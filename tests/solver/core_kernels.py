@@ -2,7 +2,7 @@
 
 import warp as wp
 
-from balloon_usd.solver.kernels.core import press_core, yield_to_core
+from balloon_usd.solver.kernels.physics.core import press_core, yield_to_core
 
 
 @wp.kernel

@@ -2,7 +2,7 @@
 
 import warp as wp
 
-from balloon_usd.solver.kernels.suspects import look_at_vertex
+from balloon_usd.solver.kernels.physics.suspects import look_at_vertex
 
 
 @wp.kernel

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import warp as wp
 
-from balloon_usd.solver.parcel import Parcel
+from balloon_usd.solver.upload import Parcel
 from tests.solver.array_kernels import compare_readings, double, through_planes
 
 DEVICES = ["cpu", *(device.alias for device in wp.get_cuda_devices())]

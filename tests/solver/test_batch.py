@@ -12,7 +12,7 @@ from balloon_usd.recipe import Recipe
 from balloon_usd.solver.batch import Batch, snapshots_of
 from balloon_usd.solver.errors import SimulationFailed
 from balloon_usd.solver.frame import Frame
-from balloon_usd.solver.mirror import Mirror
+from balloon_usd.solver.readback import Mirror
 from balloon_usd.solver.simulation import model_named, simulate_many
 from balloon_usd.solver.snapshot import frames_of
 from tests.solver.bits import bits

@@ -5,7 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from balloon_usd.solver.kernels.springs import HALF_EACH, limit_elongation, pull_springs, spring_stretch
+from balloon_usd.solver.kernels.kosaka.springs import (
+    HALF_EACH,
+    limit_elongation,
+    pull_springs,
+    spring_stretch,
+)
 from tests.solver import kosaka_reference as thesis
 from tests.solver.kosaka_bench import DEVICES, Sample, by_balloon, launch, laws, leftover, off, sample
 

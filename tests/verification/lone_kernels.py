@@ -2,10 +2,10 @@
 
 import warp as wp
 
-from balloon_usd.solver.kernels.gas import Air, advance_gas
-from balloon_usd.solver.kernels.membrane import wall_of_quad
-from balloon_usd.solver.kernels.planes import put, seen_in
-from balloon_usd.solver.kernels.rubber import Knot, Law
+from balloon_usd.solver.kernels.device.soa import put, seen_in
+from balloon_usd.solver.kernels.physics.gas import Air, advance_gas
+from balloon_usd.solver.kernels.physics.membrane import wall_of_quad
+from balloon_usd.solver.kernels.physics.rubber import Knot, Law
 
 
 @wp.kernel

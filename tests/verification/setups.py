@@ -23,7 +23,7 @@ from balloon_usd.balloon.rubber import Rubber
 from balloon_usd.balloon.tube_theory import TubeState
 from balloon_usd.solver.body import RingSpec
 from balloon_usd.solver.latex.body import LatexBody
-from balloon_usd.solver.latex.hands import LatexHands
+from balloon_usd.solver.latex.controls import LatexHands
 from balloon_usd.solver.latex.scene import LatexScene, build_scene
 from balloon_usd.solver.latex.stepper import Stepper
 from balloon_usd.solver.settings import SceneSettings

@@ -9,6 +9,8 @@ import numpy as np
 
 from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.solver.body import body_ranges, places_beside
+from balloon_usd.solver.checks import most_stretches
+from balloon_usd.solver.frame_arrays import Sight
 from balloon_usd.solver.hands import Hands
 from balloon_usd.solver.kosaka.body import KosakaBody, kosaka_body
 from balloon_usd.solver.kosaka.clusters import Clusters
@@ -17,10 +19,8 @@ from balloon_usd.solver.kosaka.parameters import RUBBER_DRAG, SUBSTEPS
 from balloon_usd.solver.kosaka.scene import KosakaScene, kosaka_scene
 from balloon_usd.solver.kosaka.stepper import KosakaStepper
 from balloon_usd.solver.layout import Layout
-from balloon_usd.solver.mirror import Mirror
+from balloon_usd.solver.readback import Mirror
 from balloon_usd.solver.settings import SceneSettings
-from balloon_usd.solver.sight import Sight
-from balloon_usd.solver.watch import most_stretches
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

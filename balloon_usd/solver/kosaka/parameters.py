@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from balloon_usd.plan.particles import EXPERIMENT_RADIUS, experiment_spacing
-from balloon_usd.solver.kernels.offsets import REACHES_OVER
+from balloon_usd.solver.kernels.kosaka.offset_regions import REACHES_OVER
 
 if TYPE_CHECKING:
     from balloon_usd.recipe.kosaka import Kosaka

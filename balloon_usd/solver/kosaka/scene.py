@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 import warp as wp
 
-from balloon_usd.solver.kernels.drift import Drift
-from balloon_usd.solver.kernels.near import LANES
-from balloon_usd.solver.kernels.springs import Constants
+from balloon_usd.solver.kernels.kosaka.drift import Drift
+from balloon_usd.solver.kernels.kosaka.neighbours import LANES
+from balloon_usd.solver.kernels.kosaka.springs import Constants
 from balloon_usd.solver.kosaka.parameters import FASTEST_AIR, MARGIN
 from balloon_usd.solver.scene import Ints, Scene, lay_meshes
 

@@ -6,30 +6,30 @@ from typing import TYPE_CHECKING, Any
 
 import warp as wp
 
-from balloon_usd.solver.kernels.drift import cluster_drift, fastest_air
-from balloon_usd.solver.kernels.fingers import press_fingers
-from balloon_usd.solver.kernels.frozen import hold_rings, move_rubber
-from balloon_usd.solver.kernels.gas import segment_volumes
-from balloon_usd.solver.kernels.lost import find_lost_air
-from balloon_usd.solver.kernels.near import LANES, near_air, near_faces, near_faces_air
-from balloon_usd.solver.kernels.offsets import (
+from balloon_usd.solver.checks import most_way
+from balloon_usd.solver.kernels.kosaka.air_particles import move_air, repel_air
+from balloon_usd.solver.kernels.kosaka.drift import cluster_drift, fastest_air
+from balloon_usd.solver.kernels.kosaka.frozen_rings import hold_rings, move_rubber
+from balloon_usd.solver.kernels.kosaka.leaked_air import find_lost_air
+from balloon_usd.solver.kernels.kosaka.neighbours import LANES, near_air, near_faces, near_faces_air
+from balloon_usd.solver.kernels.kosaka.offset_regions import (
     cluster_pressures,
     face_surface,
     press_air,
     press_faces,
     press_vertices,
 )
-from balloon_usd.solver.kernels.particles import move_air, repel_air
-from balloon_usd.solver.kernels.springs import limit_elongation, pull_springs, spring_stretch
-from balloon_usd.solver.kernels.walls import part_walls
+from balloon_usd.solver.kernels.kosaka.springs import limit_elongation, pull_springs, spring_stretch
+from balloon_usd.solver.kernels.kosaka.wall_contact import part_walls
+from balloon_usd.solver.kernels.physics.fingers import press_fingers
+from balloon_usd.solver.kernels.physics.gas import segment_volumes
 from balloon_usd.solver.launch import Launcher
 from balloon_usd.solver.search_grid import SearchGrid
 from balloon_usd.solver.wall_search import WallSearch
-from balloon_usd.solver.watch import most_way
 
 if TYPE_CHECKING:
     from balloon_usd.solver.kosaka.scene import KosakaScene
-    from balloon_usd.solver.mirror import Mirror
+    from balloon_usd.solver.readback import Mirror
 
 
 MANY_LANES = 256

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from balloon_usd.solver.latex.hands import LatexHands
+    from balloon_usd.solver.latex.controls import LatexHands
     from balloon_usd.solver.latex.scene import LatexScene
 
 Floats = NDArray[np.float64]

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from balloon_usd.plan import Plan
-    from balloon_usd.solver.latex.hands import LatexHands
+    from balloon_usd.solver.latex.controls import LatexHands
     from balloon_usd.solver.latex.scene import LatexScene
 
     Floats = NDArray[np.float64]

@@ -21,7 +21,7 @@ from balloon_usd.solver.model import Told
 if TYPE_CHECKING:
     from balloon_usd.plan import Plan
     from balloon_usd.plan.shaped import Shaped
-    from balloon_usd.solver.latex.hands import LatexHands
+    from balloon_usd.solver.latex.controls import LatexHands
     from balloon_usd.solver.latex.scene import LatexScene
     from balloon_usd.solver.latex.struts import Struts
 

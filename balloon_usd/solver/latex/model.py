@@ -9,9 +9,11 @@ import numpy as np
 from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.plan.meshing import joint_places
 from balloon_usd.solver.body import body_ranges, places_beside
-from balloon_usd.solver.kernels.contact import HITS
+from balloon_usd.solver.checks import crowded, most_stretches
+from balloon_usd.solver.frame_arrays import Sight
+from balloon_usd.solver.kernels.physics.contact import HITS
 from balloon_usd.solver.latex.body import LatexBody, tube_body
-from balloon_usd.solver.latex.hands import LatexHands
+from balloon_usd.solver.latex.controls import LatexHands
 from balloon_usd.solver.latex.leak import Leak
 from balloon_usd.solver.latex.maker import LatexMaker
 from balloon_usd.solver.latex.scene import build_scene
@@ -19,10 +21,8 @@ from balloon_usd.solver.latex.shape_body import shape_body
 from balloon_usd.solver.latex.stepper import Stepper
 from balloon_usd.solver.latex.struts import StrutLaw, Struts
 from balloon_usd.solver.layout import Layout
-from balloon_usd.solver.mirror import Mirror
+from balloon_usd.solver.readback import Mirror
 from balloon_usd.solver.settings import SceneSettings
-from balloon_usd.solver.sight import Sight
-from balloon_usd.solver.watch import crowded, most_stretches
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -9,10 +9,10 @@ import numpy as np
 import warp as wp
 
 from balloon_usd.balloon.air import AIR_DENSITY, GAS_CONSTANT, ROOM_TEMPERATURE
-from balloon_usd.solver.kernels.gas import Air
-from balloon_usd.solver.kernels.joints import Axes
-from balloon_usd.solver.kernels.motion import Spin
-from balloon_usd.solver.kernels.rubber import Knot, Law
+from balloon_usd.solver.kernels.physics.gas import Air
+from balloon_usd.solver.kernels.physics.joints import Axes
+from balloon_usd.solver.kernels.physics.motion import Spin
+from balloon_usd.solver.kernels.physics.rubber import Knot, Law
 from balloon_usd.solver.latex.cores import core_arrays
 from balloon_usd.solver.latex.device_law import device_laws
 from balloon_usd.solver.latex.membrane_data import membrane_data

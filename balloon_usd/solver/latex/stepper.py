@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from balloon_usd.solver.kernels.gas import segment_volumes
-from balloon_usd.solver.kernels.joints import measure_rings
-from balloon_usd.solver.kernels.lanes import WARP
-from balloon_usd.solver.kernels.membrane import vertex_stretch
-from balloon_usd.solver.kernels.wall_load import wall_loads
-from balloon_usd.solver.latex.crew import Crew
+from balloon_usd.solver.checks import most_way
+from balloon_usd.solver.kernels.device.warp_reduce import WARP
+from balloon_usd.solver.kernels.physics.gas import segment_volumes
+from balloon_usd.solver.kernels.physics.joints import measure_rings
+from balloon_usd.solver.kernels.physics.membrane import vertex_stretch
+from balloon_usd.solver.kernels.physics.wall_load import wall_loads
+from balloon_usd.solver.latex.launch_shape import Crew
 from balloon_usd.solver.launch import Launcher
 from balloon_usd.solver.wall_search import WallSearch
-from balloon_usd.solver.watch import most_way
 
 if TYPE_CHECKING:
     from balloon_usd.solver.latex.scene import LatexScene
-    from balloon_usd.solver.mirror import Mirror
+    from balloon_usd.solver.readback import Mirror
 
 SEARCH_SECONDS = 1.0 / 120.0
 """Time between two searches for facing walls, s."""

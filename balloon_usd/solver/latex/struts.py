@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from balloon_usd.solver.hands import STEP_STIFFNESS
-from balloon_usd.solver.parcel import Letter
+from balloon_usd.solver.upload import Letter
 
 if TYPE_CHECKING:
     from balloon_usd.solver.latex.scene import LatexScene

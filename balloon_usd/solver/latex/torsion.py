@@ -29,8 +29,8 @@ if TYPE_CHECKING:
     from balloon_usd.plan import Plan
     from balloon_usd.plan.holding import LooseJoint
     from balloon_usd.plan.strip import Strip
+    from balloon_usd.solver.latex.controls import LatexHands
     from balloon_usd.solver.latex.friction import Friction
-    from balloon_usd.solver.latex.hands import LatexHands
     from balloon_usd.solver.latex.scene import LatexScene
     from balloon_usd.solver.latex.struts import Struts
 

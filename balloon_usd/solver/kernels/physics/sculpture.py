@@ -1,0 +1,593 @@
+"""Whole substeps of sculptures in one launch: blocks of lanes that share one sculpture and wait for each
+other, in place of a launch for each law.
+"""
+
+import warp as wp
+
+from balloon_usd.solver.kernels.device.array_access import (
+    int_at,
+    int_in,
+    put_float,
+    put_vec3,
+    vec3_at,
+    vec4_at,
+    vec4i_at,
+)
+from balloon_usd.solver.kernels.device.barrier import block_meets, blocks_meet
+from balloon_usd.solver.kernels.device.coherent_load import vec3_seen
+from balloon_usd.solver.kernels.device.shared_memory import (
+    FORCE_BYTES,
+    PLACE_BYTES,
+    at_home,
+    planes_here,
+    take_room,
+    vectors_here,
+)
+from balloon_usd.solver.kernels.device.warp_reduce import (
+    ALL,
+    FEW,
+    bit_of_rank,
+    bits_in,
+    block_lanes,
+    few_sum,
+    joint_lanes,
+    lanes_sum,
+)
+from balloon_usd.solver.kernels.physics.contact import Touch, limits_of_pair, press_quad_back, press_wall
+from balloon_usd.solver.kernels.physics.core import cores_may_pack, press_core, yield_to_core
+from balloon_usd.solver.kernels.physics.fingers import Finger, press_finger
+from balloon_usd.solver.kernels.physics.gas import Air, advance_gas, shares_of_chunks, volume_of_fans
+from balloon_usd.solver.kernels.physics.joints import (
+    Axes,
+    block_of_joint,
+    joints_of_block,
+    load_strut,
+    measure_open_ring,
+    move_joint,
+    shift_middle,
+    weld_joint_to_others,
+)
+from balloon_usd.solver.kernels.physics.membrane import wall_of_quad
+from balloon_usd.solver.kernels.physics.membrane_simd import walls_abreast
+from balloon_usd.solver.kernels.physics.motion import Spin, move_vertex
+from balloon_usd.solver.kernels.physics.rubber import Knot, Law
+
+# A product and a sum in one instruction: a tenth less time on a CPU.
+wp.set_module_options(
+    {"cpu_compiler_flags": f"{wp.config.cpu_compiler_flags or '-march=native'} -ffp-contract=fast"}
+)
+
+PLACE = wp.constant(PLACE_BYTES)
+FORCE = wp.constant(FORCE_BYTES)
+FEW_LANES = wp.constant(FEW)
+
+
+@wp.kernel
+def advance_sculptures(
+    crew: int,
+    joint_blocks: int,
+    substeps: int,
+    begin: int,
+    end: int,
+    walls: int,
+    pressing: int,
+    world_balloon: wp.array[int],
+    world_quad: wp.array[int],
+    world_vertex: wp.array[int],
+    world_segment: wp.array[int],
+    world_joint: wp.array[int],
+    world_welds: wp.array[int],
+    world_chunk: wp.array[int],
+    world_core: wp.array[int],
+    chunk_origin: wp.array[int],
+    segment_chunk: wp.array[int],
+    quads: wp.array[wp.vec4i],
+    corners: wp.array[wp.vec4i],
+    quad_segment: wp.array[int],
+    quad_law: wp.array[int],
+    segment_origin: wp.array[int],
+    chunk_quad: wp.array[int],
+    start_joint: wp.array[int],
+    end_joint: wp.array[int],
+    balloon_segment: wp.array[int],
+    balloon_segment_end: wp.array[int],
+    chamber_first: wp.array[int],
+    chamber_last: wp.array[int],
+    inlet: wp.array[int],
+    vertex_joint: wp.array[int],
+    vertex_balloon: wp.array[int],
+    vertex_segment: wp.array[int],
+    vertex_along: wp.array[float],
+    joint_first: wp.array[int],
+    joint_around: wp.array[int],
+    joint_parts: wp.array[int],
+    corner: wp.array[wp.vec2],
+    joint_beside: wp.array[wp.vec2i],
+    joint_struts: wp.array2d[int],
+    strut_joint: wp.array[wp.vec2i],
+    joint_leader: wp.array[int],
+    joint_weld: wp.array[int],
+    weld_joint: wp.array2d[int],
+    weld_size: wp.array[int],
+    ring_first: wp.array[int],
+    ring_around: wp.array[int],
+    core_ring: wp.array[int],
+    core_next: wp.array[int],
+    core_radius: wp.array[float],
+    core_row: wp.array[float],
+    to_rest: wp.array[wp.mat22],
+    hourglass: wp.array[wp.vec4],
+    rubber_volume: wp.array[float],
+    laws: wp.array[Law],
+    curves: wp.array[Knot],
+    softening_rate: wp.array[float],
+    mass: wp.array[float],
+    weight: wp.array[float],
+    joint_mass: wp.array[float],
+    gravity: wp.array[float],
+    drag: wp.array[float],
+    friction: wp.array[float],
+    air: Air,
+    touch: Touch,
+    strut_stiffness: wp.array[float],
+    strut_damping: wp.array[float],
+    strut_yield: wp.array[float],
+    weld_reach: wp.array[float],
+    weld_gap: wp.array[float],
+    dt: float,
+    frame_seconds: float,
+    hand: wp.array[int],
+    hand_from: wp.array[wp.vec3],
+    hand_to: wp.array[wp.vec3],
+    hand_free: wp.array[wp.vec3],
+    hand_force: wp.array[float],
+    hand_stiffness: wp.array[float],
+    radius_from: wp.array[float],
+    radius_to: wp.array[float],
+    blowing: wp.array[int],
+    open_from: wp.array[float],
+    open_to: wp.array[float],
+    pump_flow: wp.array[float],
+    pump_limit: wp.array[float],
+    pump_goal: wp.array[wp.float64],
+    spin: wp.array[Spin],
+    fingers: wp.array[Finger],
+    finger_share: wp.array[float],
+    x: wp.array[wp.vec3],
+    ring_middle: wp.array[wp.vec3],
+    ring_area: wp.array[wp.vec3],
+    volume: wp.array[float],
+    room: wp.array[float],
+    flow: wp.array[wp.float64],
+    amount: wp.array[wp.float64],
+    pressure: wp.array[float],
+    area: wp.array[float],
+    quad_area: wp.array[wp.vec3],
+    ring_radius: wp.array[float],
+    target: wp.array2d[int],
+    hit_count: wp.array[int],
+    pair_count: wp.array[int],
+    pairs: wp.array[int],
+    pressed_count: wp.array[int],
+    pressed: wp.array[int],
+    v: wp.array[wp.vec3],
+    slip: wp.array2d[wp.vec3],
+    contact_force: wp.array2d[float],
+    contact_place: wp.array[wp.vec2],
+    hits: wp.array2d[int],
+    core_order: wp.array[wp.vec3],
+    core_push: wp.array[wp.vec3],
+    core_thrust: wp.array[wp.vec3],
+    corner_force: wp.array2d[float],
+    lift: wp.array2d[float],
+    ring_speed: wp.array[wp.vec3],
+    strut_length: wp.array[float],
+    strut_force: wp.array[wp.vec3],
+    ring_axes: wp.array[Axes],
+    hand_load: wp.array[wp.vec3],
+    weld_shift: wp.array[wp.vec3],
+    peak_energy: wp.array[float],
+    x_next: wp.array[wp.vec3],
+    chunk_share: wp.array[float],
+    pair_corners: wp.array[wp.vec4i],
+    pair_limits: wp.array[wp.vec4],
+    gates: wp.array[int],
+):
+    """Advance every sculpture from substep `begin` to `end` of its frame.
+
+    `crew`: blocks of one sculpture, all of which must run at once; the first `joint_blocks` move joints.
+    `walls`: 1 where walls can touch; `pressing`: 1 where a finger presses. `gates`: zeros, at which its
+    blocks meet.
+    """
+    tile, lane = wp.tid()
+    w = tile // crew
+    block = tile % crew
+    block_size = block_lanes()
+    lanes = crew * block_size
+    me = block * block_size + lane
+    # Lanes that share a joint, a chunk or a segment: a warp; on the CPU one.
+    gang = wp.min(ALL, block_size)
+    one = lane % gang
+    few = wp.min(FEW_LANES, block_size)
+    # Lanes that move a joint, and how many such are in a warp.
+    team = wp.min(joint_lanes(), block_size)
+    teams = gang // team
+    warps = lanes // gang
+    warp = me // gang
+    block_warps = block_size // gang
+    block_warp = lane // gang
+    # The first block sees to the gas; where there are others, these see to the rest meanwhile.
+    others = wp.max(lanes - block_size, wp.min(lanes, block_size))
+    other = wp.where(crew > 1, me - block_size, me)
+    # What is the same in every substep is read once.
+    balloon_begin = int_at(world_balloon, w)
+    balloon_end = int_at(world_balloon, w + 1)
+    vertex_begin = int_at(world_vertex, w)
+    vertex_end = int_at(world_vertex, w + 1)
+    segment_begin = int_at(world_segment, w)
+    segment_end = int_at(world_segment, w + 1)
+    joint_begin = int_at(world_joint, w)
+    joint_end = int_at(world_joint, w + 1)
+    chunk_begin = int_at(world_chunk, w)
+    chunk_end = int_at(world_chunk, w + 1)
+    quad_begin = int_at(world_quad, w)
+    quad_end = int_at(world_quad, w + 1)
+    core_begin = int_at(world_core, w)
+    core_end = wp.where(walls == 1, int_at(world_core, w + 1), core_begin)
+    welds = int_at(world_welds, w)
+    own_joints = joints_of_block(joint_begin + one, joint_begin, joint_end, block, joint_blocks, joint_leader)
+    pair_begin = 2 * vertex_begin
+    pair_end = pair_begin + int_at(pair_count, w)
+    pressed_end = quad_begin + int_at(pressed_count, w)
+    if walls == 1:
+        # Each lane reads in every substep what it wrote itself.
+        for at in range(pair_begin + lanes - 1 - me, pair_end, lanes):
+            touched, limits = limits_of_pair(
+                int_at(pairs, at),
+                quads,
+                mass,
+                touch,
+                friction,
+                vertex_balloon,
+                dt,
+                area,
+                quad_area,
+                target,
+                hit_count,
+            )
+            pair_corners[at] = touched
+            pair_limits[at] = limits
+    take_room()
+    faces = quad_end - quad_begin
+    places = PLACE * (vertex_end - vertex_begin)
+    x_here = vectors_here(x, vertex_begin, 0)
+    v_here = vectors_here(v, vertex_begin, places)
+    force_here = planes_here(corner_force, quad_begin, faces, 2 * places)
+    lift_here = planes_here(lift, quad_begin, faces, 2 * places + FORCE * faces)
+    if at_home() == 1:
+        for i in range(vertex_begin + lane, vertex_end, block_size):
+            put_vec3(x_here, i, vec3_at(x, i))
+            put_vec3(v_here, i, vec3_at(v, i))
+        block_meets()
+    goal = int(0)
+    for k in range(begin, end):
+        fraction = float(k + 1) / float(substeps)
+        if pressing == 1:
+            for i in range(vertex_begin + me, vertex_end, lanes):
+                press_finger(i, vertex_balloon, mass, fingers, finger_share, dt, fraction, x_here, v_here)
+            goal += crew
+            blocks_meet(gates, w, crew, goal, lane)
+        # On a CPU: elsewhere it is not even compiled.
+        if block_size == 1:
+            walls_abreast(
+                chunk_begin,
+                chunk_end,
+                quads,
+                quad_law,
+                chunk_quad,
+                chunk_origin,
+                to_rest,
+                hourglass,
+                rubber_volume,
+                laws,
+                curves,
+                x_here,
+                v_here,
+                softening_rate,
+                peak_energy,
+                force_here,
+                lift_here,
+                chunk_share,
+            )
+        else:
+            for c in range(chunk_begin + warp, chunk_end, warps):
+                share = float(0.0)
+                for q in range(int_at(chunk_quad, c) + one, int_at(chunk_quad, c + 1), gang):
+                    share += wall_of_quad(
+                        q,
+                        quads,
+                        quad_law,
+                        to_rest,
+                        hourglass,
+                        rubber_volume,
+                        laws,
+                        curves,
+                        x_here,
+                        v_here,
+                        vec3_seen(x_here, int_at(chunk_origin, c)),
+                        softening_rate,
+                        peak_energy,
+                        force_here,
+                        lift_here,
+                    )
+                share = lanes_sum(share)
+                if one == 0:
+                    put_float(chunk_share, c, share)
+        for j in range(joint_begin + warps - 1 - warp, joint_end, warps):
+            measure_open_ring(
+                j,
+                one,
+                gang,
+                joint_first,
+                joint_around,
+                joint_parts,
+                radius_to,
+                x_here,
+                ring_middle,
+                ring_area,
+            )
+        if walls == 1:
+            for at in range(pair_begin + lanes - 1 - me, pair_end, lanes):
+                press_wall(
+                    int_at(pairs, at),
+                    vec4i_at(pair_corners, at),
+                    vec4_at(pair_limits, at),
+                    touch.offset,
+                    dt,
+                    x_here,
+                    v_here,
+                    slip,
+                    contact_force,
+                    contact_place,
+                )
+        if cores_may_pack() == 1:
+            for m in range(core_begin + warp, core_end, warps):
+                press_core(
+                    m,
+                    one,
+                    gang,
+                    ring_first,
+                    ring_around,
+                    corner,
+                    core_ring,
+                    core_next,
+                    core_radius,
+                    core_row,
+                    mass,
+                    dt,
+                    ring_radius,
+                    x_here,
+                    core_order,
+                    core_push,
+                    core_thrust,
+                )
+        goal += crew
+        blocks_meet(gates, w, crew, goal, lane)
+        if block == 0:
+            for first in range(segment_begin, segment_end, block_size // few):
+                s = first + lane // few
+                total = float(0.0)
+                fans = float(0.0)
+                if s < segment_end:
+                    chunk = int_at(segment_chunk, s) + lane % few
+                    last = int_at(segment_chunk, s + 1)
+                    # The first four with the fans: most segments have no more.
+                    total = shares_of_chunks(chunk, few, last, chunk_share)
+                    fans = volume_of_fans(
+                        s,
+                        start_joint,
+                        end_joint,
+                        ring_middle,
+                        ring_area,
+                        vec3_seen(x_here, int_at(segment_origin, s)),
+                    )
+                    for c in range(chunk + 4 * few, last, 4 * few):
+                        total += shares_of_chunks(c, few, last, chunk_share)
+                # All lanes of the warp are here.
+                total = few_sum(total)
+                if s < segment_end and lane % few == 0:
+                    put_float(volume, s, total + fans)
+            block_meets()
+            for b in range(balloon_begin + block_warp, balloon_end, block_warps):
+                advance_gas(
+                    b,
+                    one,
+                    gang,
+                    balloon_segment,
+                    balloon_segment_end,
+                    chamber_first,
+                    chamber_last,
+                    end_joint,
+                    inlet,
+                    air,
+                    dt,
+                    fraction,
+                    blowing,
+                    open_from,
+                    open_to,
+                    pump_flow,
+                    pump_limit,
+                    pump_goal,
+                    volume,
+                    room,
+                    flow,
+                    amount,
+                    pressure,
+                )
+        if other >= 0:
+            if walls == 1:
+                # From the other end: the first lanes see to the gas.
+                for at in range(quad_begin + others - 1 - other, pressed_end, others):
+                    press_quad_back(
+                        int_at(pressed, at),
+                        quads,
+                        hit_count,
+                        hits,
+                        contact_force,
+                        contact_place,
+                        x_here,
+                        force_here,
+                    )
+            slots = joint_struts.shape[1]
+            for at in range(joint_begin * slots + other, joint_end * slots, others):
+                strut = int_in(joint_struts, at // slots, at % slots)
+                if strut > 0:
+                    load_strut(
+                        strut - 1,
+                        strut_joint,
+                        strut_stiffness,
+                        strut_damping,
+                        strut_yield,
+                        ring_middle,
+                        ring_speed,
+                        strut_length,
+                        strut_force,
+                    )
+        if cores_may_pack() == 1:
+            for m in range(core_begin + warp, core_end, warps):
+                yield_to_core(
+                    m,
+                    one,
+                    gang,
+                    ring_first,
+                    ring_around,
+                    core_ring,
+                    core_next,
+                    core_radius,
+                    mass,
+                    dt,
+                    ring_radius,
+                    core_order,
+                    core_push,
+                    core_thrust,
+                    v_here,
+                )
+        goal += crew
+        blocks_meet(gates, w, crew, goal, lane)
+        for base in range(joint_begin, joint_end, gang):
+            mine = int(own_joints)
+            if base > joint_begin:
+                mine = joints_of_block(base + one, joint_begin, joint_end, block, joint_blocks, joint_leader)
+            last = bits_in(mine) - 1
+            for first_rank in range(teams * block_warp, last + 1, teams * block_warps):
+                rank = first_rank + one // team
+                move_joint(
+                    base + bit_of_rank(mine, wp.min(rank, last)),
+                    rank > last,
+                    lane % team,
+                    team,
+                    corners,
+                    vertex_balloon,
+                    quad_segment,
+                    vertex_along,
+                    joint_first,
+                    joint_around,
+                    joint_parts,
+                    joint_beside,
+                    joint_struts,
+                    corner,
+                    mass,
+                    weight,
+                    joint_mass,
+                    gravity,
+                    drag,
+                    dt,
+                    frame_seconds,
+                    fraction,
+                    spin,
+                    hand,
+                    hand_from,
+                    hand_to,
+                    hand_free,
+                    hand_force,
+                    hand_stiffness,
+                    radius_from,
+                    radius_to,
+                    contact_force,
+                    force_here,
+                    lift_here,
+                    pressure,
+                    strut_force,
+                    x_next,
+                    x_here,
+                    v_here,
+                    ring_middle,
+                    ring_area,
+                    ring_axes,
+                    ring_speed,
+                    hand_load,
+                )
+        for i in range(vertex_begin + lanes - 1 - me, vertex_end, lanes):
+            if int_at(vertex_joint, i) < 0:
+                move_vertex(
+                    i,
+                    corners,
+                    vertex_balloon,
+                    vertex_segment,
+                    quad_segment,
+                    vertex_along,
+                    mass,
+                    weight,
+                    gravity,
+                    drag,
+                    dt,
+                    spin,
+                    contact_force,
+                    force_here,
+                    lift_here,
+                    pressure,
+                    x_here,
+                    v_here,
+                )
+        if welds > 0:
+            # All joints of a weld are one block's.
+            block_meets()
+            for base in range(joint_begin, joint_end, gang):
+                mine = int(own_joints)
+                if base > joint_begin:
+                    mine = joints_of_block(
+                        base + one, joint_begin, joint_end, block, joint_blocks, joint_leader
+                    )
+                last = bits_in(mine) - 1
+                for first_rank in range(teams * block_warp, last + 1, teams * block_warps):
+                    rank = first_rank + one // team
+                    weld_joint_to_others(
+                        base + bit_of_rank(mine, wp.min(rank, last)),
+                        rank > last,
+                        lane % team,
+                        team,
+                        joint_weld,
+                        weld_joint,
+                        weld_size,
+                        weld_reach,
+                        weld_gap,
+                        joint_first,
+                        joint_around,
+                        joint_mass,
+                        hand,
+                        dt,
+                        ring_middle,
+                        x_here,
+                        v_here,
+                        weld_shift,
+                    )
+            block_meets()
+            for j in range(joint_begin + lane, joint_end, block_size):
+                if block_of_joint(j, joint_begin, joint_blocks, joint_leader) == block:
+                    shift_middle(j, weld_shift, ring_middle)
+        goal += crew
+        blocks_meet(gates, w, crew, goal, lane)
+    if at_home() == 1:
+        for i in range(vertex_begin + lane, vertex_end, block_size):
+            put_vec3(x, i, vec3_at(x_here, i))
+            put_vec3(v, i, vec3_at(v_here, i))
