@@ -155,12 +155,12 @@ class Lookout:
         return watch.failure(self._sight.frame(place, 0))
 
 
-def most_way(seconds: float) -> float:
+def travel_limit(seconds: float) -> float:
     """Return how far (m) a wall may go in some seconds before it is looked at closely, just below too far."""
     return 0.999 * FASTEST * seconds
 
 
-def most_stretches(plans: Sequence[Plan], bodies: Sequence[range]) -> NDArray[np.float32]:
+def stretch_limits(plans: Sequence[Plan], bodies: Sequence[range]) -> NDArray[np.float32]:
     """Return how far every balloon may be stretched before it is looked at closely, (B,).
 
     `bodies`: balloons of every plan.

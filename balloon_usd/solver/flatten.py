@@ -85,12 +85,12 @@ def ring_arrays(scene: Scene, host: Arrays) -> None:
     for j, (f, n, before) in enumerate(zip(first, around, carried, strict=True)):
         vertex_joint[f - before : f + n] = j
     host["vertex_joint"] = vertex_joint
-    host["corner"] = np.zeros((v[-1], 2), dtype=np.float32)
+    host["ring_cos_sin"] = np.zeros((v[-1], 2), dtype=np.float32)
     sizes = host["ring_around"].astype(np.int64)
     place = np.arange(sizes.sum()) - np.repeat(np.cumsum(sizes) - sizes, sizes)
     turn = 2.0 * np.pi * place / np.repeat(sizes, sizes)
     vertices = np.repeat(host["ring_first"], sizes) + place
-    host["corner"][vertices] = np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    host["ring_cos_sin"][vertices] = np.stack([np.cos(turn), np.sin(turn)], axis=1)
     home = np.full(v[-1], -1, dtype=np.int32)
     home[host["quads"].reshape(-1)] = np.repeat(host["quad_segment"], 4)
     parting = (vertex_joint >= 0) & (host["joint_parts"][vertex_joint] == 1)

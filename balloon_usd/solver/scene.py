@@ -113,9 +113,9 @@ def lay_meshes(scene: Scene, host: Arrays, weld_count: int) -> None:
 def _motion_arrays(scene: Scene) -> None:
     vertices, a = int(scene.vertex_start[-1]), scene.arrays
     points = np.concatenate([b.points for b in scene.bodies]).astype(np.float32)
-    for name in ("x", "x_next", "x_shown"):
+    for name in ("x", "x_next", "x_checked"):
         a[name] = wp.array(points, dtype=wp.vec3, device=scene.device)
-    a["most_stretch"] = wp.full(len(scene.bodies), NO_LIMIT, dtype=float, device=scene.device)
+    a["stretch_limit"] = wp.full(len(scene.bodies), NO_LIMIT, dtype=float, device=scene.device)
     scene.zeros("suspects", max(scene.worlds) + 1, int)
     scene.zeros("v", vertices, wp.vec3)
     scene.zeros("stretch", vertices, float)
@@ -171,9 +171,9 @@ def _hand_arrays(scene: Scene, welds: int) -> None:
 _VECTORS = {
     "quads": wp.vec4i,
     "corners": wp.vec4i,
-    "to_rest": wp.mat22,
+    "rest_inverse": wp.mat22,
     "hourglass": wp.vec4,
-    "corner": wp.vec2,
+    "ring_cos_sin": wp.vec2,
     "joint_beside": wp.vec2i,
     "air": wp.vec3,
     "vertex_place": wp.vec3,

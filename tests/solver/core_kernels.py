@@ -9,7 +9,7 @@ from balloon_usd.solver.kernels.physics.core import press_core, yield_to_core
 def press_cores(
     ring_first: wp.array[int],
     ring_around: wp.array[int],
-    corner: wp.array[wp.vec2],
+    ring_cos_sin: wp.array[wp.vec2],
     core_ring: wp.array[int],
     core_next: wp.array[int],
     core_radius: wp.array[float],
@@ -30,7 +30,7 @@ def press_cores(
         wp.block_dim(),
         ring_first,
         ring_around,
-        corner,
+        ring_cos_sin,
         core_ring,
         core_next,
         core_radius,

@@ -12,12 +12,12 @@ from balloon_usd.balloon.detail import detail_named
 from balloon_usd.plan import plan as plan_of
 from balloon_usd.plan.meshing import mesh_of
 from balloon_usd.recipe import Recipe
-from balloon_usd.solver.checks import Lookout, Watch, most_stretches, most_way
+from balloon_usd.solver.checks import Lookout, Watch, stretch_limits, travel_limit
 from balloon_usd.solver.errors import SimulationFailed
 from balloon_usd.solver.frame import Frame
 from balloon_usd.solver.frame_arrays import Extent, Place, Sight
 from balloon_usd.solver.remedy import steadier
-from tests.solver.suspect_kernels import look_at_vertices
+from tests.solver.suspect_kernels import check_vertices
 
 RECIPE = """\
 format: 1
@@ -183,7 +183,7 @@ class Looks:
     def __init__(self, scenes):
         self.lookout = lookout_over(scenes)
         count = len(scenes)
-        self.most = most_stretches([s.plan for s in scenes], [range(k, k + 1) for k in range(count)])
+        self.most = stretch_limits([s.plan for s in scenes], [range(k, k + 1) for k in range(count)])
         balloon = np.repeat(np.arange(count), [len(s.frame.points[0]) for s in scenes])
         self.balloon = wp.array(balloon, dtype=int, device="cpu")
         points = np.concatenate([s.frame.points[0] for s in scenes])
@@ -193,10 +193,10 @@ class Looks:
         """What is wrong with each sculpture."""
         sight, worlds = sight_of(frames), np.arange(len(frames), dtype=np.int32)
         suspects = wp.zeros(len(frames), dtype=int, device="cpu")
-        limits = most_way(1.0 / 24.0), wp.array(self.most, dtype=float, device="cpu")
+        limits = travel_limit(1.0 / 24.0), wp.array(self.most, dtype=float, device="cpu")
         walls = wp.array(sight.points, dtype=wp.vec3, device="cpu"), wp.array(sight.stretch, device="cpu")
         given = [self.balloon, wp.array(worlds, device="cpu"), *limits, *walls, self.shown, suspects]
-        wp.launch(look_at_vertices, len(sight.points), inputs=given, device="cpu")
+        wp.launch(check_vertices, len(sight.points), inputs=given, device="cpu")
         found = self.lookout.look(sight, suspects.numpy())
         return [self.lookout.failure(k) if k in found else None for k in range(len(frames))]
 

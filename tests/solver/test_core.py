@@ -142,7 +142,7 @@ def test_a_wound_tube_gives_the_same_bits_alone_in_a_batch_and_by_one_block(devi
         scene.touching.fill_(1)
         stepper = Stepper(scene, 16)
         if blocks:
-            stepper._crew.blocks = blocks
+            stepper._sculptures.blocks = blocks
         stepper.advance(contact=True)
         return scene.x.numpy().reshape(copies, -1)
 

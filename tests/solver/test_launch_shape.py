@@ -1,4 +1,4 @@
-"""The crew: who works on what, and that its size does not matter."""
+"""The launch shape of the persistent kernel: it changes no bit."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ import warp as wp
 from balloon_usd.plan import plan
 from balloon_usd.recipe import Recipe
 from balloon_usd.solver.flatten import chunks_of
-from balloon_usd.solver.kernels.device.coherent_load import ALONE
-from balloon_usd.solver.kernels.device.shared_memory import NEAR
+from balloon_usd.solver.kernels.device.coherent_load import SINGLE_BLOCK_LANES
+from balloon_usd.solver.kernels.device.shared_memory import RESIDENT_LANES
 from balloon_usd.solver.kernels.physics.sculpture import advance_sculptures
-from balloon_usd.solver.latex.kernel_variants import quick_kernel, room_inside
+from balloon_usd.solver.latex.kernel_variants import kernel_variant, shared_memory_bytes
 from balloon_usd.solver.simulation import simulate_many
 
 HEAD = """
@@ -39,21 +39,25 @@ def head():
 
 
 def performed(device, *, copies=1, blocks=None, alone=None):
-    """The last frame of a head, made by so many blocks, or alone by one of so many lanes."""
+    """The last frame of a head, made by so many blocks, or by a single one of so many threads."""
     simulation = simulate_many([head()] * copies, device=device)
-    crew = simulation.model.stepper._crew
+    launch = simulation.model.stepper._sculptures
     if blocks:
-        crew.blocks = blocks
+        launch.blocks = blocks
     if alone:
-        crew.blocks, crew.lanes = 1, alone
-        crew._kernel = kernel_on(wp.get_device(device), alone)
+        launch.blocks, launch.lanes = 1, alone
+        launch._kernel = kernel_on(wp.get_device(device), alone)
     *_, last = simulation.frames()
     return last[0]
 
 
 def kernel_on(device, lanes):
     """The kernel for blocks of so many lanes; on a CPU there is but one."""
-    return quick_kernel(lanes, room_inside(device), cores=False) if device.is_cuda else advance_sculptures
+    return (
+        kernel_variant(lanes, shared_memory_bytes(device), cores=False)
+        if device.is_cuda
+        else advance_sculptures
+    )
 
 
 def test_segments_are_cut_into_chunks_that_do_not_cross_their_borders():
@@ -63,14 +67,14 @@ def test_segments_are_cut_into_chunks_that_do_not_cross_their_borders():
 
 
 @pytest.mark.parametrize("device", DEVICES)
-def test_neither_the_size_of_a_crew_nor_its_company_changes_a_bit(device):
+def test_neither_the_number_of_blocks_nor_other_sculptures_change_a_bit(device):
     alone, one, batch = performed(device), performed(device, blocks=1), performed(device, copies=3)
     assert alone.points[0].tobytes() == one.points[0].tobytes() == batch.points[0].tobytes()
 
 
 @pytest.mark.parametrize("device", DEVICES)
-@pytest.mark.parametrize("lanes", [ALONE, NEAR])
-def test_a_block_alone_gives_the_same_bits_at_home_in_its_processor_or_not(device, lanes):
+@pytest.mark.parametrize("lanes", [SINGLE_BLOCK_LANES, RESIDENT_LANES])
+def test_a_single_block_gives_the_same_bits_with_and_without_shared_memory(device, lanes):
     assert performed(device, alone=lanes).points[0].tobytes() == performed(device).points[0].tobytes()
 
 

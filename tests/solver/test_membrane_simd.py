@@ -11,15 +11,15 @@ from balloon_usd.balloon.rubber import rubber_named
 from balloon_usd.balloon.sizes import size_named
 from balloon_usd.balloon.tube_mesh import tube_mesh
 from balloon_usd.solver.kernels.physics.membrane import wall_of_quad
-from balloon_usd.solver.kernels.physics.membrane_simd import ABREAST, walls_abreast
-from balloon_usd.solver.kernels.physics.rubber import Knot, Law
+from balloon_usd.solver.kernels.physics.membrane_simd import SIMD_QUADS, walls_simd
+from balloon_usd.solver.kernels.physics.rubber import CurveSegment, Law
 from balloon_usd.solver.latex.body import tube_body
 from balloon_usd.solver.latex.scene import build_scene
 from balloon_usd.solver.settings import SceneSettings
 
 ROUNDING = 1e-6
 """Largest difference, as a share of the largest value: a product and a sum may be rounded once or twice."""
-WRITTEN = ("corner_force", "lift", "peak_energy", "chunk_share")
+WRITTEN = ("corner_force", "volume_gradient", "peak_energy", "chunk_share")
 
 
 @wp.kernel
@@ -28,17 +28,17 @@ def one_by_one(
     quad_law: wp.array[int],
     chunk_quad: wp.array[int],
     chunk_origin: wp.array[int],
-    to_rest: wp.array[wp.mat22],
+    rest_inverse: wp.array[wp.mat22],
     hourglass: wp.array[wp.vec4],
     rubber_volume: wp.array[float],
     laws: wp.array[Law],
-    curves: wp.array[Knot],
+    curves: wp.array[CurveSegment],
     x: wp.array[wp.vec3],
     v: wp.array[wp.vec3],
     softening_rate: wp.array[float],
     peak_energy: wp.array[float],
     corner_force: wp.array2d[float],
-    lift: wp.array2d[float],
+    volume_gradient: wp.array2d[float],
     chunk_share: wp.array[float],
 ):
     """Write what each quad of a chunk gets alone."""
@@ -48,7 +48,7 @@ def one_by_one(
             q,
             quads,
             quad_law,
-            to_rest,
+            rest_inverse,
             hourglass,
             rubber_volume,
             laws,
@@ -59,7 +59,7 @@ def one_by_one(
             softening_rate,
             peak_energy,
             corner_force,
-            lift,
+            volume_gradient,
         )
 
 
@@ -69,28 +69,28 @@ def abreast(
     quad_law: wp.array[int],
     chunk_quad: wp.array[int],
     chunk_origin: wp.array[int],
-    to_rest: wp.array[wp.mat22],
+    rest_inverse: wp.array[wp.mat22],
     hourglass: wp.array[wp.vec4],
     rubber_volume: wp.array[float],
     laws: wp.array[Law],
-    curves: wp.array[Knot],
+    curves: wp.array[CurveSegment],
     x: wp.array[wp.vec3],
     v: wp.array[wp.vec3],
     softening_rate: wp.array[float],
     peak_energy: wp.array[float],
     corner_force: wp.array2d[float],
-    lift: wp.array2d[float],
+    volume_gradient: wp.array2d[float],
     chunk_share: wp.array[float],
 ):
     """Write what they get side by side."""
-    walls_abreast(
+    walls_simd(
         0,
         chunk_share.shape[0],
         quads,
         quad_law,
         chunk_quad,
         chunk_origin,
-        to_rest,
+        rest_inverse,
         hourglass,
         rubber_volume,
         laws,
@@ -100,7 +100,7 @@ def abreast(
         softening_rate,
         peak_energy,
         corner_force,
-        lift,
+        volume_gradient,
         chunk_share,
     )
 
@@ -129,7 +129,7 @@ def written(kernel, starts):
     return {name: made.arrays[name].numpy() for name in WRITTEN}
 
 
-@pytest.mark.parametrize("count", [1, ABREAST - 1, ABREAST, 2 * ABREAST + 3])
+@pytest.mark.parametrize("count", [1, SIMD_QUADS - 1, SIMD_QUADS, 2 * SIMD_QUADS + 3])
 def test_quads_side_by_side_get_what_each_gets_alone(count):
     starts = [5, 5 + count, 40 + 2 * count]
     alone, together = written(one_by_one, starts), written(abreast, starts)
@@ -142,7 +142,7 @@ def test_quads_beside_are_left_alone():
     before, after = scene(), written(abreast, [5, 8])
     quads = len(before.quads)
     kept = np.delete(np.arange(quads), [5, 6, 7])
-    for name in ("corner_force", "lift", "peak_energy"):
+    for name in ("corner_force", "volume_gradient", "peak_energy"):
         # On a CPU the vectors of one quad lie together.
         was, now = (values.reshape(quads, -1) for values in (before.arrays[name].numpy(), after[name]))
         assert np.array_equal(now[kept], was[kept])

@@ -9,7 +9,7 @@ import numpy as np
 
 from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.solver.body import body_ranges, places_beside
-from balloon_usd.solver.checks import most_stretches
+from balloon_usd.solver.checks import stretch_limits
 from balloon_usd.solver.frame_arrays import Sight
 from balloon_usd.solver.hands import Hands
 from balloon_usd.solver.kosaka.body import KosakaBody, kosaka_body
@@ -93,7 +93,7 @@ class KosakaModel:
             contact_offset=min(b.parameters.contact_offset for b in bodies),
         )
         self.scene = kosaka_scene(bodies, worlds, settings, device)
-        self.scene.most_stretch.assign(most_stretches(plans, self._bodies))
+        self.scene.stretch_limit.assign(stretch_limits(plans, self._bodies))
         self._mirror = Mirror(self.scene, LOOKED_AT)
         self.stepper = KosakaStepper(self.scene, substeps, _quad_half(bodies), self._mirror)
         self.hands = _hands(self.scene)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import warp as wp
 
-from balloon_usd.solver.checks import most_way
+from balloon_usd.solver.checks import travel_limit
 from balloon_usd.solver.kernels.kosaka.air_particles import move_air, repel_air
 from balloon_usd.solver.kernels.kosaka.drift import cluster_drift, fastest_air
 from balloon_usd.solver.kernels.kosaka.frozen_rings import hold_rings, move_rubber
@@ -57,7 +57,7 @@ class KosakaStepper:
         values: dict[str, Any] = {
             "dt": dt,
             "frame_seconds": dt * substeps,
-            "most_way": most_way(dt * substeps),
+            "travel_limit": travel_limit(dt * substeps),
             "substeps": float(substeps),
             "margin": scene.margin,
             "quad_half": quad_half,

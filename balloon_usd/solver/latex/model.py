@@ -9,7 +9,7 @@ import numpy as np
 from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.plan.meshing import joint_places
 from balloon_usd.solver.body import body_ranges, places_beside
-from balloon_usd.solver.checks import crowded, most_stretches
+from balloon_usd.solver.checks import crowded, stretch_limits
 from balloon_usd.solver.frame_arrays import Sight
 from balloon_usd.solver.kernels.physics.contact import HITS
 from balloon_usd.solver.latex.body import LatexBody, tube_body
@@ -77,7 +77,7 @@ class LatexModel:
         )
         rings = sum(len(b.rings) for b in bodies)
         self.scene = build_scene(bodies, worlds, settings, device, rings, STRUTS_PER_JOINT * rings)
-        self.scene.most_stretch.assign(most_stretches(plans, self._bodies))
+        self.scene.stretch_limit.assign(stretch_limits(plans, self._bodies))
         self.stepper = Stepper(self.scene, substeps)
         self.hands = LatexHands(self.scene)
         self._struts = Struts(self.scene, StrutLaw())

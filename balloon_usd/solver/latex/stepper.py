@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from balloon_usd.solver.checks import most_way
+from balloon_usd.solver.checks import travel_limit
 from balloon_usd.solver.kernels.device.warp_reduce import WARP
 from balloon_usd.solver.kernels.physics.gas import segment_volumes
 from balloon_usd.solver.kernels.physics.joints import measure_rings
 from balloon_usd.solver.kernels.physics.membrane import vertex_stretch
 from balloon_usd.solver.kernels.physics.wall_load import wall_loads
-from balloon_usd.solver.latex.launch_shape import Crew
+from balloon_usd.solver.latex.launch_shape import SculptureLaunch
 from balloon_usd.solver.launch import Launcher
 from balloon_usd.solver.wall_search import WallSearch
 
@@ -31,13 +31,13 @@ class Stepper:
         self.substeps = substeps
         dt = scene.settings.dt
         values: dict[str, Any] = {"dt": dt, "frame_seconds": dt * substeps, "air": scene.air}
-        values["most_way"] = most_way(dt * substeps)
+        values["travel_limit"] = travel_limit(dt * substeps)
         self._search_every = max(1, round(SEARCH_SECONDS / dt))
         self._launcher = Launcher(scene, values)
         self._launch = self._launcher.launch
         self._search = WallSearch(self._launcher)
         self._launcher.load(wall_loads, lanes=WARP)
-        self._crew = Crew(scene)
+        self._sculptures = SculptureLaunch(scene)
         self._start()
 
     def _start(self) -> None:
@@ -79,7 +79,9 @@ class Stepper:
                 self._search.measure_quads(self.scene.x)
                 self._search.find(self.scene.x)
             end = min(begin + stride, self.substeps)
-            self._crew.advance(self._launcher, self.substeps, begin, end, contact=contact, fingers=fingers)
+            self._sculptures.advance(
+                self._launcher, self.substeps, begin, end, contact=contact, fingers=fingers
+            )
 
     def _volumes(self) -> None:
         self._launcher.launch_tiled(segment_volumes, len(self.scene.segment_quad))

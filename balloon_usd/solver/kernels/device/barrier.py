@@ -12,8 +12,8 @@ from balloon_usd.solver.kernels.device.native import native
 __syncwarp();
 #endif
 """)
-def lanes_meet():
-    """Let the lanes of a warp see what the others wrote."""
+def warp_barrier():
+    """Synchronise a warp: its lanes see each other's writes."""
     ...
 
 
@@ -22,8 +22,8 @@ def lanes_meet():
 __syncthreads();
 #endif
 """)
-def block_meets():
-    """Let the lanes of a block see what the others wrote."""
+def block_barrier():
+    """Synchronise a block: its threads see each other's writes."""
     ...
 
 
@@ -32,20 +32,21 @@ def block_meets():
 __syncthreads();
 if (blocks > 1) {
     if (lane == 0) {
-        int* gate = gates.data + sculpture;
-        asm volatile("red.release.gpu.global.add.s32 [%0], 1;" :: "l"(gate) : "memory");
-        int come = 0;
+        int* count = barrier_counts.data + sculpture;
+        asm volatile("red.release.gpu.global.add.s32 [%0], 1;" :: "l"(count) : "memory");
+        int arrived = 0;
         do {
-            asm volatile("ld.relaxed.gpu.global.s32 %0, [%1];" : "=r"(come) : "l"(gate) : "memory");
-        } while (come < goal);
+            asm volatile("ld.relaxed.gpu.global.s32 %0, [%1];" : "=r"(arrived) : "l"(count) : "memory");
+        } while (arrived < goal);
     }
     __syncthreads();
 }
 #endif
 """)
-def blocks_meet(gates: wp.array[int], sculpture: int, blocks: int, goal: int, lane: int):
-    """Let all blocks of a sculpture see what the others wrote, where they read it as `seen`.
+def sculpture_barrier(barrier_counts: wp.array[int], sculpture: int, blocks: int, goal: int, lane: int):
+    """Synchronise the resident blocks of one sculpture: coherent loads see each other's writes.
 
-    `goal`: what its gate counts when all have come, `blocks` more than at the last meeting.
+    `goal`: what the sculpture's count reaches when all have arrived, `blocks` more than at the barrier
+    before.
     """
     ...

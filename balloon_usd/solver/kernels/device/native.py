@@ -1,4 +1,4 @@
-"""Functions in the devices' own language, for what Warp has no word for."""
+"""Functions in C++ and CUDA, for what Warp has no word for."""
 
 from collections.abc import Callable
 from typing import TypeVar, cast
@@ -9,5 +9,5 @@ Stub = TypeVar("Stub")
 
 
 def native(snippet: str) -> Callable[[Stub], Stub]:
-    """Return the decorator that gives a stub its code, with the stub's own type."""
+    """Return the decorator that gives a stub its snippet and keeps the stub's type."""
     return cast("Callable[[Stub], Stub]", wp.func_native(snippet))

@@ -1,23 +1,24 @@
-"""At home: a sculpture that one block has for itself lies, while a launch lasts, in the memory inside its
-processor. Places, speeds, forces and lifts are there what arrays are elsewhere; their indices stay the same.
+"""Shared memory: when one block has a sculpture for itself, its positions, velocities, forces and volume
+gradients stay in the SM's shared memory during a launch: a quarter less time. The kernel accesses them as
+arrays, with the same indices.
 """
 
 import warp as wp
 
 from balloon_usd.solver.kernels.device.native import native
 
-NEAR = 512
-"""Lanes of a block whose sculpture is at home; others have fewer."""
-PLACE_BYTES = 12
-"""Bytes of a vertex's place there, and of its speed."""
-FORCE_BYTES = 48
-"""Bytes of the forces on a quad's corners there, and of the lifts."""
+RESIDENT_LANES = 512
+"""Threads of a block whose sculpture is resident in shared memory; other blocks have fewer."""
+VERTEX_BYTES = 12
+"""Bytes of a vertex's position, and of its velocity."""
+QUAD_BYTES = 48
+"""Bytes of the forces on a quad's four corners, and of the volume gradients."""
 
-AT_HOME = f"defined(__CUDA_ARCH__) && WP_TILE_BLOCK_DIM >= {NEAR}"
-"""Where that is so, in the devices' language."""
+RESIDENT = f"defined(__CUDA_ARCH__) && WP_TILE_BLOCK_DIM >= {RESIDENT_LANES}"
+"""Preprocessor condition: the sculpture is resident."""
 
 _ADDRESS = f"""
-#if {AT_HOME}
+#if {RESIDENT}
 extern __shared__ char dynamic_smem_base[];
 return (wp::uint64)(dynamic_smem_base + from_byte - (long long)first * {{size}});
 #else
@@ -27,57 +28,57 @@ return (wp::uint64)values.data;
 
 
 @native(f"""
-#if {AT_HOME}
+#if {RESIDENT}
 return 1;
 #else
 return 0;
 #endif
 """)
-def at_home() -> int:
-    """Return 1 where sculptures are at home: known when the kernel is compiled."""
+def is_resident() -> int:
+    """Return 1 where the sculpture is resident in shared memory; a constant once the kernel is compiled."""
     return 0
 
 
 @native(_ADDRESS.format(size=12))
-def _start_of_vectors(values: wp.array[wp.vec3], first: int, from_byte: int) -> wp.uint64:
-    """Return the address at which element 0 lies, or would lie."""
+def _vectors_address(values: wp.array[wp.vec3], first: int, from_byte: int) -> wp.uint64:
+    """Return the address of element 0, which lies before the sculpture's own where it is resident."""
     return wp.uint64(first + from_byte + values.shape[0])
 
 
 @native(_ADDRESS.format(size=4))
-def _start_of_planes(values: wp.array2d[float], first: int, from_byte: int) -> wp.uint64:
-    """Return the address at which item 0 lies, or would lie."""
+def _soa_address(values: wp.array2d[float], first: int, from_byte: int) -> wp.uint64:
+    """Return the address of item 0, likewise."""
     return wp.uint64(first + from_byte + values.shape[0])
 
 
 @native(f"""
-#if {AT_HOME}
+#if {RESIDENT}
 return count;
 #else
 return values.shape[1];
 #endif
 """)
 def _items(values: wp.array2d[float], count: int) -> int:
-    """Return how many items lie side by side: those of a sculpture, `count`, or of all."""
+    """Return the stride of a plane: `count` items of the sculpture where it is resident, else all items."""
     return count + values.shape[1]
 
 
 @wp.func
-def vectors_here(values: wp.array[wp.vec3], first: int, from_byte: int):
-    """Return the array in which a sculpture's vectors stand while a launch lasts; `first`: its first."""
-    return wp.array(ptr=_start_of_vectors(values, first, from_byte), shape=(values.shape[0],), dtype=wp.vec3)
+def resident_vectors(values: wp.array[wp.vec3], first: int, from_byte: int):
+    """Return the array of a sculpture's vectors during a launch; `first`: index of its first vector."""
+    return wp.array(ptr=_vectors_address(values, first, from_byte), shape=(values.shape[0],), dtype=wp.vec3)
 
 
 @wp.func
-def planes_here(values: wp.array2d[float], first: int, count: int, from_byte: int):
-    """Return the planes in which a sculpture's items stand while a launch lasts; `first`: its first."""
+def resident_soa(values: wp.array2d[float], first: int, count: int, from_byte: int):
+    """Return the planes that hold a sculpture's items during a launch; `first`: index of its first item."""
     return wp.array(
-        ptr=_start_of_planes(values, first, from_byte),
+        ptr=_soa_address(values, first, from_byte),
         shape=(values.shape[0], _items(values, count)),
         dtype=float,
     )
 
 
 @wp.func
-def take_room():
-    """Take no room inside the processor: nobody is at home."""
+def reserve_shared_memory():
+    """Reserve nothing; the variant for resident sculptures has another function in its place."""

@@ -1,6 +1,4 @@
-"""Lanes that work together on a GPU: sums over a warp, and where lanes, blocks and sculptures wait for each
-other. On the CPU every lane is alone.
-"""
+"""Reductions over a warp by shuffles, votes, and bits of lane masks. On the CPU a warp has one lane."""
 
 import warp as wp
 
@@ -8,14 +6,14 @@ from balloon_usd.solver.kernels.device.native import native
 
 WARP = 32
 """Lanes of a warp."""
-HALF = 16
+HALF_WARP = 16
 """Lanes of half a warp."""
-ALL = wp.constant(WARP)
-FEW = 8
-"""Lanes that sum what is too little for a warp."""
+WARP_LANES = wp.constant(WARP)
+SUBWARP = 8
+"""Lanes of a subwarp, for sums too short for a warp."""
 
 
-_OVER_LANES = """
+_REDUCE = """
 #if defined(__CUDA_ARCH__)
 {type} total = value;
 for (int step = {lanes} / 2; step > 0; step >>= 1)
@@ -28,18 +26,18 @@ return value;
 
 
 @native(
-    _OVER_LANES.format(lanes=WARP, type="float", add="total += __shfl_xor_sync(0xffffffffu, total, step);"),
+    _REDUCE.format(lanes=WARP, type="float", add="total += __shfl_xor_sync(0xffffffffu, total, step);"),
 )
-def lanes_sum(value: float) -> float:
+def warp_sum(value: float) -> float:
     """Return the sum over the lanes of a warp, in a fixed order."""
     return value
 
 
 @native(
-    _OVER_LANES.format(lanes=FEW, type="float", add="total += __shfl_xor_sync(0xffffffffu, total, step);"),
+    _REDUCE.format(lanes=SUBWARP, type="float", add="total += __shfl_xor_sync(0xffffffffu, total, step);"),
 )
-def few_sum(value: float) -> float:
-    """Return the sum over a few lanes, in a fixed order."""
+def subwarp_sum(value: float) -> float:
+    """Return the sum over a subwarp, in a fixed order."""
     return value
 
 
@@ -51,7 +49,7 @@ for (int step = lanes / 2; step > 0; step >>= 1)
 #endif
 return total;
 """)
-def lanes_sum3(value: wp.vec3, lanes: int) -> wp.vec3:  # noqa: ARG001  # in the native code
+def warp_sum3(value: wp.vec3, lanes: int) -> wp.vec3:  # noqa: ARG001  # in the native code
     """Return the sum over a warp, or over each half of it, so many `lanes`, in a fixed order."""
     return value
 
@@ -75,7 +73,7 @@ for (int step = lanes / 2; step > 0; step >>= 1)
 return total;
 """
 )
-def lanes_sum_all(
+def warp_sum8(
     a: wp.vec3,
     b: wp.vec3,
     c: wp.vec3,
@@ -86,19 +84,21 @@ def lanes_sum_all(
     h: wp.vec3,
     lanes: int,  # noqa: ARG001  # in the native code
 ) -> Vectors:
-    """Return the sums of eight vectors over a warp, or each half, in a fixed order: in the time of one."""
+    """Return the sums of eight vectors over a warp, or each half, in a fixed order: interleaved, so that
+    their shuffle latencies overlap.
+    """
     return Vectors(*a, *b, *c, *d, *e, *f, *g, *h)
 
 
 @native(
-    _OVER_LANES.format(
+    _REDUCE.format(
         lanes=WARP,
         type="wp::vec_t<3, float>",
         add="for (int k = 0; k < 3; ++k)"
         " total[k] = fmaxf(total[k], __shfl_xor_sync(0xffffffffu, total[k], step));",
     ),
 )
-def lanes_max3(value: wp.vec3) -> wp.vec3:
+def warp_max3(value: wp.vec3) -> wp.vec3:
     """Return the largest value of every coordinate over the lanes of a warp."""
     return value
 
@@ -110,8 +110,8 @@ return (int)__ballot_sync(0xffffffffu, yes);
 return yes;
 #endif
 """)
-def lanes_that(yes: int) -> int:
-    """Return the bits of the lanes of a warp that say 1."""
+def warp_ballot(yes: int) -> int:
+    """Return the mask of the lanes whose predicate is 1."""
     return yes
 
 
@@ -122,17 +122,17 @@ return __ffs(bits) - 1;
 return __builtin_ctz(bits);
 #endif
 """)
-def lowest(bits: int) -> int:
-    """Return the first of some bits that are not all 0, such as those of lanes."""
+def lowest_bit(bits: int) -> int:
+    """Return the index of the lowest set bit of a mask that is not 0."""
     return bits
 
 
 @native(
-    _OVER_LANES.format(
+    _REDUCE.format(
         lanes=WARP, type="int", add="total = max(total, __shfl_xor_sync(0xffffffffu, total, step));"
     ),
 )
-def lanes_most(value: int) -> int:
+def warp_max(value: int) -> int:
     """Return the largest value over the lanes of a warp."""
     return value
 
@@ -144,27 +144,29 @@ return __popc(bits);
 return __builtin_popcount(bits);
 #endif
 """)
-def bits_in(bits: int) -> int:
-    """Return how many bits are set."""
+def popcount(bits: int) -> int:
+    """Return the number of set bits."""
     return bits
 
 
 @wp.func
 def bit_of_rank(bits: int, rank: int):
-    """Return which bit has a rank, from 0, among those that are set."""
+    """Return the index of the set bit of a rank, counted from 0."""
     left = int(bits)
     for _ in range(rank):
         left &= left - 1
-    return lowest(left)
+    return lowest_bit(left)
 
 
 @wp.func
 def joint_lanes():
-    """Return how many lanes of a warp move a joint: all, or half of them where that is known to be enough."""
-    return ALL
+    """Return how many lanes move a joint: a warp; a variant of the kernel for coarse meshes returns half a
+    warp.
+    """
+    return WARP_LANES
 
 
 @native("return WP_TILE_BLOCK_DIM;")
 def block_lanes() -> int:
-    """Return how many lanes a block has: known when the kernel is compiled, as that of Warp is not."""
+    """Return the block size as a compile-time constant, which `wp.block_dim()` is not."""
     return 1

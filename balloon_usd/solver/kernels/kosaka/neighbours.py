@@ -103,7 +103,7 @@ def near_air(
     world = balloon_world[air_balloon[a]]
     reach = constants[air_balloon[a]].re + margin
     boxes = boxes_for(wp.block_dim())
-    room = neighbours.shape[1] // wp.block_dim()
+    capacity = neighbours.shape[1] // wp.block_dim()
     count = int(0)
     if lane < boxes * boxes * boxes:
         middle = here + box_middle(lane, boxes, reach)
@@ -113,12 +113,12 @@ def near_air(
             d = air[b] - here
             if b != a and wp.length_sq(d) < reach * reach and air_cluster[b] == air_cluster[a]:
                 if box_of(d, boxes, reach) == lane:
-                    if count < room:
-                        neighbours[a, lane * room + count] = b
+                    if count < capacity:
+                        neighbours[a, lane * capacity + count] = b
                     count += 1
-    if count > room:
+    if count > capacity:
         wp.atomic_max(most_near, world, count * wp.block_dim())
-    neighbour_count[a, lane] = wp.min(count, room)
+    neighbour_count[a, lane] = wp.min(count, capacity)
 
 
 @wp.kernel
@@ -152,7 +152,7 @@ def near_faces(
     deep = wp.max(law.air_offset, law.leak_offset) + margin
     reach = wp.sqrt(deep * deep + wider * wider)
     boxes = boxes_for(wp.block_dim())
-    room = air_faces.shape[1] // wp.block_dim()
+    capacity = air_faces.shape[1] // wp.block_dim()
     count = int(0)
     if lane < boxes * boxes * boxes:
         middle = here + box_middle(lane, boxes, reach)
@@ -175,12 +175,12 @@ def near_faces(
                             law.leak_offset,
                             margin,
                         ):
-                            if count < room:
-                                air_faces[p, lane * room + count] = t
+                            if count < capacity:
+                                air_faces[p, lane * capacity + count] = t
                             count += 1
-    if count > room:
+    if count > capacity:
         wp.atomic_max(most_near, world, count * wp.block_dim())
-    air_face_count[p, lane] = wp.min(count, room)
+    air_face_count[p, lane] = wp.min(count, capacity)
 
 
 @wp.kernel
@@ -217,7 +217,7 @@ def near_faces_air(
     here = quad_middle[q] - (0.5 * law.air_offset) * normal
     reach = wp.sqrt(half * half + wider * wider)
     boxes = boxes_for(wp.block_dim())
-    room = face_air.shape[1] // wp.block_dim()
+    capacity = face_air.shape[1] // wp.block_dim()
     count = int(0)
     if lane < boxes * boxes * boxes:
         middle = here + box_middle(lane, boxes, reach)
@@ -234,9 +234,9 @@ def near_faces_air(
                         air[p], face_normal[2 * q + 1], x[c[0]], x[c[2]], x[c[3]], law.air_offset, 0.0, margin
                     )
                     if first or second:
-                        if count < room:
-                            face_air[q, lane * room + count] = p
+                        if count < capacity:
+                            face_air[q, lane * capacity + count] = p
                         count += 1
-    if count > room:
+    if count > capacity:
         wp.atomic_max(most_near, quad_world[q], count * wp.block_dim())
-    face_air_count[q, lane] = wp.min(count, room)
+    face_air_count[q, lane] = wp.min(count, capacity)

@@ -2,7 +2,7 @@
 
 import warp as wp
 
-from balloon_usd.solver.kernels.physics.suspects import look_at_vertex
+from balloon_usd.solver.kernels.physics.suspects import check_vertex
 
 SHORTEST = wp.constant(1.0e-9)
 """Length below which a spring has no direction (m)."""
@@ -145,11 +145,11 @@ def spring_stretch(
     natural: wp.array[wp.vec4],
     vertex_balloon: wp.array[int],
     balloon_world: wp.array[int],
-    most_way: float,
-    most_stretch: wp.array[float],
+    travel_limit: float,
+    stretch_limit: wp.array[float],
     x: wp.array[wp.vec3],
     stretch: wp.array[float],
-    x_shown: wp.array[wp.vec3],
+    x_checked: wp.array[wp.vec3],
     suspects: wp.array[int],
 ):
     """Write the largest stretch of the springs at every vertex; mark where something may be wrong."""
@@ -161,4 +161,4 @@ def spring_stretch(
         if ends[k] >= 0:
             most = wp.max(most, wp.length(x[ends[k]] - x[i]) / lengths[k])
     stretch[i] = most
-    look_at_vertex(i, most, vertex_balloon, balloon_world, most_way, most_stretch, x, x_shown, suspects)
+    check_vertex(i, most, vertex_balloon, balloon_world, travel_limit, stretch_limit, x, x_checked, suspects)

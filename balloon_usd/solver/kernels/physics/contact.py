@@ -1,4 +1,6 @@
-"""Rubber on rubber: which walls face each other, how hard they press, and Coulomb friction between them."""
+"""Contact of walls: broad phase over bounding boxes of chunks of quads, narrow phase against bilinear
+patches, penalty forces and Coulomb friction.
+"""
 
 import warp as wp
 
@@ -10,14 +12,14 @@ from balloon_usd.solver.kernels.device.array_access import (
     vec3_at,
     vec4i_at,
 )
-from balloon_usd.solver.kernels.device.coherent_load import vec2_seen, vec3_seen
-from balloon_usd.solver.kernels.device.soa import put, seen_in
+from balloon_usd.solver.kernels.device.coherent_load import coherent_vec2, coherent_vec3
+from balloon_usd.solver.kernels.device.soa import load_soa, store_soa
 from balloon_usd.solver.kernels.device.warp_reduce import (
-    lanes_max3,
-    lanes_most,
-    lanes_sum,
-    lanes_that,
-    lowest,
+    lowest_bit,
+    warp_ballot,
+    warp_max,
+    warp_max3,
+    warp_sum,
 )
 
 TARGETS = 2
@@ -47,9 +49,11 @@ OWN = wp.constant(256)
 FAR = wp.constant(1.0e6)
 """Farther than any wall, m."""
 NONE = wp.constant(1 << 30)
-"""Beyond any index."""
+"""Index beyond any other."""
 ROUNDED = wp.constant(1.001)
-"""What is left out together must not be within reach of anyone by rounding."""
+"""Inflation of a warp's bounding box, so that rounding culls nothing that is within reach of one of its
+lanes.
+"""
 NORMAL_DAMPING = wp.constant(0.3)
 """Damping of the approach, as a share of what would stop the vertex in one substep."""
 
@@ -93,8 +97,8 @@ def chunk_surface(
         hit_count[q] = 0
         high = wp.max(high, middle)
         low = wp.min(low, middle)
-    high = lanes_max3(high)
-    low = -lanes_max3(-low)
+    high = warp_max3(high)
+    low = -warp_max3(-low)
     if lane == 0:
         chunk_low[chunk] = low
         chunk_high[chunk] = high
@@ -131,7 +135,7 @@ def ring_radii(
     n = ring_around[r]
     for k in range(lane, n, wp.block_dim()):
         girth += wp.length(x[first + k] - x[first + (k + n - 1) % n])
-    girth = lanes_sum(girth)
+    girth = warp_sum(girth)
     if lane == 0:
         ring_radius[r] = girth / (2.0 * wp.pi)
 
@@ -202,7 +206,7 @@ def distance_beside(
 def may_meet(
     q: int,
     mine: int,
-    home: int,
+    bubble: int,
     place: wp.vec3,
     apart: float,
     quad_segment: wp.array[int],
@@ -211,7 +215,7 @@ def may_meet(
 ):
     """Return whether a quad may ever touch a vertex, given its balloon, bubble and place."""
     elsewhere = int_at(quad_balloon, q) != mine or wp.max(wp.abs(vec3_at(quad_place, q) - place)) > apart
-    return elsewhere or (home >= 0 and int_at(quad_segment, q) != home)
+    return elsewhere or (bubble >= 0 and int_at(quad_segment, q) != bubble)
 
 
 @wp.kernel
@@ -231,20 +235,20 @@ def find_own_walls(
     """Write for every vertex the first and the end of a run of quads about it that it never touches."""
     i = wp.tid()
     mine = vertex_balloon[i]
-    home = vertex_segment[i]
+    bubble = vertex_segment[i]
     place = vertex_place[i]
     apart = touch.apart * balloon_radius[mine]
     middle = wp.max(corners[i][0], 0) // 4
     first = wp.max(middle - OWN, 0)
     begin = int(middle)
     while begin > first and not may_meet(
-        wp.max(begin - 1, first), mine, home, place, apart, quad_segment, quad_place, quad_balloon
+        wp.max(begin - 1, first), mine, bubble, place, apart, quad_segment, quad_place, quad_balloon
     ):
         begin -= 1
     last = wp.min(middle + OWN, quads.shape[0]) - 1
     end = int(middle)
     while end <= last and not may_meet(
-        wp.min(end, last), mine, home, place, apart, quad_segment, quad_place, quad_balloon
+        wp.min(end, last), mine, bubble, place, apart, quad_segment, quad_place, quad_balloon
     ):
         end += 1
     vertex_own[i] = wp.vec2i(begin, end)
@@ -255,7 +259,7 @@ def distance_of_wall(
     q: int,
     d: wp.vec3,
     mine: int,
-    home: int,
+    bubble: int,
     place: wp.vec3,
     apart: float,
     depth: float,
@@ -273,10 +277,10 @@ def distance_of_wall(
 ):
     """Return the distance (m) of a vertex from a quad that faces it, or FAR where the two never meet.
 
-    `d`: from the quad's middle to the vertex, m; `mine`, `home`, `place`: its balloon, bubble and place.
+    `d`: from the quad's middle to the vertex, m; `mine`, `bubble`, `place`: its balloon, bubble and place.
     """
     distance = float(FAR)
-    if may_meet(q, mine, home, place, apart, quad_segment, quad_place, quad_balloon):
+    if may_meet(q, mine, bubble, place, apart, quad_segment, quad_place, quad_balloon):
         a = vec3_at(quad_area, q)
         size = wp.length(a)
         face = a / wp.max(size, 1.0e-12)
@@ -293,7 +297,7 @@ def weigh_wall(
     near: wp.vec2,
     nearest: wp.vec2i,
     mine: int,
-    home: int,
+    bubble: int,
     place: wp.vec3,
     apart: float,
     depth: float,
@@ -316,7 +320,7 @@ def weigh_wall(
         q,
         d,
         mine,
-        home,
+        bubble,
         place,
         apart,
         depth,
@@ -393,7 +397,7 @@ def enter_walls(
             if slot < MOST_HITS:
                 hits[found[k], slot] = 2 * i + k
         else:
-            put(contact_force, i, k, wp.vec3(0.0))
+            store_soa(contact_force, i, k, wp.vec3(0.0))
         target[i, k] = found[k]
         slip[i, k] = kept
 
@@ -438,7 +442,8 @@ def find_walls(
     """Choose for every vertex the nearest facing quads, of different bubbles, and enter it in their lists;
     write its outward unit normal and its share of the wall's area (m2).
 
-    On a GPU a warp of lanes for as many neighbours: what none of them reaches, they leave out together.
+    On a GPU a warp searches for 32 neighbouring vertices: a broad phase culls chunks by the bounding box of
+    the whole warp, a narrow phase measures each lane's own candidates.
     """
     group, lane = wp.tid()
     i = group * wp.block_dim() + lane
@@ -447,7 +452,7 @@ def find_walls(
     p = x[i]
     mine = vertex_balloon[i]
     # The bubble of a vertex; a ring between two bubbles belongs to neither.
-    home = vertex_segment[i]
+    bubble = vertex_segment[i]
     place = vertex_place[i]
     own = vertex_own[i]
     apart = touch.apart * balloon_radius[mine]
@@ -462,7 +467,7 @@ def find_walls(
     nearest = wp.vec2i(-1, -1)
     first = world_chunk[world]
     last = world_chunk[world + 1]
-    # A box about all that is within reach; neighbours may reach a little farther than each of them.
+    # Bounding box of the warp: what is within reach of any of its lanes.
     low = p - wp.vec3(ROUNDED * reach)
     high = p + wp.vec3(ROUNDED * reach)
     own_of_all = own
@@ -472,17 +477,17 @@ def find_walls(
         low = wp.vec3(FAR)
         high = wp.vec3(-FAR)
         own_of_all = wp.vec2i(-NONE, NONE)
-    low = -lanes_max3(-low)
-    high = lanes_max3(high)
-    own_of_all = wp.vec2i(lanes_most(own_of_all[0]), -lanes_most(-own_of_all[1]))
-    begin = -lanes_most(-first)
-    end = lanes_most(last)
+    low = -warp_max3(-low)
+    high = warp_max3(high)
+    own_of_all = wp.vec2i(warp_max(own_of_all[0]), -warp_max(-own_of_all[1]))
+    begin = -warp_max(-first)
+    end = warp_max(last)
     while begin < end:
         some = int(0)
         if begin + lane < end:
             chunk_l = vec3_at(chunk_low, begin + lane)
             chunk_h = vec3_at(chunk_high, begin + lane)
-            # Most are far away along the balloon already.
+            # Broad phase: the first axis already culls most chunks.
             if chunk_l[0] < high[0] and chunk_h[0] > low[0]:
                 if (
                     chunk_l[1] < high[1]
@@ -494,14 +499,14 @@ def find_walls(
                         chunk_quad, begin + lane + 1
                     ):
                         some = 1
-        chunks = lanes_that(some)
+        chunks = warp_ballot(some)
         while chunks != 0:
-            chunk = begin + lowest(chunks)
+            chunk = begin + lowest_bit(chunks)
             chunks &= chunks - 1
             base = int_at(chunk_quad, chunk)
             first_quad = int(base)
             end_quad = int_at(chunk_quad, chunk + 1)
-            # Its own at one end of them are left out.
+            # Trim the vertex's own neighbourhood from either end of the chunk.
             if own[0] <= base:
                 first_quad = wp.max(first_quad, own[1])
             if own[1] >= end_quad:
@@ -510,15 +515,15 @@ def find_walls(
             close = int(0)
             if chunk >= first and chunk < last and wp.dot(off, off) < reach * reach:
                 close = close_quads(base, first_quad, end_quad, p, reach, quad_middle)
-            # Together as long as anyone has one: to weigh takes long.
-            while lanes_that(wp.where(close != 0, 1, 0)) != 0:
+            # Narrow phase: every lane tests one candidate a round, until no lane has any left.
+            while warp_ballot(wp.where(close != 0, 1, 0)) != 0:
                 if close != 0:
                     near, nearest = weigh_wall(
-                        base + lowest(close),
+                        base + lowest_bit(close),
                         near,
                         nearest,
                         mine,
-                        home,
+                        bubble,
                         place,
                         apart,
                         depth,
@@ -571,8 +576,8 @@ def order_hits(
     pressed_count: wp.array[int],
     pressed: wp.array[int],
 ):
-    """Sort every quad's list, so that sums do not depend on which thread came first; remember the longest
-    list, and which quads have any.
+    """Sort every quad's list, so that sums do not depend on the order of threads; remember the longest list,
+    and which quads have any.
     """
     q = wp.tid()
     count = hit_count[q]
@@ -605,7 +610,7 @@ def limits_of_pair(
     target: wp.array2d[int],
     hit_count: wp.array[int],
 ):
-    """Return what stays the same between two searches for a vertex that touches a quad: the quad's vertices,
+    """Return what stays constant between two searches for a vertex that touches a quad: the quad's vertices,
     the stiffness (N/m), the damping (N s/m), the friction, and how far beside the quad it is held (m).
     """
     i = pair >> 1
@@ -646,19 +651,19 @@ def press_wall(
     """
     i = pair >> 1
     k = pair & 1
-    p = vec3_seen(x, i)
-    x0 = vec3_seen(x, c[0])
-    x1 = vec3_seen(x, c[1])
-    x2 = vec3_seen(x, c[2])
-    x3 = vec3_seen(x, c[3])
-    # Read before it is known whether they are needed: then nothing waits for them.
-    speed = vec3_seen(v, i)
-    v0 = vec3_seen(v, c[0])
-    v1 = vec3_seen(v, c[1])
-    v2 = vec3_seen(v, c[2])
-    v3 = vec3_seen(v, c[3])
+    p = coherent_vec3(x, i)
+    x0 = coherent_vec3(x, c[0])
+    x1 = coherent_vec3(x, c[1])
+    x2 = coherent_vec3(x, c[2])
+    x3 = coherent_vec3(x, c[3])
+    # Prefetch: loaded before the test that may not need them.
+    speed = coherent_vec3(v, i)
+    v0 = coherent_vec3(v, c[0])
+    v1 = coherent_vec3(v, c[1])
+    v2 = coherent_vec3(v, c[2])
+    v3 = coherent_vec3(v, c[3])
     slipped = slip[i, k]
-    # It slides little in a substep: one step from where it was is enough.
+    # Warm start: it slides little in a substep, so one iteration is enough.
     place = nearer_on_patch(x0, x1, x2, x3, p, vec2_at(contact_place, pair))
     s = patch_shares(place)
     gap = p - (s[0] * x0 + s[1] * x1 + s[2] * x2 + s[3] * x3)
@@ -683,7 +688,7 @@ def press_wall(
             moved = moved * (hold / far)
         f = push * face - grip * moved
     slip[i, k] = moved
-    put(contact_force, i, k, f)
+    store_soa(contact_force, i, k, f)
     contact_place[pair] = place
 
 
@@ -712,10 +717,10 @@ def press_quad_back(
     """Take from the corners of a quad what the vertices that touch it felt, forces and torques."""
     count = int_at(hit_count, q)
     c = vec4i_at(quads, q)
-    x0 = vec3_seen(x, c[0])
-    x1 = vec3_seen(x, c[1])
-    x2 = vec3_seen(x, c[2])
-    x3 = vec3_seen(x, c[3])
+    x0 = coherent_vec3(x, c[0])
+    x1 = coherent_vec3(x, c[1])
+    x2 = coherent_vec3(x, c[2])
+    x3 = coherent_vec3(x, c[3])
     middle = 0.25 * (x0 + x1 + x2 + x3)
     r0 = x0 - middle
     r1 = x1 - middle
@@ -728,16 +733,16 @@ def press_quad_back(
     couple = wp.vec3(0.0)
     for k in range(count):
         hit = int_in(hits, q, k)
-        f = seen_in(contact_force, hit // 2, hit % 2)
-        share = patch_shares(vec2_seen(contact_place, hit))
+        f = load_soa(contact_force, hit // 2, hit % 2)
+        share = patch_shares(coherent_vec2(contact_place, hit))
         f0 += share[0] * f
         f1 += share[1] * f
         f2 += share[2] * f
         f3 += share[3] * f
         touched = middle + share[0] * r0 + share[1] * r1 + share[2] * r2 + share[3] * r3
-        couple += wp.cross(vec3_seen(x, hit // 2) - touched, f)
+        couple += wp.cross(coherent_vec3(x, hit // 2) - touched, f)
     turn = balancing_turn(r0, r1, r2, r3, couple)
-    put(corner_force, q, 0, seen_in(corner_force, q, 0) - f0 - wp.cross(turn, r0))
-    put(corner_force, q, 1, seen_in(corner_force, q, 1) - f1 - wp.cross(turn, r1))
-    put(corner_force, q, 2, seen_in(corner_force, q, 2) - f2 - wp.cross(turn, r2))
-    put(corner_force, q, 3, seen_in(corner_force, q, 3) - f3 - wp.cross(turn, r3))
+    store_soa(corner_force, q, 0, load_soa(corner_force, q, 0) - f0 - wp.cross(turn, r0))
+    store_soa(corner_force, q, 1, load_soa(corner_force, q, 1) - f1 - wp.cross(turn, r1))
+    store_soa(corner_force, q, 2, load_soa(corner_force, q, 2) - f2 - wp.cross(turn, r2))
+    store_soa(corner_force, q, 3, load_soa(corner_force, q, 3) - f3 - wp.cross(turn, r3))

@@ -5,8 +5,8 @@ nor shorter than its rubber.
 import warp as wp
 
 from balloon_usd.solver.kernels.device.array_access import float_at, int_at, put_vec3, vec2_at
-from balloon_usd.solver.kernels.device.coherent_load import vec3_seen
-from balloon_usd.solver.kernels.device.warp_reduce import lanes_sum, lanes_sum3
+from balloon_usd.solver.kernels.device.coherent_load import coherent_vec3
+from balloon_usd.solver.kernels.device.warp_reduce import warp_sum, warp_sum3
 from balloon_usd.solver.kernels.physics.joints import nearest_axes
 
 THIN = wp.constant(4.0)
@@ -56,11 +56,11 @@ def thin_between(
 @wp.func
 def ring_mean(first: int, n: int, lane: int, lanes: int, x: wp.array[wp.vec3]):
     """Return the middle (m) of a ring's vertices."""
-    origin = vec3_seen(x, first)
+    origin = coherent_vec3(x, first)
     c = wp.vec3(0.0)
     for k in range(lane, n, lanes):
-        c += vec3_seen(x, first + k) - origin
-    return origin + lanes_sum3(c, lanes) / float(n)
+        c += coherent_vec3(x, first + k) - origin
+    return origin + warp_sum3(c, lanes) / float(n)
 
 
 @wp.func
@@ -72,7 +72,7 @@ def keep_order(
     stiffness: float,
     lane: int,
     lanes: int,
-    corner: wp.array[wp.vec2],
+    ring_cos_sin: wp.array[wp.vec2],
     x: wp.array[wp.vec3],
     core_order: wp.array[wp.vec3],
 ):
@@ -84,12 +84,12 @@ def keep_order(
     a = wp.vec3(0.0)
     b = wp.vec3(0.0)
     for k in range(lane, n, lanes):
-        arm = vec3_seen(x, first + k) - middle
-        at = vec2_at(corner, first + k)
+        arm = coherent_vec3(x, first + k) - middle
+        at = vec2_at(ring_cos_sin, first + k)
         a += at[0] * arm
         b += at[1] * arm
-    a = lanes_sum3(a, lanes)
-    b = lanes_sum3(b, lanes)
+    a = warp_sum3(a, lanes)
+    b = warp_sum3(b, lanes)
     # In its plane it is turned so that the forces have no torque at all.
     axes = nearest_axes(a, b)
     p = axes * wp.vec2(1.0, 0.0)
@@ -101,8 +101,8 @@ def keep_order(
     pull = stiffness * wp.clamp(LOOSE - wp.length(u) / radius, 0.0, 1.0)
     for k in range(lane, n, lanes):
         i = first + k
-        at = vec2_at(corner, i)
-        put_vec3(core_order, i, pull * (at[0] * u + at[1] * w - (vec3_seen(x, i) - middle)))
+        at = vec2_at(ring_cos_sin, i)
+        put_vec3(core_order, i, pull * (at[0] * u + at[1] * w - (coherent_vec3(x, i) - middle)))
 
 
 @wp.func
@@ -112,7 +112,7 @@ def press_core(
     lanes: int,
     ring_first: wp.array[int],
     ring_around: wp.array[int],
-    corner: wp.array[wp.vec2],
+    ring_cos_sin: wp.array[wp.vec2],
     core_ring: wp.array[int],
     core_next: wp.array[int],
     core_radius: wp.array[float],
@@ -141,7 +141,7 @@ def press_core(
     c = ring_mean(first, n, lane, lanes, x)
     stiffness = STIFF * float_at(mass, first) / (dt * dt)
     if mine == 1:
-        keep_order(first, n, c, float_at(core_radius, m), stiffness, lane, lanes, corner, x, core_order)
+        keep_order(first, n, c, float_at(core_radius, m), stiffness, lane, lanes, ring_cos_sin, x, core_order)
     if between == 1:
         beyond = int_at(ring_first, int_at(core_ring, m + 1))
         row = float_at(core_row, m)
@@ -151,13 +151,13 @@ def press_core(
         radius = float_at(core_radius, m) * wp.sqrt(row / gap)
         pressed = float(0.0)
         for k in range(lane, n, lanes):
-            arm = 0.5 * ((vec3_seen(x, first + k) - c) + (vec3_seen(x, beyond + k) - d))
+            arm = 0.5 * ((coherent_vec3(x, first + k) - c) + (coherent_vec3(x, beyond + k) - d))
             far = wp.max(wp.length(arm), 1.0e-9)
             push = stiffness * wp.max(radius - far, 0.0)
             put_vec3(core_push, first + k, arm * (push / far))
             pressed += push
         # By the work of a core that keeps its volume: a hundredth shorter is half a hundredth thicker.
-        thrust = 0.5 * radius / gap * lanes_sum(pressed) / float(n)
+        thrust = 0.5 * radius / gap * warp_sum(pressed) / float(n)
         if lane == 0:
             put_vec3(core_thrust, m, (thrust / gap) * (d - c))
 
@@ -177,11 +177,11 @@ def force_of_cores(
     """
     f = wp.vec3(0.0)
     if keeps == 1:
-        f += vec3_seen(core_order, i)
+        f += coherent_vec3(core_order, i)
     if off_next == 1:
-        f += 0.5 * vec3_seen(core_push, i)
+        f += 0.5 * coherent_vec3(core_push, i)
     if off_last == 1:
-        f += 0.5 * vec3_seen(core_push, before)
+        f += 0.5 * coherent_vec3(core_push, before)
     return f
 
 
@@ -219,15 +219,15 @@ def yield_to_core(
     last = first
     thrust = wp.vec3(0.0)
     if off_next == 1:
-        thrust -= vec3_seen(core_thrust, m)
+        thrust -= coherent_vec3(core_thrust, m)
     if off_last == 1:
-        thrust += vec3_seen(core_thrust, m - 1)
+        thrust += coherent_vec3(core_thrust, m - 1)
         last = int_at(ring_first, int_at(core_ring, m - 1))
     total = wp.vec3(0.0)
     for k in range(lane, n, lanes):
         total += force_of_cores(first + k, last + k, keeps, off_next, off_last, core_order, core_push)
-    thrust -= lanes_sum3(total, lanes) / float(n)
+    thrust -= warp_sum3(total, lanes) / float(n)
     for k in range(lane, n, lanes):
         i = first + k
         f = force_of_cores(i, last + k, keeps, off_next, off_last, core_order, core_push)
-        put_vec3(v, i, vec3_seen(v, i) + (f + thrust) * (dt / float_at(mass, i)))
+        put_vec3(v, i, coherent_vec3(v, i) + (f + thrust) * (dt / float_at(mass, i)))

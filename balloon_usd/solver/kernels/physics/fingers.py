@@ -3,7 +3,7 @@
 import warp as wp
 
 from balloon_usd.solver.kernels.device.array_access import float_at, int_at, put_vec3
-from balloon_usd.solver.kernels.device.coherent_load import vec3_seen
+from balloon_usd.solver.kernels.device.coherent_load import coherent_vec3
 
 
 @wp.struct
@@ -43,8 +43,8 @@ def press_finger(
         finger = fingers[int_at(vertex_balloon, i)]
         load = share * wp.lerp(finger.load_start, finger.load_end, fraction) * (dt / float_at(mass, i))
         tip = finger.start + fraction * (finger.end - finger.start)
-        behind = wp.max(wp.dot(tip - vec3_seen(x, i), finger.along), 0.0)
-        put_vec3(v, i, vec3_seen(v, i) + (load + share * finger.stiff * behind / dt) * finger.along)
+        behind = wp.max(wp.dot(tip - coherent_vec3(x, i), finger.along), 0.0)
+        put_vec3(v, i, coherent_vec3(v, i) + (load + share * finger.stiff * behind / dt) * finger.along)
 
 
 @wp.kernel

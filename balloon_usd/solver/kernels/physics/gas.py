@@ -3,8 +3,8 @@
 import warp as wp
 
 from balloon_usd.solver.kernels.device.array_access import float_at, int_at, put_float, vec3_at, vec4i_at
-from balloon_usd.solver.kernels.device.barrier import lanes_meet
-from balloon_usd.solver.kernels.device.coherent_load import float_seen, vec3_seen
+from balloon_usd.solver.kernels.device.barrier import warp_barrier
+from balloon_usd.solver.kernels.device.coherent_load import coherent_float, coherent_vec3
 
 
 @wp.func
@@ -26,22 +26,22 @@ def volume_of_fans(
     """Return the volume (m3) between a point and the flat fans that close a segment's ends."""
     start = int_at(start_joint, s)
     end = int_at(end_joint, s)
-    # No load waits for a decision: where there is no ring, one is read and left out.
+    # Branch-free: clamp the index, load, then mask; the loads need not wait for the test.
     first = wp.max(start, 0)
     last = wp.max(end, 0)
-    begins = wp.dot(vec3_seen(ring_middle, first) - o, vec3_seen(ring_area, first))
-    ends = wp.dot(vec3_seen(ring_middle, last) - o, vec3_seen(ring_area, last))
+    begins = wp.dot(coherent_vec3(ring_middle, first) - o, coherent_vec3(ring_area, first))
+    ends = wp.dot(coherent_vec3(ring_middle, last) - o, coherent_vec3(ring_area, last))
     return (wp.where(end >= 0, ends, 0.0) - wp.where(start >= 0, begins, 0.0)) / 3.0
 
 
 @wp.func
 def shares_of_chunks(c: int, apart: int, end: int, chunk_share: wp.array[float]):
-    """Return the volume (m3) at four chunks, so many apart and those below an end: none waits for another."""
-    # No load waits for a decision: where there is no chunk, one is read and left out.
-    a = float_seen(chunk_share, wp.min(c, end - 1))
-    b = float_seen(chunk_share, wp.min(c + apart, end - 1))
-    d = float_seen(chunk_share, wp.min(c + 2 * apart, end - 1))
-    e = float_seen(chunk_share, wp.min(c + 3 * apart, end - 1))
+    """Return the volume (m3) of four chunks at a stride `apart`, those below `end`: four loads in flight."""
+    # Branch-free, as above.
+    a = coherent_float(chunk_share, wp.min(c, end - 1))
+    b = coherent_float(chunk_share, wp.min(c + apart, end - 1))
+    d = coherent_float(chunk_share, wp.min(c + 2 * apart, end - 1))
+    e = coherent_float(chunk_share, wp.min(c + 3 * apart, end - 1))
     total = wp.where(c < end, a, 0.0) + wp.where(c + apart < end, b, 0.0)
     return total + (wp.where(c + 2 * apart < end, d, 0.0) + wp.where(c + 3 * apart < end, e, 0.0))
 
@@ -115,11 +115,11 @@ def press_chamber(
     pump_limit: float,
     pump_goal: wp.float64,
     volume: wp.array[float],
-    room: wp.array[float],
+    chamber_volume: wp.array[float],
     amount: wp.array[wp.float64],
     pressure: wp.array[float],
 ):
-    """Where a chamber of segments begins, pump gas into it and write its room (m3) and gauge pressure (Pa):
+    """Where a chamber of segments begins, pump gas into it and write its volume (m3) and gauge pressure (Pa):
     ideal, isothermal, p V = n R T. A chamber without gas of its own is open to the air (the nozzle's lip)
     and keeps its pressure.
     """
@@ -139,7 +139,7 @@ def press_chamber(
             now = float(gas * air.molar_energy) / space - air.atmosphere
             for k in range(begin, end + 1):
                 put_float(pressure, k, now)
-        put_float(room, end, space)
+        put_float(chamber_volume, end, space)
 
 
 @wp.func
@@ -149,7 +149,7 @@ def blow_through(
     gap: float,
     air: Air,
     dt: float,
-    room: wp.array[float],
+    chamber_volume: wp.array[float],
     pressure: wp.array[float],
 ):
     """Return the gas (mol) that flows in a substep through the neck behind segment `s`, an orifice of area
@@ -159,7 +159,11 @@ def blow_through(
     speed = wp.sqrt(2.0 * wp.abs(difference) / air.density)
     blown = air.discharge * gap * speed * dt * (float_at(pressure, end) + air.atmosphere)
     # No more than a share of what would even out both chambers, were their walls rigid.
-    both = float_at(room, s) * float_at(room, end) / (float_at(room, s) + float_at(room, end))
+    both = (
+        float_at(chamber_volume, s)
+        * float_at(chamber_volume, end)
+        / (float_at(chamber_volume, s) + float_at(chamber_volume, end))
+    )
     most = air.equalise * wp.abs(difference) * both
     return wp.float64(wp.sign(difference) * wp.min(blown, most)) / air.molar_energy
 
@@ -185,7 +189,7 @@ def advance_gas(
     pump_limit: wp.array[float],
     pump_goal: wp.array[wp.float64],
     volume: wp.array[float],
-    room: wp.array[float],
+    chamber_volume: wp.array[float],
     flow: wp.array[wp.float64],
     amount: wp.array[wp.float64],
     pressure: wp.array[float],
@@ -205,17 +209,19 @@ def advance_gas(
     for s in range(first + lane, last, lanes):
         begin = int_at(chamber_first, s)
         end = int_at(chamber_last, s)
-        press_chamber(s, begin, end, into, air, dt, inflow, limit, wanted, volume, room, amount, pressure)
+        press_chamber(
+            s, begin, end, into, air, dt, inflow, limit, wanted, volume, chamber_volume, amount, pressure
+        )
     if blows == 0:
         return
-    lanes_meet()
+    warp_barrier()
     for s in range(first + lane, last, lanes):
         flow[s] = wp.float64(0.0)
         if int_at(chamber_last, s) == s and s + 1 < last:
             gap = passage_of(int_at(end_joint, s), fraction, open_from, open_to)
             if gap > 0.0:
-                flow[s] = blow_through(s, int_at(chamber_last, s + 1), gap, air, dt, room, pressure)
-    lanes_meet()
+                flow[s] = blow_through(s, int_at(chamber_last, s + 1), gap, air, dt, chamber_volume, pressure)
+    warp_barrier()
     for s in range(first + lane, last, lanes):
         # What a neck lets through leaves one chamber's last segment for the next one's.
         if int_at(chamber_last, s) == s:

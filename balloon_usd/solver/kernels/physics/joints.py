@@ -14,9 +14,9 @@ from balloon_usd.solver.kernels.device.array_access import (
     vec2i_at,
     vec3_at,
 )
-from balloon_usd.solver.kernels.device.barrier import lanes_meet
-from balloon_usd.solver.kernels.device.coherent_load import float_seen, vec3_seen
-from balloon_usd.solver.kernels.device.warp_reduce import lanes_sum3, lanes_sum_all, lanes_that
+from balloon_usd.solver.kernels.device.barrier import warp_barrier
+from balloon_usd.solver.kernels.device.coherent_load import coherent_float, coherent_vec3
+from balloon_usd.solver.kernels.device.warp_reduce import warp_ballot, warp_sum3, warp_sum8
 from balloon_usd.solver.kernels.physics.gas import fan_gradient
 from balloon_usd.solver.kernels.physics.motion import Spin, force_on_vertex, step_of_vertex
 
@@ -101,7 +101,7 @@ def ring_fan(first: int, n: int, c: wp.vec3, lane: int, lanes: int, x: wp.array[
     """
     fan = wp.vec3(0.0)
     for k in range(lane, n, lanes):
-        fan += wp.cross(vec3_seen(x, first + (k + n - 1) % n) - c, vec3_seen(x, first + k) - c)
+        fan += wp.cross(coherent_vec3(x, first + (k + n - 1) % n) - c, coherent_vec3(x, first + k) - c)
     return 0.5 * fan
 
 
@@ -118,11 +118,11 @@ def block_of_joint(j: int, first: int, blocks: int, joint_leader: wp.array[int])
 def joints_of_block(
     j: int, first: int, end: int, block: int, blocks: int, joint_leader: wp.array[int]
 ) -> int:
-    """Return the bits of the lanes of a warp whose joint `j`, if below `end`, is one of this block's."""
+    """Return the mask of the lanes of a warp whose joint `j`, if below `end`, is this block's."""
     mine = int(0)
     if j < end:
         mine = wp.where(block_of_joint(j, first, blocks, joint_leader) == block, 1, 0)
-    return lanes_that(mine)
+    return warp_ballot(mine)
 
 
 @wp.func
@@ -142,7 +142,7 @@ def measure_open_ring(
     if int_at(joint_parts, j) == 1 and float_at(radius_to, j) == 0.0:
         first = int_at(joint_first, j)
         n = int_at(joint_around, j)
-        area = lanes_sum3(ring_fan(first, n, vec3_seen(ring_middle, j), lane, lanes, x), lanes)
+        area = warp_sum3(ring_fan(first, n, coherent_vec3(ring_middle, j), lane, lanes, x), lanes)
         if lane == 0:
             put_vec3(ring_area, j, area)
 
@@ -170,9 +170,9 @@ def move_joint(
     joint_parts: wp.array[int],
     joint_beside: wp.array[wp.vec2i],
     joint_struts: wp.array2d[int],
-    corner: wp.array[wp.vec2],
+    ring_cos_sin: wp.array[wp.vec2],
     mass: wp.array[float],
-    weight: wp.array[float],
+    true_mass: wp.array[float],
     joint_mass: wp.array[float],
     gravity: wp.array[float],
     drag: wp.array[float],
@@ -190,7 +190,7 @@ def move_joint(
     radius_to: wp.array[float],
     contact_force: wp.array2d[float],
     corner_force: wp.array2d[float],
-    lift: wp.array2d[float],
+    volume_gradient: wp.array2d[float],
     pressure: wp.array[float],
     strut_force: wp.array[wp.vec3],
     x_next: wp.array[wp.vec3],
@@ -205,8 +205,9 @@ def move_joint(
     """Move the ring of a joint by the forces on it, hold, lead and close it, and write where it is and what
     the hand feels.
 
-    Places in m, vector areas in m2, speeds in m/s, loads in N. Every lane has its own vertices; `x_next`
-    keeps them where it has several. `idle`: only keep the other half of the warp company.
+    Positions in m, vector areas in m2, velocities in m/s, loads in N. Every lane has its own vertices;
+    `x_next` keeps them where it has several. `idle`: take part in the shuffles and barriers of the warp,
+    write nothing.
     """
     first = int_at(joint_first, j)
     n = int_at(joint_around, j)
@@ -219,24 +220,24 @@ def move_joint(
     start = vec3_at(hand_from, j)
     goal = start + fraction * (vec3_at(hand_to, j) - start)
     wanted = (vec3_at(hand_to, j) - start) / frame_seconds
-    # All places are taken from where the middle was: sums of small numbers lose nothing.
-    home = vec3_at(ring_middle, j)
-    area = vec3_seen(ring_area, j)
+    # Positions relative to the old middle: sums of small numbers keep their digits.
+    old_middle = vec3_at(ring_middle, j)
+    area = coherent_vec3(ring_area, j)
     axes = ring_axes[j]
     beside = vec2i_at(joint_beside, j)
     side = beside[0]
-    inside = float_seen(pressure, side)
-    outside = float_seen(pressure, beside[1])
+    inside = coherent_float(pressure, side)
+    outside = coherent_float(pressure, beside[1])
     heavy = float_at(joint_mass, j)
     grip = float_at(hand_force, j)
     stiffness = float_at(hand_stiffness, j)
     free = vec3_at(hand_free, j)
     # The sine of the angle between two corners.
-    sine = vec2_at(corner, first + 1)[1]
-    # Read now, needed last: nothing waits for it then.
+    sine = vec2_at(ring_cos_sin, first + 1)[1]
+    # Prefetch: issued early to hide its latency.
     slots = joint_struts.shape[1]
     strut = wp.where(lane < slots, int_in(joint_struts, j, wp.min(lane, slots - 1)), 0)
-    pull = vec3_seen(strut_force, wp.max(wp.abs(strut) - 1, 0))
+    pull = coherent_vec3(strut_force, wp.max(wp.abs(strut) - 1, 0))
     p = wp.vec3(0.0)
     s = wp.vec3(0.0)
     c = wp.vec3(0.0)
@@ -249,16 +250,18 @@ def move_joint(
     for k in range(lane, mine, lanes):
         i = first + k
         f = force_on_vertex(
-            i, side, inside, outside, corners, quad_segment, contact_force, corner_force, lift
+            i, side, inside, outside, corners, quad_segment, contact_force, corner_force, volume_gradient
         )
         if parts == 1:
             chord = vec3_at(x, first + (k + 1) % n) - vec3_at(x, first + (k + n - 1) % n)
-            f += (inside - outside) * fan_gradient(vec3_at(x, i) - home, chord, area, 1.0 / float(n))
-        p, s = step_of_vertex(i, f, vertex_balloon, vertex_along, mass, weight, gravity, drag, dt, spin, x, v)
+            f += (inside - outside) * fan_gradient(vec3_at(x, i) - old_middle, chord, area, 1.0 / float(n))
+        p, s = step_of_vertex(
+            i, f, vertex_balloon, vertex_along, mass, true_mass, gravity, drag, dt, spin, x, v
+        )
         put_vec3(x_next, i, p)
         put_vec3(v, i, s)
-        d = p - home
-        at = vec2_at(corner, i)
+        d = p - old_middle
+        at = vec2_at(ring_cos_sin, i)
         c += d
         w += s
         a += at[0] * d
@@ -269,13 +272,13 @@ def move_joint(
     force = pull_on_end(strut, pull)
     for k in range(lane + lanes, slots, lanes):
         strut = int_in(joint_struts, j, k)
-        pull = vec3_seen(strut_force, wp.max(wp.abs(strut) - 1, 0))
+        pull = coherent_vec3(strut_force, wp.max(wp.abs(strut) - 1, 0))
         force += pull_on_end(strut, pull)
-    sums = lanes_sum_all(force, c, w, a, b, va, vb, own, lanes)
+    sums = warp_sum8(force, c, w, a, b, va, vb, own, lanes)
     force = sums[0]
     c = sums[1] / float(n)
     w = sums[2] / float(n)
-    away = goal - home - c
+    away = goal - old_middle - c
     load = wp.vec3(0.0)
     if mode == LEAD:
         load = lead_load(away, w - wanted, stiffness, heavy, grip, free)
@@ -297,22 +300,22 @@ def move_joint(
         if closed > 0.0:
             normal = wp.cross(axes * wp.vec2(1.0, 0.0), axes * wp.vec2(0.0, 1.0))
             area = (0.5 * float(n) * sine * closed * closed) * normal
-    lanes_meet()
+    warp_barrier()
     for k in range(lane, mine, lanes):
         i = first + k
         if lanes < n:
             p = vec3_at(x_next, i)
             s = vec3_at(v, i)
-        d = p - home
+        d = p - old_middle
         s += kick
         if closed > 0.0:
-            arm = axes * (closed * vec2_at(corner, i))
+            arm = axes * (closed * vec2_at(ring_cos_sin, i))
             s += (c + arm - d) / dt - wp.cross(turn, arm)
             d = c + arm
-        put_vec3(x, i, home + (d + shift))
+        put_vec3(x, i, old_middle + (d + shift))
         put_vec3(v, i, s)
     if lane == 0 and not idle:
-        put_vec3(ring_middle, j, home + (c + shift))
+        put_vec3(ring_middle, j, old_middle + (c + shift))
         put_vec3(ring_speed, j, w + kick)
         put_vec3(hand_load, j, load)
         ring_axes[j] = axes
@@ -323,7 +326,7 @@ def move_joint(
 def measure_rings(
     joint_first: wp.array[int],
     joint_around: wp.array[int],
-    corner: wp.array[wp.vec2],
+    ring_cos_sin: wp.array[wp.vec2],
     x: wp.array[wp.vec3],
     ring_middle: wp.array[wp.vec3],
     ring_area: wp.array[wp.vec3],
@@ -339,15 +342,15 @@ def measure_rings(
     n = int_at(joint_around, j)
     c = wp.vec3(0.0)
     for k in range(lane, n, lanes):
-        c += vec3_seen(x, first + k)
-    c = lanes_sum3(c, lanes) / float(n)
+        c += coherent_vec3(x, first + k)
+    c = warp_sum3(c, lanes) / float(n)
     a = wp.vec3(0.0)
     b = wp.vec3(0.0)
     for k in range(lane, n, lanes):
-        a += vec2_at(corner, first + k)[0] * (vec3_seen(x, first + k) - c)
-        b += vec2_at(corner, first + k)[1] * (vec3_seen(x, first + k) - c)
-    axes = nearest_axes(lanes_sum3(a, lanes), lanes_sum3(b, lanes))
-    area = lanes_sum3(ring_fan(first, n, c, lane, lanes, x), lanes)
+        a += vec2_at(ring_cos_sin, first + k)[0] * (coherent_vec3(x, first + k) - c)
+        b += vec2_at(ring_cos_sin, first + k)[1] * (coherent_vec3(x, first + k) - c)
+    axes = nearest_axes(warp_sum3(a, lanes), warp_sum3(b, lanes))
+    area = warp_sum3(ring_fan(first, n, c, lane, lanes, x), lanes)
     if lane == 0:
         put_vec3(ring_middle, j, c)
         put_vec3(ring_area, j, area)
@@ -387,7 +390,7 @@ def weld_joint_to_others(
     weld_shift: wp.array[wp.vec3],
 ):
     """Keep the neck of a joint beside the others of its weld, each pair at least its gap (m) and at most its
-    reach (m) apart; write how far it moves (m). `idle`: only keep the other half of the warp company.
+    reach (m) apart; write how far it moves (m). `idle`: take part in the shuffles of the warp, write nothing.
     """
     g = int_at(joint_weld, j) - 1
     first = int_at(joint_first, j)
@@ -405,7 +408,7 @@ def weld_joint_to_others(
         mass = float_at(joint_mass, other)
         share = wp.where(held(int_at(hand, other)) == 1, 1.0, mass / (mine + mass))
         shift += pair_shift(here, vec3_at(ring_middle, other), wp.where(other == j, 0.0, share), gap, reach)
-    shift = lanes_sum3(shift, lanes) / wp.max(float(size - 1), 1.0)
+    shift = warp_sum3(shift, lanes) / wp.max(float(size - 1), 1.0)
     if free:
         for m in range(lane, n, lanes):
             put_vec3(x, first + m, vec3_at(x, first + m) + shift)
@@ -437,7 +440,7 @@ def load_strut(
     ends = vec2i_at(strut_joint, s)
     pull = wp.vec3(0.0)
     if ends[0] >= 0:
-        d = vec3_seen(ring_middle, ends[1]) - vec3_seen(ring_middle, ends[0])
+        d = coherent_vec3(ring_middle, ends[1]) - coherent_vec3(ring_middle, ends[0])
         now = wp.length(d)
         along = d / wp.max(now, 1.0e-6)
         tension = float_at(strut_stiffness, s) * (now - float_at(strut_length, s))
@@ -448,7 +451,7 @@ def load_strut(
             put_float(strut_length, s, now + float_at(strut_yield, s) / float_at(strut_stiffness, s))
             tension = -float_at(strut_yield, s)
         tension += float_at(strut_damping, s) * wp.dot(
-            vec3_seen(ring_speed, ends[1]) - vec3_seen(ring_speed, ends[0]), along
+            coherent_vec3(ring_speed, ends[1]) - coherent_vec3(ring_speed, ends[0]), along
         )
         pull = tension * along
     put_vec3(strut_force, s, pull)

@@ -11,17 +11,17 @@ from balloon_usd.solver.kernels.device.array_access import (
     vec4_at,
     vec4i_at,
 )
-from balloon_usd.solver.kernels.device.coherent_load import vec3_seen
-from balloon_usd.solver.kernels.device.soa import put
+from balloon_usd.solver.kernels.device.coherent_load import coherent_vec3
+from balloon_usd.solver.kernels.device.soa import store_soa
 from balloon_usd.solver.kernels.physics.rubber import (
     LEAST_ENERGY,
-    Knot,
+    CurveSegment,
     Law,
     followed_stretches,
     membrane_law,
     softening_factor,
 )
-from balloon_usd.solver.kernels.physics.suspects import look_at_vertex
+from balloon_usd.solver.kernels.physics.suspects import check_vertex
 
 MIN_STRETCH = wp.constant(0.05)
 """Smallest stretch that enters a rubber law (1): a collapsed quad must not divide by zero."""
@@ -129,7 +129,7 @@ def forces_of_quad(
     """Return the force (N) of the wall on the four corners of a quad and its peak energy (J/m3) hereafter.
 
     `volume`: of its rubber, m3; `known`: its peak energy so far; `large2`, `small2`: its squared stretches;
-    `t`: what the law says of these. There are no decisions: a CPU does many quads at once.
+    `t`: the law's stresses and energy at these. Branch-free, so that CPU compilers vectorise it over quads.
     """
     hoop, axial = edges_of_quad(x0, x1, x2, x3)
     f1, f2 = gradient_of_quad(hoop, axial, b)
@@ -137,7 +137,7 @@ def forces_of_quad(
     c22 = wp.dot(f2, f2)
     c12 = wp.dot(f1, f2)
 
-    # Divisions come first: nothing waits for them then.
+    # Divisions are issued first: their latency overlaps what follows.
     inverse_known = 1.0 / wp.max(known, LEAST_ENERGY)
     apart = large2 - small2
     inverse_apart = 1.0 / wp.max(apart, SLACK)
@@ -179,7 +179,7 @@ def forces_of_quad(
 
 
 @wp.func
-def lifts_of_quad(x0: wp.vec3, x1: wp.vec3, x2: wp.vec3, x3: wp.vec3, origin: wp.vec3):
+def volume_gradients_of_quad(x0: wp.vec3, x1: wp.vec3, x2: wp.vec3, x3: wp.vec3, origin: wp.vec3):
     """Return the exact gradients (m2) of the volume between a quad, a bilinear patch, and an origin by its
     four corners, which gas pushes on, and the volume (m3).
     """
@@ -203,35 +203,35 @@ def wall_of_quad(
     q: int,
     quads: wp.array[wp.vec4i],
     quad_law: wp.array[int],
-    to_rest: wp.array[wp.mat22],
+    rest_inverse: wp.array[wp.mat22],
     hourglass: wp.array[wp.vec4],
     rubber_volume: wp.array[float],
     laws: wp.array[Law],
-    curves: wp.array[Knot],
+    curves: wp.array[CurveSegment],
     x: wp.array[wp.vec3],
     v: wp.array[wp.vec3],
     origin: wp.vec3,
     softening_rate: wp.array[float],
     peak_energy: wp.array[float],
     corner_force: wp.array2d[float],
-    lift: wp.array2d[float],
+    volume_gradient: wp.array2d[float],
 ):
-    """Write the force (N) of the wall on the four corners of a quad and what gas will push on (m2), and
-    return the volume (m3) between the quad and an origin.
+    """Write the force (N) of the wall on the four corners of a quad and the gradient of the volume (m2) by
+    them, and return the volume (m3) between the quad and an origin.
     """
     c = vec4i_at(quads, q)
     mine = int_at(quad_law, q)
     law = laws[mine]
-    x0 = vec3_seen(x, c[0])
-    x1 = vec3_seen(x, c[1])
-    x2 = vec3_seen(x, c[2])
-    x3 = vec3_seen(x, c[3])
-    # Read with the places: nothing waits for them then.
-    v0 = vec3_seen(v, c[0])
-    v1 = vec3_seen(v, c[1])
-    v2 = vec3_seen(v, c[2])
-    v3 = vec3_seen(v, c[3])
-    b = mat22_at(to_rest, q)
+    x0 = coherent_vec3(x, c[0])
+    x1 = coherent_vec3(x, c[1])
+    x2 = coherent_vec3(x, c[2])
+    x3 = coherent_vec3(x, c[3])
+    # Prefetch: loads of the velocities overlap those of the positions.
+    v0 = coherent_vec3(v, c[0])
+    v1 = coherent_vec3(v, c[1])
+    v2 = coherent_vec3(v, c[2])
+    v3 = coherent_vec3(v, c[3])
+    b = mat22_at(rest_inverse, q)
     large2, small2 = stretches_of_quad(x0, x1, x2, x3, b)
     t = wp.vec3(0.0)
     if large2 > 1.0:
@@ -256,23 +256,25 @@ def wall_of_quad(
         v3,
     )
     put_float(peak_energy, q, reached)
-    put(corner_force, q, 0, f0)
-    put(corner_force, q, 1, f1)
-    put(corner_force, q, 2, f2)
-    put(corner_force, q, 3, f3)
-    l0, l1, l2, l3, volume = lifts_of_quad(x0, x1, x2, x3, origin)
-    put(lift, q, 0, l0)
-    put(lift, q, 1, l1)
-    put(lift, q, 2, l2)
-    put(lift, q, 3, l3)
+    store_soa(corner_force, q, 0, f0)
+    store_soa(corner_force, q, 1, f1)
+    store_soa(corner_force, q, 2, f2)
+    store_soa(corner_force, q, 3, f3)
+    l0, l1, l2, l3, volume = volume_gradients_of_quad(x0, x1, x2, x3, origin)
+    store_soa(volume_gradient, q, 0, l0)
+    store_soa(volume_gradient, q, 1, l1)
+    store_soa(volume_gradient, q, 2, l2)
+    store_soa(volume_gradient, q, 3, l3)
     return volume
 
 
 @wp.func
-def stretch_of_quad(q: int, quads: wp.array[wp.vec4i], to_rest: wp.array[wp.mat22], x: wp.array[wp.vec3]):
+def stretch_of_quad(
+    q: int, quads: wp.array[wp.vec4i], rest_inverse: wp.array[wp.mat22], x: wp.array[wp.vec3]
+):
     """Return the largest principal stretch of a quad's mean deformation."""
     c = vec4i_at(quads, q)
-    b = mat22_at(to_rest, q)
+    b = mat22_at(rest_inverse, q)
     hoop, axial = edges_of_quad(vec3_at(x, c[0]), vec3_at(x, c[1]), vec3_at(x, c[2]), vec3_at(x, c[3]))
     f1, f2 = gradient_of_quad(hoop, axial, b)
     large2, _ = squared_stretches(f1, f2)
@@ -283,14 +285,14 @@ def stretch_of_quad(q: int, quads: wp.array[wp.vec4i], to_rest: wp.array[wp.mat2
 def vertex_stretch(
     corners: wp.array[wp.vec4i],
     quads: wp.array[wp.vec4i],
-    to_rest: wp.array[wp.mat22],
+    rest_inverse: wp.array[wp.mat22],
     vertex_balloon: wp.array[int],
     balloon_world: wp.array[int],
-    most_way: float,
-    most_stretch: wp.array[float],
+    travel_limit: float,
+    stretch_limit: wp.array[float],
     x: wp.array[wp.vec3],
     stretch: wp.array[float],
-    x_shown: wp.array[wp.vec3],
+    x_checked: wp.array[wp.vec3],
     suspects: wp.array[int],
 ):
     """Write the largest principal stretch of the wall at every vertex, the mean over its quads, and mark the
@@ -304,9 +306,9 @@ def vertex_stretch(
         slots = vec4i_at(corners, row)
         for k in range(4):
             if slots[k] >= 0:
-                total += stretch_of_quad(slots[k] // 4, quads, to_rest, x)
+                total += stretch_of_quad(slots[k] // 4, quads, rest_inverse, x)
                 count += 1.0
         row = -2 - slots[3]
     mean = total / wp.max(count, 1.0)
     put_float(stretch, i, mean)
-    look_at_vertex(i, mean, vertex_balloon, balloon_world, most_way, most_stretch, x, x_shown, suspects)
+    check_vertex(i, mean, vertex_balloon, balloon_world, travel_limit, stretch_limit, x, x_checked, suspects)

@@ -1,9 +1,7 @@
-"""Walls of many quads side by side: a core of a CPU does in one instruction the same for several numbers that
-lie in a row.
+"""SIMD membrane forces of a CPU: sixteen quads at a time, gathered into rows of one coordinate each.
 
-Compilers make such instructions of loops without decisions whose numbers lie in rows, one row for each
-coordinate. So quads are laid in rows first, and what comes of them is taken from rows last. All is in one
-function: rows handed to another would be copied.
+Compilers vectorise branch-free loops over such rows. So quads are gathered first, and results scattered last.
+All is in one function: rows handed to another would be copied.
 """
 
 import warp as wp
@@ -17,47 +15,49 @@ from balloon_usd.solver.kernels.device.array_access import (
     vec4_at,
     vec4i_at,
 )
-from balloon_usd.solver.kernels.device.soa import put
+from balloon_usd.solver.kernels.device.soa import store_soa
 from balloon_usd.solver.kernels.physics.membrane import (
     forces_of_quad,
-    lifts_of_quad,
     stretches_of_quad,
+    volume_gradients_of_quad,
 )
-from balloon_usd.solver.kernels.physics.rubber import Knot, Law, followed_stretches, membrane_law
+from balloon_usd.solver.kernels.physics.rubber import CurveSegment, Law, followed_stretches, membrane_law
 
-ABREAST = 16
-"""Quads in a row: as many floats as the widest registers hold."""
-ROW = wp.constant(ABREAST)
+SIMD_QUADS = 16
+"""Quads in a row: as many floats as the widest SIMD registers hold."""
+ROW = wp.constant(SIMD_QUADS)
 
-Given = wp.types.matrix(shape=(34, ABREAST), dtype=float)
-"""Rows of what is known of quads: places and speeds of their corners, rest shape, hourglass vectors, volume
-of rubber and peak energy.
+Given = wp.types.matrix(shape=(34, SIMD_QUADS), dtype=float)
+"""Rows of what is gathered: positions (0-11) and velocities (12-23) of the four corners, inverse rest edges
+(24-27), hourglass vectors (28-31), volume of rubber (32) and peak energy (33).
 """
-Asked = wp.types.matrix(shape=(5, ABREAST), dtype=float)
-"""Rows of two squared stretches, and of the three at which the law is taken or of what it says."""
-Found = wp.types.matrix(shape=(26, ABREAST), dtype=float)
-"""Rows of four forces, four lifts, volume and peak energy."""
+Asked = wp.types.matrix(shape=(5, SIMD_QUADS), dtype=float)
+"""Rows of two squared stretches (0, 1), and of the three at which the law is taken, then of its result (2-4).
+"""
+Found = wp.types.matrix(shape=(26, SIMD_QUADS), dtype=float)
+"""Rows of the results: four forces (0-11), four volume gradients (12-23), volume (24) and peak energy (25).
+"""
 
 
 @wp.func
-def walls_abreast(
+def walls_simd(
     begin: int,
     end: int,
     quads: wp.array[wp.vec4i],
     quad_law: wp.array[int],
     chunk_quad: wp.array[int],
     chunk_origin: wp.array[int],
-    to_rest: wp.array[wp.mat22],
+    rest_inverse: wp.array[wp.mat22],
     hourglass: wp.array[wp.vec4],
     rubber_volume: wp.array[float],
     laws: wp.array[Law],
-    curves: wp.array[Knot],
+    curves: wp.array[CurveSegment],
     x: wp.array[wp.vec3],
     v: wp.array[wp.vec3],
     softening_rate: wp.array[float],
     peak_energy: wp.array[float],
     corner_force: wp.array2d[float],
-    lift: wp.array2d[float],
+    volume_gradient: wp.array2d[float],
     chunk_share: wp.array[float],
 ):
     """Write what `wall_of_quad` does for the quads of chunks, each of one rubber, and the volume (m3) between
@@ -66,7 +66,7 @@ def walls_abreast(
     g = Given()
     a = Asked()
     r = Found()
-    # Counted by hand: compilers do not see through Warp's ranges.
+    # While loops: compilers do not vectorise Warp's ranges.
     chunk = int(begin)
     while chunk < end:
         first = int_at(chunk_quad, chunk)
@@ -79,7 +79,7 @@ def walls_abreast(
         while first < last:
             k = int(0)
             while k < ROW:
-                # The last quad stands for those that a row lacks.
+                # The last quad pads an incomplete row.
                 q = wp.min(first + k, last - 1)
                 c = vec4i_at(quads, q)
                 g[0:3, k] = vec3_at(x, c[0])
@@ -90,7 +90,7 @@ def walls_abreast(
                 g[15:18, k] = vec3_at(v, c[1])
                 g[18:21, k] = vec3_at(v, c[2])
                 g[21:24, k] = vec3_at(v, c[3])
-                b = mat22_at(to_rest, q)
+                b = mat22_at(rest_inverse, q)
                 g[24:26, k] = b[0]
                 g[26:28, k] = b[1]
                 g[28:32, k] = vec4_at(hourglass, q)
@@ -138,7 +138,9 @@ def walls_abreast(
                     g[18:21, k],
                     g[21:24, k],
                 )
-                l0, l1, l2, l3, volume = lifts_of_quad(g[0:3, k], g[3:6, k], g[6:9, k], g[9:12, k], origin)
+                l0, l1, l2, l3, volume = volume_gradients_of_quad(
+                    g[0:3, k], g[3:6, k], g[6:9, k], g[9:12, k], origin
+                )
                 r[0:3, k] = f0
                 r[3:6, k] = f1
                 r[6:9, k] = f2
@@ -153,14 +155,14 @@ def walls_abreast(
             k = int(0)
             while k < wp.min(ROW, last - first):
                 done = first + k
-                put(corner_force, done, 0, r[0:3, k])
-                put(corner_force, done, 1, r[3:6, k])
-                put(corner_force, done, 2, r[6:9, k])
-                put(corner_force, done, 3, r[9:12, k])
-                put(lift, done, 0, r[12:15, k])
-                put(lift, done, 1, r[15:18, k])
-                put(lift, done, 2, r[18:21, k])
-                put(lift, done, 3, r[21:24, k])
+                store_soa(corner_force, done, 0, r[0:3, k])
+                store_soa(corner_force, done, 1, r[3:6, k])
+                store_soa(corner_force, done, 2, r[6:9, k])
+                store_soa(corner_force, done, 3, r[9:12, k])
+                store_soa(volume_gradient, done, 0, r[12:15, k])
+                store_soa(volume_gradient, done, 1, r[15:18, k])
+                store_soa(volume_gradient, done, 2, r[18:21, k])
+                store_soa(volume_gradient, done, 3, r[21:24, k])
                 total += r[24, k]
                 put_float(peak_energy, done, r[25, k])
                 k += 1

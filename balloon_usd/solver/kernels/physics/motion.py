@@ -3,8 +3,8 @@
 import warp as wp
 
 from balloon_usd.solver.kernels.device.array_access import float_at, int_at, put_vec3, vec4i_at
-from balloon_usd.solver.kernels.device.coherent_load import float_seen, vec3_seen
-from balloon_usd.solver.kernels.device.soa import seen_in
+from balloon_usd.solver.kernels.device.coherent_load import coherent_float, coherent_vec3
+from balloon_usd.solver.kernels.device.soa import load_soa
 
 
 @wp.struct
@@ -37,7 +37,7 @@ def force_of_further_quads(
     inside: float,
     corners: wp.array[wp.vec4i],
     corner_force: wp.array2d[float],
-    lift: wp.array2d[float],
+    volume_gradient: wp.array2d[float],
 ):
     """Return the force (N) of the further quads at a vertex, with the gauge pressure (Pa) behind them.
 
@@ -51,7 +51,7 @@ def force_of_further_quads(
             if slots[k] >= 0:
                 q = slots[k] >> 2
                 corner = slots[k] & 3
-                f += seen_in(corner_force, q, corner) + inside * seen_in(lift, q, corner)
+                f += load_soa(corner_force, q, corner) + inside * load_soa(volume_gradient, q, corner)
         more = -2 - slots[3]
     return f
 
@@ -66,22 +66,22 @@ def force_on_vertex(
     quad_segment: wp.array[int],
     contact_force: wp.array2d[float],
     corner_force: wp.array2d[float],
-    lift: wp.array2d[float],
+    volume_gradient: wp.array2d[float],
 ):
     """Return the force (N) of wall, gas and other walls on a vertex.
 
     `inside`, `beyond`: gauge pressures (Pa) in the segment `side` and in the other that it may border on.
     """
     slots = vec4i_at(corners, i)
-    f = seen_in(contact_force, i, 0) + seen_in(contact_force, i, 1)
-    # No load waits for a decision: where there is no quad, another of the vertex is read and left out.
+    f = load_soa(contact_force, i, 0) + load_soa(contact_force, i, 1)
+    # Branch-free: an empty slot loads another quad of the vertex, and is masked.
     any_slot = wp.max(wp.max(slots[0], slots[1]), wp.max(slots[2], slots[3]))
     for k in range(4):
         slot = wp.where(slots[k] >= 0, slots[k], any_slot)
         q = slot >> 2
         corner = slot & 3
         p = wp.where(int_at(quad_segment, q) == side, inside, beyond)
-        g = seen_in(corner_force, q, corner) + p * seen_in(lift, q, corner)
+        g = load_soa(corner_force, q, corner) + p * load_soa(volume_gradient, q, corner)
         f += wp.where(slots[k] >= 0, g, wp.vec3(0.0))
     return f
 
@@ -93,7 +93,7 @@ def step_of_vertex(
     vertex_balloon: wp.array[int],
     vertex_along: wp.array[float],
     mass: wp.array[float],
-    weight: wp.array[float],
+    true_mass: wp.array[float],
     gravity: wp.array[float],
     drag: wp.array[float],
     dt: float,
@@ -107,11 +107,11 @@ def step_of_vertex(
     b = int_at(vertex_balloon, i)
     turn = spin[b]
     along = float_at(vertex_along, i)
-    pull = wp.vec3(0.0, 0.0, -float_at(gravity, b) * float_at(weight, i))
-    speed = (vec3_seen(v, i) + (f + pull) * (dt / float_at(mass, i))) * wp.max(
+    pull = wp.vec3(0.0, 0.0, -float_at(gravity, b) * float_at(true_mass, i))
+    speed = (coherent_vec3(v, i) + (f + pull) * (dt / float_at(mass, i))) * wp.max(
         1.0 - float_at(drag, b) * dt, 0.0
     )
-    p = vec3_seen(x, i) + speed * dt
+    p = coherent_vec3(x, i) + speed * dt
     rate = turn.back_rate
     axis = turn.back_axis
     drift = turn.back_drift
@@ -136,25 +136,29 @@ def move_vertex(
     quad_segment: wp.array[int],
     vertex_along: wp.array[float],
     mass: wp.array[float],
-    weight: wp.array[float],
+    true_mass: wp.array[float],
     gravity: wp.array[float],
     drag: wp.array[float],
     dt: float,
     spin: wp.array[Spin],
     contact_force: wp.array2d[float],
     corner_force: wp.array2d[float],
-    lift: wp.array2d[float],
+    volume_gradient: wp.array2d[float],
     pressure: wp.array[float],
     x: wp.array[wp.vec3],
     v: wp.array[wp.vec3],
 ):
     """Move a vertex (m) that belongs to no ring by the forces on it, and write its speed (m/s)."""
-    home = int_at(vertex_segment, i)
-    inside = float_seen(pressure, home)
-    f = force_on_vertex(i, home, inside, inside, corners, quad_segment, contact_force, corner_force, lift)
+    segment = int_at(vertex_segment, i)
+    inside = coherent_float(pressure, segment)
+    f = force_on_vertex(
+        i, segment, inside, inside, corners, quad_segment, contact_force, corner_force, volume_gradient
+    )
     last = vec4i_at(corners, i)[3]
     if last < -1:
-        f += force_of_further_quads(last, inside, corners, corner_force, lift)
-    p, speed = step_of_vertex(i, f, vertex_balloon, vertex_along, mass, weight, gravity, drag, dt, spin, x, v)
+        f += force_of_further_quads(last, inside, corners, corner_force, volume_gradient)
+    p, speed = step_of_vertex(
+        i, f, vertex_balloon, vertex_along, mass, true_mass, gravity, drag, dt, spin, x, v
+    )
     put_vec3(x, i, p)
     put_vec3(v, i, speed)

@@ -4,24 +4,26 @@ import warp as wp
 
 from balloon_usd.solver.kernels.device.native import native
 
-Knot = wp.types.matrix(shape=(2, 4), dtype=float)
-"""Cubic from a knot to the next, of stress and of energy: factors of the powers of the share of the way."""
+CurveSegment = wp.types.matrix(shape=(2, 4), dtype=float)
+"""One cubic of a spline, of stress and of energy: coefficients of the powers of the share of the way from its
+spline knot to the next.
+"""
 
 
 @wp.struct
 class Law:
     """One rubber: its curve and a Gent term, softening, and the numerical guards that go with them."""
 
-    first_knot: int
-    """First knot of the curve of its Ogden terms."""
-    last_knot: int
-    """Last one that a cubic begins at."""
-    zero_knot: int
-    """Knot that the bits of a squared stretch count from."""
+    first_segment: int
+    """First segment of the curve of its Ogden terms."""
+    last_segment: int
+    """Its last segment."""
+    zero_segment: int
+    """Segment that the bits of a squared stretch count from."""
     step_bits: int
-    """Bits of a squared stretch that lie within a step between two knots."""
+    """Bits of a squared stretch that lie within a segment."""
     step_share: float
-    """One of what these bits count, as a share of the step."""
+    """One of what these bits count, as a share of the segment."""
     most: float
     """Squared stretch at which the law is continued by its value, so that locking stays below a few times
     the rest stiffness.
@@ -54,22 +56,23 @@ ERF_6 = wp.constant(0.0000430638)
 
 
 @native("return curves.data[i];")
-def knot_at(curves: wp.array[Knot], i: int) -> Knot:
-    """Return a cubic, as others in `at`."""
+def curve_segment_at(curves: wp.array[CurveSegment], i: int) -> CurveSegment:
+    """Return a segment, unchecked."""
     return curves[i]
 
 
 @wp.func
-def on_curve(law: Law, curves: wp.array[Knot], squared: float):
+def on_curve(law: Law, curves: wp.array[CurveSegment], squared: float):
     """Return the Ogden sums of mu stretch^alpha (Pa) and mu / alpha (stretch^alpha - 1) (J/m3) at a squared
     stretch.
 
-    The bits of a float count octaves and, within them, even steps: they say which knot is the last before it.
+    The exponent of a float counts octaves and its leading mantissa bits even steps within them: together they
+    are the index of the segment.
     """
     bits = wp.cast(squared, wp.int32)
     t = float(bits & ((1 << law.step_bits) - 1)) * law.step_share
-    knot = wp.clamp(law.zero_knot + (bits >> law.step_bits), law.first_knot, law.last_knot)
-    c = knot_at(curves, knot)
+    segment = wp.clamp(law.zero_segment + (bits >> law.step_bits), law.first_segment, law.last_segment)
+    c = curve_segment_at(curves, segment)
     return wp.vec2(
         ((c[0, 3] * t + c[0, 2]) * t + c[0, 1]) * t + c[0, 0],
         ((c[1, 3] * t + c[1, 2]) * t + c[1, 1]) * t + c[1, 0],
@@ -90,7 +93,7 @@ def followed_stretches(law: Law, large2: float, small2: float):
 
 
 @wp.func
-def membrane_law(law: Law, curves: wp.array[Knot], squared: wp.vec3):
+def membrane_law(law: Law, curves: wp.array[CurveSegment], squared: wp.vec3):
     """Return dW/dlarge over large, dW/dsmall over small (Pa) and W (J/m3) from the squares of three stretches
     (Ogden 1972; Gent 1996).
     """

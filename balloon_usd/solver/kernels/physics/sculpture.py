@@ -1,5 +1,8 @@
-"""Whole substeps of sculptures in one launch: blocks of lanes that share one sculpture and wait for each
-other, in place of a launch for each law.
+"""The persistent kernel of the latex model: many substeps of all sculptures in one launch.
+
+Several blocks share a sculpture and synchronise after walls, gas and motion, in place of a launch for each
+law. Latency bounds it, not bandwidth: how long one value waits for the next. So loads are issued before
+anything depends on them, and idle threads take work from the far end of a loop.
 """
 
 import warp as wp
@@ -13,25 +16,25 @@ from balloon_usd.solver.kernels.device.array_access import (
     vec4_at,
     vec4i_at,
 )
-from balloon_usd.solver.kernels.device.barrier import block_meets, blocks_meet
-from balloon_usd.solver.kernels.device.coherent_load import vec3_seen
+from balloon_usd.solver.kernels.device.barrier import block_barrier, sculpture_barrier
+from balloon_usd.solver.kernels.device.coherent_load import coherent_vec3
 from balloon_usd.solver.kernels.device.shared_memory import (
-    FORCE_BYTES,
-    PLACE_BYTES,
-    at_home,
-    planes_here,
-    take_room,
-    vectors_here,
+    QUAD_BYTES,
+    VERTEX_BYTES,
+    is_resident,
+    reserve_shared_memory,
+    resident_soa,
+    resident_vectors,
 )
 from balloon_usd.solver.kernels.device.warp_reduce import (
-    ALL,
-    FEW,
+    SUBWARP,
+    WARP_LANES,
     bit_of_rank,
-    bits_in,
     block_lanes,
-    few_sum,
     joint_lanes,
-    lanes_sum,
+    popcount,
+    subwarp_sum,
+    warp_sum,
 )
 from balloon_usd.solver.kernels.physics.contact import Touch, limits_of_pair, press_quad_back, press_wall
 from balloon_usd.solver.kernels.physics.core import cores_may_pack, press_core, yield_to_core
@@ -48,23 +51,23 @@ from balloon_usd.solver.kernels.physics.joints import (
     weld_joint_to_others,
 )
 from balloon_usd.solver.kernels.physics.membrane import wall_of_quad
-from balloon_usd.solver.kernels.physics.membrane_simd import walls_abreast
+from balloon_usd.solver.kernels.physics.membrane_simd import walls_simd
 from balloon_usd.solver.kernels.physics.motion import Spin, move_vertex
-from balloon_usd.solver.kernels.physics.rubber import Knot, Law
+from balloon_usd.solver.kernels.physics.rubber import CurveSegment, Law
 
-# A product and a sum in one instruction: a tenth less time on a CPU.
+# Fused multiply-add: a tenth less time on a CPU.
 wp.set_module_options(
     {"cpu_compiler_flags": f"{wp.config.cpu_compiler_flags or '-march=native'} -ffp-contract=fast"}
 )
 
-PLACE = wp.constant(PLACE_BYTES)
-FORCE = wp.constant(FORCE_BYTES)
-FEW_LANES = wp.constant(FEW)
+VERTEX_SIZE = wp.constant(VERTEX_BYTES)
+QUAD_SIZE = wp.constant(QUAD_BYTES)
+SUBWARP_LANES = wp.constant(SUBWARP)
 
 
 @wp.kernel
 def advance_sculptures(
-    crew: int,
+    sculpture_blocks: int,
     joint_blocks: int,
     substeps: int,
     begin: int,
@@ -101,7 +104,7 @@ def advance_sculptures(
     joint_first: wp.array[int],
     joint_around: wp.array[int],
     joint_parts: wp.array[int],
-    corner: wp.array[wp.vec2],
+    ring_cos_sin: wp.array[wp.vec2],
     joint_beside: wp.array[wp.vec2i],
     joint_struts: wp.array2d[int],
     strut_joint: wp.array[wp.vec2i],
@@ -115,14 +118,14 @@ def advance_sculptures(
     core_next: wp.array[int],
     core_radius: wp.array[float],
     core_row: wp.array[float],
-    to_rest: wp.array[wp.mat22],
+    rest_inverse: wp.array[wp.mat22],
     hourglass: wp.array[wp.vec4],
     rubber_volume: wp.array[float],
     laws: wp.array[Law],
-    curves: wp.array[Knot],
+    curves: wp.array[CurveSegment],
     softening_rate: wp.array[float],
     mass: wp.array[float],
-    weight: wp.array[float],
+    true_mass: wp.array[float],
     joint_mass: wp.array[float],
     gravity: wp.array[float],
     drag: wp.array[float],
@@ -157,7 +160,7 @@ def advance_sculptures(
     ring_middle: wp.array[wp.vec3],
     ring_area: wp.array[wp.vec3],
     volume: wp.array[float],
-    room: wp.array[float],
+    chamber_volume: wp.array[float],
     flow: wp.array[wp.float64],
     amount: wp.array[wp.float64],
     pressure: wp.array[float],
@@ -179,7 +182,7 @@ def advance_sculptures(
     core_push: wp.array[wp.vec3],
     core_thrust: wp.array[wp.vec3],
     corner_force: wp.array2d[float],
-    lift: wp.array2d[float],
+    volume_gradient: wp.array2d[float],
     ring_speed: wp.array[wp.vec3],
     strut_length: wp.array[float],
     strut_force: wp.array[wp.vec3],
@@ -191,35 +194,35 @@ def advance_sculptures(
     chunk_share: wp.array[float],
     pair_corners: wp.array[wp.vec4i],
     pair_limits: wp.array[wp.vec4],
-    gates: wp.array[int],
+    barrier_counts: wp.array[int],
 ):
     """Advance every sculpture from substep `begin` to `end` of its frame.
 
-    `crew`: blocks of one sculpture, all of which must run at once; the first `joint_blocks` move joints.
-    `walls`: 1 where walls can touch; `pressing`: 1 where a finger presses. `gates`: zeros, at which its
-    blocks meet.
+    `sculpture_blocks`: of each sculpture, all of which must run at once; the first `joint_blocks` move
+    joints. `walls`: 1 where walls can touch; `pressing`: 1 where a finger presses. `barrier_counts`: zeros,
+    one for each sculpture.
     """
     tile, lane = wp.tid()
-    w = tile // crew
-    block = tile % crew
+    w = tile // sculpture_blocks
+    block = tile % sculpture_blocks
     block_size = block_lanes()
-    lanes = crew * block_size
-    me = block * block_size + lane
-    # Lanes that share a joint, a chunk or a segment: a warp; on the CPU one.
-    gang = wp.min(ALL, block_size)
-    one = lane % gang
-    few = wp.min(FEW_LANES, block_size)
-    # Lanes that move a joint, and how many such are in a warp.
-    team = wp.min(joint_lanes(), block_size)
-    teams = gang // team
-    warps = lanes // gang
-    warp = me // gang
-    block_warps = block_size // gang
-    block_warp = lane // gang
-    # The first block sees to the gas; where there are others, these see to the rest meanwhile.
-    others = wp.max(lanes - block_size, wp.min(lanes, block_size))
-    other = wp.where(crew > 1, me - block_size, me)
-    # What is the same in every substep is read once.
+    threads = sculpture_blocks * block_size
+    thread = block * block_size + lane
+    # A warp shares a chunk of quads, a segment or a balloon; on the CPU it has one lane.
+    warp_lanes = wp.min(WARP_LANES, block_size)
+    warp_lane = lane % warp_lanes
+    subwarp = wp.min(SUBWARP_LANES, block_size)
+    # Lanes that move one joint, and how many joints a warp moves at a time.
+    joint_group = wp.min(joint_lanes(), block_size)
+    joint_groups = warp_lanes // joint_group
+    warps = threads // warp_lanes
+    warp = thread // warp_lanes
+    block_warps = block_size // warp_lanes
+    block_warp = lane // warp_lanes
+    # Block 0 advances the gas; the other blocks, if any, do the rest of that phase meanwhile.
+    others = wp.max(threads - block_size, wp.min(threads, block_size))
+    other = wp.where(sculpture_blocks > 1, thread - block_size, thread)
+    # Loop invariants, loaded once.
     balloon_begin = int_at(world_balloon, w)
     balloon_end = int_at(world_balloon, w + 1)
     vertex_begin = int_at(world_vertex, w)
@@ -235,13 +238,15 @@ def advance_sculptures(
     core_begin = int_at(world_core, w)
     core_end = wp.where(walls == 1, int_at(world_core, w + 1), core_begin)
     welds = int_at(world_welds, w)
-    own_joints = joints_of_block(joint_begin + one, joint_begin, joint_end, block, joint_blocks, joint_leader)
+    own_joints = joints_of_block(
+        joint_begin + warp_lane, joint_begin, joint_end, block, joint_blocks, joint_leader
+    )
     pair_begin = 2 * vertex_begin
     pair_end = pair_begin + int_at(pair_count, w)
     pressed_end = quad_begin + int_at(pressed_count, w)
     if walls == 1:
-        # Each lane reads in every substep what it wrote itself.
-        for at in range(pair_begin + lanes - 1 - me, pair_end, lanes):
+        # No barrier: each thread reads only what it wrote itself.
+        for at in range(pair_begin + threads - 1 - thread, pair_end, threads):
             touched, limits = limits_of_pair(
                 int_at(pairs, at),
                 quads,
@@ -257,36 +262,36 @@ def advance_sculptures(
             )
             pair_corners[at] = touched
             pair_limits[at] = limits
-    take_room()
+    reserve_shared_memory()
     faces = quad_end - quad_begin
-    places = PLACE * (vertex_end - vertex_begin)
-    x_here = vectors_here(x, vertex_begin, 0)
-    v_here = vectors_here(v, vertex_begin, places)
-    force_here = planes_here(corner_force, quad_begin, faces, 2 * places)
-    lift_here = planes_here(lift, quad_begin, faces, 2 * places + FORCE * faces)
-    if at_home() == 1:
+    vertex_bytes = VERTEX_SIZE * (vertex_end - vertex_begin)
+    x_here = resident_vectors(x, vertex_begin, 0)
+    v_here = resident_vectors(v, vertex_begin, vertex_bytes)
+    force_here = resident_soa(corner_force, quad_begin, faces, 2 * vertex_bytes)
+    gradient_here = resident_soa(volume_gradient, quad_begin, faces, 2 * vertex_bytes + QUAD_SIZE * faces)
+    if is_resident() == 1:
         for i in range(vertex_begin + lane, vertex_end, block_size):
             put_vec3(x_here, i, vec3_at(x, i))
             put_vec3(v_here, i, vec3_at(v, i))
-        block_meets()
+        block_barrier()
     goal = int(0)
     for k in range(begin, end):
         fraction = float(k + 1) / float(substeps)
         if pressing == 1:
-            for i in range(vertex_begin + me, vertex_end, lanes):
+            for i in range(vertex_begin + thread, vertex_end, threads):
                 press_finger(i, vertex_balloon, mass, fingers, finger_share, dt, fraction, x_here, v_here)
-            goal += crew
-            blocks_meet(gates, w, crew, goal, lane)
-        # On a CPU: elsewhere it is not even compiled.
+            goal += sculpture_blocks
+            sculpture_barrier(barrier_counts, w, sculpture_blocks, goal, lane)
+        # The SIMD variant of a CPU: the block size is a constant, so a GPU does not compile it.
         if block_size == 1:
-            walls_abreast(
+            walls_simd(
                 chunk_begin,
                 chunk_end,
                 quads,
                 quad_law,
                 chunk_quad,
                 chunk_origin,
-                to_rest,
+                rest_inverse,
                 hourglass,
                 rubber_volume,
                 laws,
@@ -296,38 +301,38 @@ def advance_sculptures(
                 softening_rate,
                 peak_energy,
                 force_here,
-                lift_here,
+                gradient_here,
                 chunk_share,
             )
         else:
             for c in range(chunk_begin + warp, chunk_end, warps):
                 share = float(0.0)
-                for q in range(int_at(chunk_quad, c) + one, int_at(chunk_quad, c + 1), gang):
+                for q in range(int_at(chunk_quad, c) + warp_lane, int_at(chunk_quad, c + 1), warp_lanes):
                     share += wall_of_quad(
                         q,
                         quads,
                         quad_law,
-                        to_rest,
+                        rest_inverse,
                         hourglass,
                         rubber_volume,
                         laws,
                         curves,
                         x_here,
                         v_here,
-                        vec3_seen(x_here, int_at(chunk_origin, c)),
+                        coherent_vec3(x_here, int_at(chunk_origin, c)),
                         softening_rate,
                         peak_energy,
                         force_here,
-                        lift_here,
+                        gradient_here,
                     )
-                share = lanes_sum(share)
-                if one == 0:
+                share = warp_sum(share)
+                if warp_lane == 0:
                     put_float(chunk_share, c, share)
         for j in range(joint_begin + warps - 1 - warp, joint_end, warps):
             measure_open_ring(
                 j,
-                one,
-                gang,
+                warp_lane,
+                warp_lanes,
                 joint_first,
                 joint_around,
                 joint_parts,
@@ -337,7 +342,7 @@ def advance_sculptures(
                 ring_area,
             )
         if walls == 1:
-            for at in range(pair_begin + lanes - 1 - me, pair_end, lanes):
+            for at in range(pair_begin + threads - 1 - thread, pair_end, threads):
                 press_wall(
                     int_at(pairs, at),
                     vec4i_at(pair_corners, at),
@@ -354,11 +359,11 @@ def advance_sculptures(
             for m in range(core_begin + warp, core_end, warps):
                 press_core(
                     m,
-                    one,
-                    gang,
+                    warp_lane,
+                    warp_lanes,
                     ring_first,
                     ring_around,
-                    corner,
+                    ring_cos_sin,
                     core_ring,
                     core_next,
                     core_radius,
@@ -371,38 +376,38 @@ def advance_sculptures(
                     core_push,
                     core_thrust,
                 )
-        goal += crew
-        blocks_meet(gates, w, crew, goal, lane)
+        goal += sculpture_blocks
+        sculpture_barrier(barrier_counts, w, sculpture_blocks, goal, lane)
         if block == 0:
-            for first in range(segment_begin, segment_end, block_size // few):
-                s = first + lane // few
+            for first in range(segment_begin, segment_end, block_size // subwarp):
+                s = first + lane // subwarp
                 total = float(0.0)
                 fans = float(0.0)
                 if s < segment_end:
-                    chunk = int_at(segment_chunk, s) + lane % few
+                    chunk = int_at(segment_chunk, s) + lane % subwarp
                     last = int_at(segment_chunk, s + 1)
-                    # The first four with the fans: most segments have no more.
-                    total = shares_of_chunks(chunk, few, last, chunk_share)
+                    # The first four loads together with those of the fans: most segments have no more chunks.
+                    total = shares_of_chunks(chunk, subwarp, last, chunk_share)
                     fans = volume_of_fans(
                         s,
                         start_joint,
                         end_joint,
                         ring_middle,
                         ring_area,
-                        vec3_seen(x_here, int_at(segment_origin, s)),
+                        coherent_vec3(x_here, int_at(segment_origin, s)),
                     )
-                    for c in range(chunk + 4 * few, last, 4 * few):
-                        total += shares_of_chunks(c, few, last, chunk_share)
-                # All lanes of the warp are here.
-                total = few_sum(total)
-                if s < segment_end and lane % few == 0:
+                    for c in range(chunk + 4 * subwarp, last, 4 * subwarp):
+                        total += shares_of_chunks(c, subwarp, last, chunk_share)
+                # Converged: every lane of the warp takes part in the shuffles.
+                total = subwarp_sum(total)
+                if s < segment_end and lane % subwarp == 0:
                     put_float(volume, s, total + fans)
-            block_meets()
+            block_barrier()
             for b in range(balloon_begin + block_warp, balloon_end, block_warps):
                 advance_gas(
                     b,
-                    one,
-                    gang,
+                    warp_lane,
+                    warp_lanes,
                     balloon_segment,
                     balloon_segment_end,
                     chamber_first,
@@ -419,14 +424,14 @@ def advance_sculptures(
                     pump_limit,
                     pump_goal,
                     volume,
-                    room,
+                    chamber_volume,
                     flow,
                     amount,
                     pressure,
                 )
         if other >= 0:
             if walls == 1:
-                # From the other end: the first lanes see to the gas.
+                # Backwards: with one block the first threads are busy with the gas.
                 for at in range(quad_begin + others - 1 - other, pressed_end, others):
                     press_quad_back(
                         int_at(pressed, at),
@@ -457,8 +462,8 @@ def advance_sculptures(
             for m in range(core_begin + warp, core_end, warps):
                 yield_to_core(
                     m,
-                    one,
-                    gang,
+                    warp_lane,
+                    warp_lanes,
                     ring_first,
                     ring_around,
                     core_ring,
@@ -472,20 +477,22 @@ def advance_sculptures(
                     core_thrust,
                     v_here,
                 )
-        goal += crew
-        blocks_meet(gates, w, crew, goal, lane)
-        for base in range(joint_begin, joint_end, gang):
+        goal += sculpture_blocks
+        sculpture_barrier(barrier_counts, w, sculpture_blocks, goal, lane)
+        for base in range(joint_begin, joint_end, warp_lanes):
             mine = int(own_joints)
             if base > joint_begin:
-                mine = joints_of_block(base + one, joint_begin, joint_end, block, joint_blocks, joint_leader)
-            last = bits_in(mine) - 1
-            for first_rank in range(teams * block_warp, last + 1, teams * block_warps):
-                rank = first_rank + one // team
+                mine = joints_of_block(
+                    base + warp_lane, joint_begin, joint_end, block, joint_blocks, joint_leader
+                )
+            last = popcount(mine) - 1
+            for first_rank in range(joint_groups * block_warp, last + 1, joint_groups * block_warps):
+                rank = first_rank + warp_lane // joint_group
                 move_joint(
                     base + bit_of_rank(mine, wp.min(rank, last)),
                     rank > last,
-                    lane % team,
-                    team,
+                    lane % joint_group,
+                    joint_group,
                     corners,
                     vertex_balloon,
                     quad_segment,
@@ -495,9 +502,9 @@ def advance_sculptures(
                     joint_parts,
                     joint_beside,
                     joint_struts,
-                    corner,
+                    ring_cos_sin,
                     mass,
-                    weight,
+                    true_mass,
                     joint_mass,
                     gravity,
                     drag,
@@ -515,7 +522,7 @@ def advance_sculptures(
                     radius_to,
                     contact_force,
                     force_here,
-                    lift_here,
+                    gradient_here,
                     pressure,
                     strut_force,
                     x_next,
@@ -527,7 +534,7 @@ def advance_sculptures(
                     ring_speed,
                     hand_load,
                 )
-        for i in range(vertex_begin + lanes - 1 - me, vertex_end, lanes):
+        for i in range(vertex_begin + threads - 1 - thread, vertex_end, threads):
             if int_at(vertex_joint, i) < 0:
                 move_vertex(
                     i,
@@ -537,35 +544,35 @@ def advance_sculptures(
                     quad_segment,
                     vertex_along,
                     mass,
-                    weight,
+                    true_mass,
                     gravity,
                     drag,
                     dt,
                     spin,
                     contact_force,
                     force_here,
-                    lift_here,
+                    gradient_here,
                     pressure,
                     x_here,
                     v_here,
                 )
         if welds > 0:
-            # All joints of a weld are one block's.
-            block_meets()
-            for base in range(joint_begin, joint_end, gang):
+            # A weld belongs to one block, so a block barrier is enough.
+            block_barrier()
+            for base in range(joint_begin, joint_end, warp_lanes):
                 mine = int(own_joints)
                 if base > joint_begin:
                     mine = joints_of_block(
-                        base + one, joint_begin, joint_end, block, joint_blocks, joint_leader
+                        base + warp_lane, joint_begin, joint_end, block, joint_blocks, joint_leader
                     )
-                last = bits_in(mine) - 1
-                for first_rank in range(teams * block_warp, last + 1, teams * block_warps):
-                    rank = first_rank + one // team
+                last = popcount(mine) - 1
+                for first_rank in range(joint_groups * block_warp, last + 1, joint_groups * block_warps):
+                    rank = first_rank + warp_lane // joint_group
                     weld_joint_to_others(
                         base + bit_of_rank(mine, wp.min(rank, last)),
                         rank > last,
-                        lane % team,
-                        team,
+                        lane % joint_group,
+                        joint_group,
                         joint_weld,
                         weld_joint,
                         weld_size,
@@ -581,13 +588,13 @@ def advance_sculptures(
                         v_here,
                         weld_shift,
                     )
-            block_meets()
+            block_barrier()
             for j in range(joint_begin + lane, joint_end, block_size):
                 if block_of_joint(j, joint_begin, joint_blocks, joint_leader) == block:
                     shift_middle(j, weld_shift, ring_middle)
-        goal += crew
-        blocks_meet(gates, w, crew, goal, lane)
-    if at_home() == 1:
+        goal += sculpture_blocks
+        sculpture_barrier(barrier_counts, w, sculpture_blocks, goal, lane)
+    if is_resident() == 1:
         for i in range(vertex_begin + lane, vertex_end, block_size):
             put_vec3(x, i, vec3_at(x_here, i))
             put_vec3(v, i, vec3_at(v_here, i))

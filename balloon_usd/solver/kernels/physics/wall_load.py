@@ -3,8 +3,8 @@
 import warp as wp
 
 from balloon_usd.solver.kernels.device.array_access import int_at, int_in, put_float, vec3_at, vec4i_at
-from balloon_usd.solver.kernels.device.soa import seen_in
-from balloon_usd.solver.kernels.device.warp_reduce import lanes_sum
+from balloon_usd.solver.kernels.device.soa import load_soa
+from balloon_usd.solver.kernels.device.warp_reduce import warp_sum
 
 
 @wp.func
@@ -33,7 +33,7 @@ def load_of_vertex(
     load = float(0.0)
     for k in range(2):
         if int_in(target, i, k) >= 0:
-            load += pressing_on(int_in(target, i, k), quads, x, seen_in(contact_force, i, k))
+            load += pressing_on(int_in(target, i, k), quads, x, load_soa(contact_force, i, k))
     beside = float(0.0)
     row = int(i)
     while row >= 0:
@@ -68,10 +68,10 @@ def wall_loads(
     for q in range(int_at(segment_quad, s) + lane, int_at(segment_quad_end, s), wp.block_dim()):
         for k in range(int_at(hit_count, q)):
             hit = int_in(hits, q, k)
-            total += pressing_on(q, quads, x, seen_in(contact_force, hit // 2, hit % 2))
+            total += pressing_on(q, quads, x, load_soa(contact_force, hit // 2, hit % 2))
         c = vec4i_at(quads, q)
         for k in range(4):
             total += load_of_vertex(c[k], quads, corners, target, contact_force, x)
-    total = lanes_sum(total)
+    total = warp_sum(total)
     if lane == 0:
         put_float(wall_load, s, total)
