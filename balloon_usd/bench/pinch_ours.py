@@ -14,7 +14,7 @@ from balloon_usd.bench.pinch_wall import blown_up, rest_points, wall_thickness
 from balloon_usd.solver.body import RingSpec
 from balloon_usd.solver.kernels.physics.gas import OPEN_PASSAGE
 from balloon_usd.solver.latex.body import LatexBody
-from balloon_usd.solver.latex.controls import LatexHands
+from balloon_usd.solver.latex.controls import LatexControls
 from balloon_usd.solver.latex.scene import build_scene
 from balloon_usd.solver.latex.stepper import Stepper
 from balloon_usd.solver.settings import SceneSettings
@@ -45,7 +45,7 @@ class PinchedTube:
         mass[np.concatenate(task.ends)] *= HELD_MASS
         self.scene.mass.assign(mass)
         self.stepper = Stepper(self.scene, substeps)
-        self.hands = LatexHands(self.scene)
+        self.hands = LatexControls(self.scene)
         self.hands.touch([0])
         self._whole = np.full(len(self.neck), RADIUS)
         middle = task.middle

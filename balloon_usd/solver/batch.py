@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from balloon_usd.solver.capture_lock import turn
-from balloon_usd.solver.checks import Lookout
+from balloon_usd.solver.capture_lock import capture_lock
+from balloon_usd.solver.checks import BatchCheck
 from balloon_usd.solver.errors import SimulationFailed
 from balloon_usd.solver.frame_arrays import Extent
 from balloon_usd.solver.snapshot import Change, Snapshot
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
-    from balloon_usd.solver.frame_arrays import Sight
+    from balloon_usd.solver.frame_arrays import FrameArrays
     from balloon_usd.solver.model import Model, ModelMaker, Told
     from balloon_usd.solver.snapshot import Memory
 
@@ -48,9 +48,9 @@ class Batch:
         self._over = np.zeros(len(plans), dtype=bool)
         """Plans that have failed."""
         self._ahead = ahead
-        with turn():
+        with capture_lock():
             self.model: Model = model(plans, meshes, self._fps, substeps, device)
-        self._lookout = Lookout(plans, meshes, self.model.layout.places, self._fps, substeps)
+        self._checks = BatchCheck(plans, meshes, self.model.layout.places, self._fps, substeps)
         self._told: Sequence[Told | None] = [None] * len(plans)
         """What was told of every plan so far."""
 
@@ -66,22 +66,22 @@ class Batch:
         """Tell whether any plan has the frame of an index."""
         return bool(self._made(index).any())
 
-    def snapshot(self, index: int, into: Sight) -> Snapshot:
-        """Return the frame of an index, written into a sight; the makers and the physics of the next have
+    def snapshot(self, index: int, into: FrameArrays) -> Snapshot:
+        """Return the frame of an index, written into arrays; the makers and the physics of the next have
         begun then.
         """
-        with turn():
+        with capture_lock():
             if index and not self._ahead:
                 self._advance(index)
-            self.model.look()
-            sight, told, suspects = self.model.sight, self.model.told, self.model.suspects
+            self.model.read_back()
+            arrays, told, suspects = self.model.frame_arrays, self.model.told, self.model.suspects
             causes = self.model.failures()
             # A plan that fails in this frame still takes part in the next one, unseen.
             if self._ahead and self.goes_on(index + 1):
                 self._advance(index + 1)
-            sight.copy_to(into)
-            for world in self._lookout.look(sight, suspects):
-                if self._made(index)[world] and (cause := self._lookout.failure(world)):
+            arrays.copy_to(into)
+            for world in self._checks.suspicious(arrays, suspects):
+                if self._made(index)[world] and (cause := self._checks.failure(world)):
                     causes[world] = cause
             changes = self._changes(index, told, causes)
         return Snapshot(index + 1, into, self._made(index), changes)
@@ -114,7 +114,7 @@ def snapshots_of(
 ) -> Generator[Snapshot]:
     """Yield all plans of some batches together, frame by frame, until all are finished or have failed.
 
-    `memory`: gives the sight of all into which each is written; `ask`: as `map`.
+    `memory`: gives the arrays of all into which each is written; `ask`: as `map`.
     """
     extents = [batch.model.layout.extent for batch in batches]
     befores = list(accumulate(extents, lambda *both: Extent.of(both), initial=extents[0].nothing))[:-1]
@@ -132,14 +132,14 @@ def snapshots_of(
             batch.rest()
 
 
-def _next(batch: Batch, part: Sight, index: int) -> Snapshot:
+def _next(batch: Batch, part: FrameArrays, index: int) -> Snapshot:
     """Return the next snapshot of a batch; nothing is done for one whose plans are all over."""
     if batch.goes_on(index):
         return batch.snapshot(index, part)
     return Snapshot(index + 1, part, np.zeros(len(batch), dtype=bool), [])
 
 
-def _together(index: int, whole: Sight, shots: Sequence[Snapshot]) -> Snapshot:
+def _together(index: int, whole: FrameArrays, shots: Sequence[Snapshot]) -> Snapshot:
     """Return the snapshots of batches as one."""
     first = accumulate([len(shot.made) for shot in shots[:-1]], initial=0)
     changes = [

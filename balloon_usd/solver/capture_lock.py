@@ -1,8 +1,8 @@
-"""Turns: threads that work with Warp one at a time, while the graphs of the others run.
+"""The lock round graph capture: one thread at a time launches kernels, while the graphs of the others run.
 
-Warp records one graph at a time in a process, and records what any thread launches meanwhile. So a thread
-works with Warp only in its turn, and gives the turn away while a recorded graph runs on the CPU, which takes
-nearly all of the time.
+Warp captures one graph at a time in a process, and captures what any thread launches meanwhile. So a thread
+calls Warp only with this lock, and releases it while a captured graph runs on the CPU, which takes nearly all
+of the time.
 """
 
 from __future__ import annotations
@@ -14,29 +14,29 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-_turn = threading.Lock()
-_mine = threading.local()
+_lock = threading.Lock()
+_this_thread = threading.local()
 
 
 @contextmanager
-def turn() -> Iterator[None]:
-    """Wait for this thread's turn and keep it for the block."""
-    with _turn:
-        _mine.held = True
+def capture_lock() -> Iterator[None]:
+    """Hold the lock for the block."""
+    with _lock:
+        _this_thread.held = True
         try:
             yield
         finally:
-            _mine.held = False
+            _this_thread.held = False
 
 
 @contextmanager
-def turn_given_away() -> Iterator[None]:
-    """Let others have the turn during the block, if this thread has it."""
-    if not getattr(_mine, "held", False):
+def capture_lock_released() -> Iterator[None]:
+    """Release the lock during the block, if this thread holds it."""
+    if not getattr(_this_thread, "held", False):
         yield
         return
-    _turn.release()
+    _lock.release()
     try:
         yield
     finally:
-        _turn.acquire()
+        _lock.acquire()

@@ -1,4 +1,4 @@
-"""Watching a run: what must hold in every frame, and what to say when it does not."""
+"""Checks of a run: what must hold in every frame, and the message when it does not."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ if TYPE_CHECKING:
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan, Strip
     from balloon_usd.solver.frame import Frame
-    from balloon_usd.solver.frame_arrays import Place, Sight
+    from balloon_usd.solver.frame_arrays import FrameArrays, Place
 
 FASTEST = 5.0
 """Speed that no part of a balloon reaches between two frames unless the run has gone unstable, m/s."""
 FARTHEST = 1.0e3
-"""Distance beyond which nothing is told any more, m: what has exploded is everywhere."""
+"""Distance beyond which a part has flown apart, m."""
 LOWEST_PRESSURE = -20.0e3
 """Gauge pressure that no bubble of a balloon reaches, Pa: hands do not suck."""
 
 
-class Watch:
+class SculptureCheck:
     """Checks the frames of one sculpture, one after another."""
 
     def __init__(self, plan: Plan, meshes: tuple[BalloonMesh, ...], fps: float, substeps: int) -> None:
@@ -47,8 +47,8 @@ class Watch:
         self._last = frame
         return cause
 
-    def pass_over(self, frame: Frame) -> None:
-        """Take note of a frame in which nothing can be wrong."""
+    def skip(self, frame: Frame) -> None:
+        """Take a frame that needs no check as the last one."""
         self._last = frame
 
     def _not_finite(self, frame: Frame) -> str | None:
@@ -115,8 +115,10 @@ class Watch:
         return steadier(self._plan.recipe, self._substeps)
 
 
-class Lookout:
-    """Looks closely at those sculptures of a flat state in which something may be wrong."""
+class BatchCheck:
+    """Checks the sculptures of a flat state: all of them quickly, and one in detail where something may be
+    wrong.
+    """
 
     def __init__(
         self,
@@ -126,42 +128,43 @@ class Lookout:
         fps: float,
         substeps: int,
     ) -> None:
-        """Look at plans that lie at these places in the sights."""
+        """Check plans that lie at these places in the arrays of a frame."""
         self._places = places
-        self._watches = [Watch(plan, m, fps, substeps) for plan, m in zip(plans, meshes, strict=True)]
+        self._checks = [SculptureCheck(plan, m, fps, substeps) for plan, m in zip(plans, meshes, strict=True)]
         self._bubble = np.array([place.bubbles.start for place in places])
         """First bubble of every sculpture, (W,)."""
-        self._sight: Sight | None = None
-        self._last: Sight | None = None
+        self._arrays: FrameArrays | None = None
+        self._last: FrameArrays | None = None
 
-    def look(self, sight: Sight, suspects: NDArray[np.int32]) -> list[int]:
-        """Return the sculptures in which something may be wrong; the sight before must be as it was.
+    def suspicious(self, arrays: FrameArrays, suspects: NDArray[np.int32]) -> list[int]:
+        """Return the sculptures in which something may be wrong; the arrays of the frame before must be
+        unchanged.
 
         `suspects`: 1 for those with walls that went too far or are stretched too much, (W,).
         """
-        self._last, self._sight = self._sight, sight
-        # What is no number is not higher than anything.
-        gas = (sight.pressure > LOWEST_PRESSURE) & np.isfinite(sight.volume)
+        self._last, self._arrays = self._arrays, arrays
+        # Comparisons with NaN are false.
+        gas = (arrays.pressure > LOWEST_PRESSURE) & np.isfinite(arrays.volume)
         if not suspects.any() and gas.all():
             return []
         return np.flatnonzero((suspects != 0) | ~np.logical_and.reduceat(gas, self._bubble)).tolist()
 
     def failure(self, world: int) -> str | None:
-        """Return what is wrong with a sculpture that was last looked at, or None."""
-        assert self._sight is not None, "nothing was looked at"
-        place, watch = self._places[world], self._watches[world]
+        """Return what is wrong with a sculpture in the arrays checked last, or None."""
+        assert self._arrays is not None, "no arrays were checked yet"
+        place, check = self._places[world], self._checks[world]
         if self._last is not None:
-            watch.pass_over(self._last.frame(place, 0))
-        return watch.failure(self._sight.frame(place, 0))
+            check.skip(self._last.frame(place, 0))
+        return check.failure(self._arrays.frame(place, 0))
 
 
 def travel_limit(seconds: float) -> float:
-    """Return how far (m) a wall may go in some seconds before it is looked at closely, just below too far."""
+    """Return how far (m) a wall may go in some seconds before it is checked in detail, just below too far."""
     return 0.999 * FASTEST * seconds
 
 
 def stretch_limits(plans: Sequence[Plan], bodies: Sequence[range]) -> NDArray[np.float32]:
-    """Return how far every balloon may be stretched before it is looked at closely, (B,).
+    """Return how far every balloon may be stretched before it is checked in detail, (B,).
 
     `bodies`: balloons of every plan.
     """

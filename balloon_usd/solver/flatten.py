@@ -91,10 +91,10 @@ def ring_arrays(scene: Scene, host: Arrays) -> None:
     turn = 2.0 * np.pi * place / np.repeat(sizes, sizes)
     vertices = np.repeat(host["ring_first"], sizes) + place
     host["ring_cos_sin"][vertices] = np.stack([np.cos(turn), np.sin(turn)], axis=1)
-    home = np.full(v[-1], -1, dtype=np.int32)
-    home[host["quads"].reshape(-1)] = np.repeat(host["quad_segment"], 4)
+    segment = np.full(v[-1], -1, dtype=np.int32)
+    segment[host["quads"].reshape(-1)] = np.repeat(host["quad_segment"], 4)
     parting = (vertex_joint >= 0) & (host["joint_parts"][vertex_joint] == 1)
-    host["vertex_segment"] = np.where(parting, -1, home).astype(np.int32)
+    host["vertex_segment"] = np.where(parting, -1, segment).astype(np.int32)
     mass = host["mass"]
     host["joint_mass"] = np.array(
         [mass[f : f + n].sum() for f, n in zip(first, around, strict=True)] or [1.0], dtype=np.float32
@@ -125,8 +125,8 @@ def segment_arrays(scene: Scene, host: Arrays) -> None:
     host["segment_origin"] = np.array(origin, np.int32)
     host["start_joint"], host["end_joint"] = np.array(start_joint, np.int32), np.array(end_joint, np.int32)
     # A ring that parts nothing lies within one segment.
-    home = host["vertex_segment"][host["joint_first"]][:, None]
-    host["joint_beside"] = np.where(sides < 0, np.maximum(home, 0), sides)
+    within = host["vertex_segment"][host["joint_first"]][:, None]
+    host["joint_beside"] = np.where(sides < 0, np.maximum(within, 0), sides)
 
 
 def chunk_arrays(scene: Scene, host: Arrays) -> None:

@@ -1,4 +1,4 @@
-"""Sights: what was seen of all sculptures at one time, as flat arrays."""
+"""The arrays of a frame, flat over all sculptures, and where each sculpture lies in them."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class Extent(NamedTuple):
-    """How much there is to see."""
+    """Sizes of the arrays."""
 
     vertices: int
     bubbles: int
@@ -36,21 +36,21 @@ class Extent(NamedTuple):
         """The extent of nothing, in the same model."""
         return Extent(0, 0, None if self.particles is None else 0)
 
-    def sight(self, make: Callable[[tuple[int, ...], Any], NDArray[Any]] = np.empty) -> Sight:
-        """Return a sight to write into.
+    def frame_arrays(self, make: Callable[[tuple[int, ...], Any], NDArray[Any]] = np.empty) -> FrameArrays:
+        """Return arrays to write into.
 
         `make`: returns a C-contiguous array of a shape and a type, such as one in shared memory.
         """
         walls = make((self.vertices, 3), np.float32), make((self.vertices,), np.float32)
         pressure, volume = (make((self.bubbles,), np.float32) for _ in range(2))
         if self.particles is None:
-            return Sight(*walls, pressure, volume, make((self.bubbles,), np.float32))
+            return FrameArrays(*walls, pressure, volume, make((self.bubbles,), np.float32))
         air, cluster = make((self.particles, 3), np.float32), make((self.particles,), np.int32)
-        return Sight(*walls, pressure, volume, None, air, cluster)
+        return FrameArrays(*walls, pressure, volume, None, air, cluster)
 
 
 class Place(NamedTuple):
-    """Where one sculpture lies in a sight."""
+    """Where one sculpture lies in the arrays of a frame."""
 
     walls: tuple[slice, ...]
     """Vertices of every balloon."""
@@ -68,7 +68,7 @@ class Place(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Sight:
+class FrameArrays:
     """Flat arrays of all sculptures, one after another."""
 
     points: NDArray[np.float32]
@@ -88,14 +88,14 @@ class Sight:
     cluster: NDArray[np.int32] | None = None
     """Bubble of every particle, (P,) int32, as in a `Frame`."""
 
-    def copy_to(self, other: Sight) -> None:
-        """Write all arrays into those of another sight of the same extent."""
+    def copy_to(self, other: FrameArrays) -> None:
+        """Copy all arrays into others of the same extent."""
         for mine, its in zip(self._arrays(), other._arrays(), strict=True):
             if mine is not None and its is not None:
                 np.copyto(its, mine)
 
-    def part(self, before: Extent, extent: Extent) -> Sight:
-        """Return what lies behind all that is before it, so much of everything: views of these arrays."""
+    def part(self, before: Extent, extent: Extent) -> FrameArrays:
+        """Return views of the parts of an extent that follow those of another, `before`."""
         walls = slice(before.vertices, before.vertices + extent.vertices)
         bubbles = slice(before.bubbles, before.bubbles + extent.bubbles)
         air = slice(before.particles or 0, (before.particles or 0) + (extent.particles or 0))
@@ -103,7 +103,7 @@ class Sight:
         arrays: list[Any] = [
             None if array is None else array[span] for array, span in zip(self._arrays(), spans, strict=True)
         ]
-        return Sight(*arrays)
+        return FrameArrays(*arrays)
 
     def frame(self, place: Place, time_code: int, doing: str = "", undone: tuple[str, ...] = ()) -> Frame:
         """Return the frame of one sculpture: views of these arrays."""

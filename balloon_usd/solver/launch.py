@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import warp as wp
 
-from balloon_usd.solver.capture_lock import turn_given_away
+from balloon_usd.solver.capture_lock import capture_lock_released
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Hashable, Iterator
@@ -93,7 +93,7 @@ class Launcher:
             finally:
                 graph = wp.capture_end(device=device)
             self._graphs[key] = graph
-        with turn_given_away():
+        with capture_lock_released():
             wp.capture_launch(self._graphs[key])
 
     def _inputs(self, kernel: Any, changing: dict[str, Any]) -> list[Any]:

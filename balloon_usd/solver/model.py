@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from balloon_usd.balloon.detail import Detail
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
-    from balloon_usd.solver.frame_arrays import Sight
+    from balloon_usd.solver.frame_arrays import FrameArrays
     from balloon_usd.solver.layout import Layout
 
 
@@ -30,20 +30,22 @@ class Model(Protocol):
     """Sculptures of one physical model in one flat state, advanced together."""
 
     layout: Layout
-    """Where every sculpture lies in its sights."""
+    """Where every sculpture lies in the arrays of a frame."""
 
     def advance(self, begin: float, end: float) -> None:
         """Let the makers act and start the physics from `begin` to `end` (s)."""
 
-    def look(self) -> None:
-        """Wait for the state that was reached last, of which all that follows tells until the next look."""
+    def read_back(self) -> None:
+        """Wait for the read-back of the latest state: what follows is of that state, until the next
+        read-back.
+        """
 
     def rest(self) -> None:
-        """Wait until nothing is under way."""
+        """Wait for the pending read-back, and so for all work before it."""
 
     @property
-    def sight(self) -> Sight:
-        """What was looked at, of all sculptures; it stays as it is for two more looks."""
+    def frame_arrays(self) -> FrameArrays:
+        """Arrays of the state read back last, of all sculptures; valid for two more read-backs."""
 
     @property
     def told(self) -> Sequence[Told]:

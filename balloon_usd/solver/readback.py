@@ -1,4 +1,4 @@
-"""Host copies of device arrays that are fetched together, once a frame."""
+"""Read-back of device arrays to pinned host memory, asynchronous and buffered, once a frame."""
 
 from __future__ import annotations
 
@@ -13,21 +13,21 @@ if TYPE_CHECKING:
 
     from balloon_usd.solver.scene import Scene
 
-SIDES = 3
-"""Copies on the host: one is looked at beside the one before it, while another is filled."""
+BUFFERS = 3
+"""Host buffers: the latest and the one before it are read while the third is filled."""
 
 
-class Mirror:
-    """Some arrays of a scene as the host last saw them."""
+class Readback:
+    """Host copies of some arrays of a scene."""
 
     def __init__(self, scene: Scene, names: Sequence[str]) -> None:
         """Choose the arrays by the names that kernels give them."""
         self._device = wp.get_device(scene.device)
         self._sources = {name: scene.arrays[name] for name in names}
-        self._sides = [self._empty() for _ in range(SIDES)]
-        self._views = [{name: copy.numpy() for name, copy in side.items()} for side in self._sides]
-        self.side = 0
-        """The copy that was filled last, or is being filled."""
+        self._buffers = [self._empty() for _ in range(BUFFERS)]
+        self._views = [{name: copy.numpy() for name, copy in buffer.items()} for buffer in self._buffers]
+        self.buffer = 0
+        """Index of the buffer that was filled last, or is being filled."""
         self._copied = wp.Event(self._device) if self._device.is_cuda else None
 
     def _empty(self) -> dict[str, Any]:
@@ -37,26 +37,26 @@ class Mirror:
             for name, source in self._sources.items()
         }
 
-    def turn(self) -> None:
-        """Keep what was fetched in the last two turns: another side is filled now."""
-        self.side = (self.side + 1) % SIDES
+    def next_buffer(self) -> None:
+        """Keep the last two buffers: the third is filled now."""
+        self.buffer = (self.buffer + 1) % BUFFERS
 
     def copy(self) -> None:
-        """Start copying all arrays; may be recorded in a graph for each side."""
+        """Start copying all arrays; may be captured in a graph for each buffer."""
         for name, source in self._sources.items():
-            wp.copy(self._sides[self.side][name], source)
+            wp.copy(self._buffers[self.buffer][name], source)
 
-    def begun(self) -> None:
-        """Take note that copying has begun: it ends when all that the device was told before is done."""
+    def record(self) -> None:
+        """Record an event behind the copies, for which `wait` waits."""
         if self._copied is not None:
             wp.get_stream(self._device).record_event(self._copied)
 
     def arrays(self) -> dict[str, NDArray[Any]]:
-        """Wait for the copies and return them; after three turns they change."""
+        """Wait for the copies and return them; they are valid for two more read-backs."""
         self.wait()
-        return self._views[self.side]
+        return self._views[self.buffer]
 
     def wait(self) -> None:
-        """Wait until nothing is being copied any more, whatever the device was told since."""
+        """Wait for the copies, not for work launched since."""
         if self._copied is not None:
             wp.synchronize_event(self._copied)

@@ -1,4 +1,4 @@
-"""What a run comes to: highest stretch against burst, flat tail left, bubbles at the end."""
+"""Summary of a run: highest stretch against burst, flat tail left, what has come undone."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ FLAT_BELOW = 2.0
 """Hoop stretch below which rubber counts as flat: between the thin phase (1.15) and the bulged one (5.7)."""
 
 
-class Tally:
-    """Gathers the frames of one sculpture into a few numbers."""
+class RunSummary:
+    """Reduces the frames of one sculpture to a few numbers."""
 
     def __init__(self, plan: Plan, meshes: tuple[BalloonMesh, ...]) -> None:
-        """Begin with nothing seen."""
+        """Begin without frames."""
         self._plan = plan
         self._meshes = meshes
         self._last: Frame | None = None
@@ -33,7 +33,7 @@ class Tally:
         """Bubble in which it was."""
 
     def add(self, frame: Frame) -> None:
-        """Take in one more frame."""
+        """Add one more frame."""
         self._last = frame
         for stretch, mesh, strip in zip(frame.stretch, self._meshes, self._plan.strips.values(), strict=True):
             worst = int(np.argmax(stretch))

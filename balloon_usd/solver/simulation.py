@@ -83,7 +83,7 @@ class Simulation:
         if model not in THREADED:
             return 1
         if on_gpu:
-            # While it advances one half of many, the host sees to the other.
+            # Double buffering: the GPU steps one half while the host processes the other.
             return 2 if count >= MANY else 1
         return 1 if self._threads == 1 else min(count, STATES_PER_THREAD * self._threads)
 
@@ -123,10 +123,10 @@ class Simulation:
         """Yield flat arrays of all plans, frame by frame, until all are finished, and what has changed.
 
         Args:
-            memory: gives the sight, made by `extent.sight`, into which the next snapshot is written; new
-                arrays if it is absent. It may wait until somebody has read what it gives once more.
+            memory: gives the arrays, made by `extent.frame_arrays`, into which the next snapshot is written;
+                new ones if it is absent. It may block until their readers are done.
         """
-        memory = memory or self.extent.sight
+        memory = memory or self.extent.frame_arrays
         with ThreadPoolExecutor(self._threads) as threads:
             ask = map if self._threads == 1 else threads.map
             yield from snapshots_of(self._batches, memory, ask)

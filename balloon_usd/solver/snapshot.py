@@ -15,10 +15,10 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from balloon_usd.solver.frame_arrays import Place, Sight
+    from balloon_usd.solver.frame_arrays import FrameArrays, Place
 
-    Memory = Callable[[], Sight]
-    """Gives the sight into which the next snapshot is written."""
+    Memory = Callable[[], FrameArrays]
+    """Gives the arrays into which the next snapshot is written."""
 
 Outcome = Frame | SimulationFailed | None
 """What a frame brings for a plan: the frame, its failure, or nothing as it is over."""
@@ -42,7 +42,7 @@ class Snapshot:
 
     time_code: int
     """Number of the frame, from 1."""
-    sight: Sight
+    arrays: FrameArrays
     """The arrays of all plans, one after another. What stands there of a plan that is over means nothing."""
     made: NDArray[np.bool_]
     """Whether every plan has this frame, (plans,): it is neither over nor failed."""
@@ -60,6 +60,6 @@ def frames_of(snapshots: Generator[Snapshot], places: Sequence[Place]) -> Iterat
             for change in shot.changes:
                 doing[change.plan], undone[change.plan] = change.doing, change.undone
             yield [
-                shot.sight.frame(place, shot.time_code, doing[k], undone[k]) if made else failed.get(k)
+                shot.arrays.frame(place, shot.time_code, doing[k], undone[k]) if made else failed.get(k)
                 for k, (place, made) in enumerate(zip(places, shot.made.tolist(), strict=True))
             ]

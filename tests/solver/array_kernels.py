@@ -59,8 +59,8 @@ def double(number: wp.array[float], three: wp.array[wp.vec3]):
 
 
 @wp.kernel
-def through_planes(given: wp.array2d[wp.vec3], planes: wp.array2d[float], found: wp.array2d[wp.vec3]):
-    """Put all vectors of every item into planes and read them again, the last one first."""
+def through_soa(given: wp.array2d[wp.vec3], planes: wp.array2d[float], found: wp.array2d[wp.vec3]):
+    """Store all vectors of every item in planes and load them again, the last one first."""
     item = wp.tid()
     for k in range(given.shape[1]):
         store_soa(planes, item, k, given[item, k])

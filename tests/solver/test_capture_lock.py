@@ -1,19 +1,19 @@
-"""Turns: one thread at a time works with Warp, unless it gives its turn away."""
+"""One thread at a time launches kernels, unless it releases the lock."""
 
 from __future__ import annotations
 
 import threading
 
-from balloon_usd.solver.capture_lock import turn, turn_given_away
+from balloon_usd.solver.capture_lock import capture_lock, capture_lock_released
 
 PATIENCE = 0.2
 
 
 def in_another_thread(event):
-    """Start a thread that sets an event in its turn."""
+    """Start a thread that sets an event once it has the lock."""
 
     def work():
-        with turn():
+        with capture_lock():
             event.set()
 
     thread = threading.Thread(target=work)
@@ -21,20 +21,20 @@ def in_another_thread(event):
     return thread
 
 
-def test_another_thread_waits_for_its_turn():
+def test_another_thread_waits_for_the_lock():
     came = threading.Event()
-    with turn():
+    with capture_lock():
         thread = in_another_thread(came)
         assert not came.wait(PATIENCE)
     thread.join()
     assert came.is_set()
 
 
-def test_a_turn_that_is_given_away_is_taken_by_another_thread_and_comes_back():
+def test_a_released_lock_is_taken_by_another_thread_and_comes_back():
     came, late = threading.Event(), threading.Event()
-    with turn():
+    with capture_lock():
         thread = in_another_thread(came)
-        with turn_given_away():
+        with capture_lock_released():
             assert came.wait(100 * PATIENCE)
             thread.join()
         thread = in_another_thread(late)
@@ -42,10 +42,10 @@ def test_a_turn_that_is_given_away_is_taken_by_another_thread_and_comes_back():
     thread.join()
 
 
-def test_a_thread_that_has_no_turn_gives_none_away():
+def test_a_thread_without_the_lock_releases_none():
     came = threading.Event()
-    with turn_given_away():
+    with capture_lock_released():
         in_another_thread(came).join()
     assert came.is_set()
-    with turn():
+    with capture_lock():
         pass

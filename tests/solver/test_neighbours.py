@@ -172,7 +172,7 @@ def test_a_sculpture_goes_on_while_there_is_room(device):
     model = small_model(device)
     scatter(model.scene, seed=47)
     search(model)
-    model.look()
+    model.read_back()
     assert model.failures() == {}
 
 
@@ -194,6 +194,6 @@ def test_a_sculpture_in_which_somebody_finds_no_room_fails(device, small):
     assert all(
         set(few) <= set(all_) for few, all_ in zip(cut[small][: rows // 2], whole[small], strict=False)
     )
-    model.look()
+    model.read_back()
     assert list(model.failures()) == [0]
     assert "space them wider" in model.failures()[0]

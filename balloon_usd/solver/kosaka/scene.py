@@ -143,9 +143,9 @@ def _scratch_arrays(scene: KosakaScene) -> None:
     ):
         scene.zeros(name, shape, int)
     kind = scene.device.partition(":")[0]
-    for name, count, room in (
+    for name, count, capacity in (
         ("neighbours", particles, NEIGHBOURS),
         ("face_air", quads, FACE_AIR),
         ("air_faces", particles, AIR_FACES),
     ):
-        scene.zeros(name, (count, room[kind]), int)
+        scene.zeros(name, (count, capacity[kind]), int)

@@ -29,7 +29,7 @@ from balloon_usd.solver.wall_search import WallSearch
 
 if TYPE_CHECKING:
     from balloon_usd.solver.kosaka.scene import KosakaScene
-    from balloon_usd.solver.readback import Mirror
+    from balloon_usd.solver.readback import Readback
 
 
 MANY_LANES = 256
@@ -39,18 +39,18 @@ MANY_LANES = 256
 class KosakaStepper:
     """Advances a scene of springs and particles by whole frames of a fixed number of substeps."""
 
-    def __init__(self, scene: KosakaScene, substeps: int, quad_half: float, mirror: Mirror) -> None:
+    def __init__(self, scene: KosakaScene, substeps: int, quad_half: float, readback: Readback) -> None:
         """Prepare a scene.
 
         Args:
             scene: state to advance.
             substeps: per frame.
             quad_half: largest distance of a quad's corner from its middle (m).
-            mirror: what to copy for frames.
+            readback: what to copy for frames.
         """
         self.scene = scene
         self.substeps = substeps
-        self._mirror = mirror
+        self._readback = readback
         dt = self._dt = scene.settings.dt
         cell = max(b.parameters.re for b in scene.bodies) + scene.margin
         self._grid = SearchGrid(scene, cell, max(len(scene.air), len(scene.quads)))
@@ -87,13 +87,13 @@ class KosakaStepper:
         """Bring back air that has leaked beyond every offset region."""
         self._launch_lanes(find_lost_air, len(self.scene.air))
 
-    def look(self) -> None:
+    def start_readback(self) -> None:
         """Start copying what frames are made of."""
-        self._mirror.turn()
-        self._launcher.replay(("look", self._mirror.side), self._look)
-        self._mirror.begun()
+        self._readback.next_buffer()
+        self._launcher.replay(("read back", self._readback.buffer), self._read_back)
+        self._readback.record()
 
-    def _look(self) -> None:
+    def _read_back(self) -> None:
         """Write the stretch of every vertex and the volumes (m3) and pressures (Pa) of all segments, and
         copy.
         """
@@ -104,7 +104,7 @@ class KosakaStepper:
         self._launcher.launch_tiled(cluster_pressures, segments, lanes=MANY_LANES)
         self.scene.fastest.zero_()
         self._launch(fastest_air, len(self.scene.air))
-        self._mirror.copy()
+        self._readback.copy()
 
     def _frame(self, *, contact: bool, fingers: bool, searches: int, rings: bool) -> None:
         s = self.scene

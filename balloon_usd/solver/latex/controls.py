@@ -1,4 +1,4 @@
-"""Hands of the latex model: besides rings they mind the pump, the open necks and the spin of a twist."""
+"""Controls of the latex model: hands, pump, passages of necks, spins and softening."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from balloon_usd.solver.latex.scene import LatexScene
 
 
-class LatexHands(Hands):
-    """What hands do to balloons of the latex model; uploaded once a frame."""
+class LatexControls(Hands):
+    """Hands, pump, passages, spins and softening of a scene; uploaded once a frame."""
 
     scene: LatexScene
 
@@ -49,13 +49,13 @@ class LatexHands(Hands):
         """Vertices of the scene that lie beyond a place on a balloon."""
         self.upload()
 
-    def _now_and_then(self) -> tuple[str, ...]:
-        return (*super()._now_and_then(), "amount")
+    def _rarely_changed(self) -> tuple[str, ...]:
+        return (*super()._rarely_changed(), "amount")
 
-    def see(self, seen: Mapping[str, NDArray[Any]]) -> None:
-        """Take note of how things are, by the names of arrays of the scene."""
-        super().see(seen)
-        self.amount, self.volume = seen["amount"].copy(), seen["volume"]
+    def update(self, state: Mapping[str, NDArray[Any]]) -> None:
+        """Take over the state read back last, by the names of arrays of the scene."""
+        super().update(state)
+        self.amount, self.volume = state["amount"].copy(), state["volume"]
 
     def squeeze(self, joint: int, radius: float, passage: float) -> None:
         """Set the radius (m) and the open area (m2) that a neck has at the end of the frame."""

@@ -21,7 +21,7 @@ from balloon_usd.solver.model import Told
 if TYPE_CHECKING:
     from balloon_usd.plan import Plan
     from balloon_usd.plan.shaped import Shaped
-    from balloon_usd.solver.latex.controls import LatexHands
+    from balloon_usd.solver.latex.controls import LatexControls
     from balloon_usd.solver.latex.scene import LatexScene
     from balloon_usd.solver.latex.struts import Struts
 
@@ -45,10 +45,10 @@ class LatexMaker(Maker):
     """Performs one plan on its balloons in a scene of the latex model."""
 
     scene: LatexScene
-    hands: LatexHands
+    hands: LatexControls
 
     def __init__(
-        self, plan: Plan, scene: LatexScene, hands: LatexHands, struts: Struts, first_body: int
+        self, plan: Plan, scene: LatexScene, hands: LatexControls, struts: Struts, first_body: int
     ) -> None:
         super().__init__(plan, scene, hands, first_body)
         self.struts = struts

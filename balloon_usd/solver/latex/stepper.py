@@ -16,7 +16,7 @@ from balloon_usd.solver.wall_search import WallSearch
 
 if TYPE_CHECKING:
     from balloon_usd.solver.latex.scene import LatexScene
-    from balloon_usd.solver.readback import Mirror
+    from balloon_usd.solver.readback import Readback
 
 SEARCH_SECONDS = 1.0 / 120.0
 """Time between two searches for facing walls, s."""
@@ -56,13 +56,15 @@ class Stepper:
         """Advance by one frame, with or without walls that can touch and fingers that press."""
         self._launcher.replay((contact, fingers), lambda: self._frame(contact=contact, fingers=fingers))
 
-    def look(self, mirror: Mirror, *, contact: bool) -> None:
+    def start_readback(self, readback: Readback, *, contact: bool) -> None:
         """Start copying what frames are made of; where walls can touch, with the loads on them."""
-        mirror.turn()
-        self._launcher.replay(("look", mirror.side, contact), lambda: self._look(mirror, contact=contact))
-        mirror.begun()
+        readback.next_buffer()
+        self._launcher.replay(
+            ("read back", readback.buffer, contact), lambda: self._read_back(readback, contact=contact)
+        )
+        readback.record()
 
-    def _look(self, mirror: Mirror, *, contact: bool) -> None:
+    def _read_back(self, readback: Readback, *, contact: bool) -> None:
         """Write the largest principal stretch of every vertex and the force with which other walls press on
         every segment, and copy.
         """
@@ -70,7 +72,7 @@ class Stepper:
         self._launch(vertex_stretch, len(self.scene.x))
         if contact:
             self._launcher.launch_tiled(wall_loads, len(self.scene.segment_quad), lanes=WARP)
-        mirror.copy()
+        readback.copy()
 
     def _frame(self, *, contact: bool, fingers: bool) -> None:
         stride = self._search_every if contact else self.substeps
