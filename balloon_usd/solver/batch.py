@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
     from balloon_usd.solver.frame_arrays import FrameArrays
-    from balloon_usd.solver.model import Model, ModelMaker, Told
+    from balloon_usd.solver.model import Model, ModelMaker, Status
     from balloon_usd.solver.snapshot import Memory
 
 
@@ -51,8 +51,8 @@ class Batch:
         with capture_lock():
             self.model: Model = model(plans, meshes, self._fps, substeps, device)
         self._checks = BatchCheck(plans, meshes, self.model.layout.places, self._fps, substeps)
-        self._told: Sequence[Told | None] = [None] * len(plans)
-        """What was told of every plan so far."""
+        self._statuses: Sequence[Status | None] = [None] * len(plans)
+        """Latest status of every plan."""
 
     def __len__(self) -> int:
         """Return the number of plans."""
@@ -74,7 +74,7 @@ class Batch:
             if index and not self._ahead:
                 self._advance(index)
             self.model.read_back()
-            arrays, told, suspects = self.model.frame_arrays, self.model.told, self.model.suspects
+            arrays, statuses, suspects = self.model.frame_arrays, self.model.statuses, self.model.suspects
             causes = self.model.failures()
             # A plan that fails in this frame still takes part in the next one, unseen.
             if self._ahead and self.goes_on(index + 1):
@@ -83,7 +83,7 @@ class Batch:
             for world in self._checks.suspicious(arrays, suspects):
                 if self._made(index)[world] and (cause := self._checks.failure(world)):
                     causes[world] = cause
-            changes = self._changes(index, told, causes)
+            changes = self._changes(index, statuses, causes)
         return Snapshot(index + 1, into, self._made(index), changes)
 
     def _advance(self, index: int) -> None:
@@ -93,17 +93,17 @@ class Batch:
         """Return which plans have the frame of an index, (plans,)."""
         return (index < self._counts) & ~self._over
 
-    def _changes(self, index: int, told: Sequence[Told], causes: dict[int, str]) -> list[Change]:
-        """Return what is new, and give up the plans that have failed, by the causes."""
+    def _changes(self, index: int, statuses: Sequence[Status], causes: dict[int, str]) -> list[Change]:
+        """Return the changes since the last frame, and give up the plans that have failed."""
         made = self._made(index)
-        before, self._told = self._told, told
-        fresh = {k: Change(k, *now) for k, now in enumerate(told) if now != before[k] and made[k]}
+        before, self._statuses = self._statuses, statuses
+        fresh = {k: Change(k, *now) for k, now in enumerate(statuses) if now != before[k] and made[k]}
         for world, cause in causes.items():
             if made[world]:
                 self._over[world] = True
                 self.model.give_up(world)
-                failed = SimulationFailed(told[world].doing, index / self._fps, cause, index + 1)
-                fresh[world] = Change(world, *told[world], failed)
+                failed = SimulationFailed(statuses[world].doing, index / self._fps, cause, index + 1)
+                fresh[world] = Change(world, *statuses[world], failed)
         return [fresh[world] for world in sorted(fresh)]
 
 
@@ -127,7 +127,7 @@ def snapshots_of(
             yield shots[0] if len(batches) == 1 else _together(index, whole, shots)
             index += 1
     finally:
-        # What was begun ahead ends before its arrays go.
+        # Pending work ends before its arrays are freed.
         for batch in batches:
             batch.rest()
 

@@ -173,5 +173,5 @@ def stretch_limits(plans: Sequence[Plan], bodies: Sequence[range]) -> NDArray[np
 
 
 def crowded(most_hits: int) -> str:
-    """Tell that more vertices have pressed on one face at a time than there is room for."""
+    """Tell that more vertices have pressed on one face at a time than its list holds."""
     return f"{most_hits} vertices press on one face but there is room for {HITS}: use a finer detail"

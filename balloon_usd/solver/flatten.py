@@ -75,7 +75,7 @@ def ring_arrays(scene: Scene, host: Arrays) -> None:
     ).astype(np.int32)
     first = [r.first + v[k] for k, b in enumerate(bodies) for r in b.rings]
     around = [r.around for b in bodies for r in b.rings]
-    # A scene without rings still needs arrays to launch over; an empty ring does nothing.
+    # Device arrays are never empty: a scene without rings gets one that does nothing.
     host["joint_first"] = np.array(first or [0], dtype=np.int32)
     host["joint_around"] = np.array(around or [1], dtype=np.int32)
     host["joint_parts"] = np.array([r.parts for b in bodies for r in b.rings] or [False], dtype=np.int32)
@@ -130,7 +130,7 @@ def segment_arrays(scene: Scene, host: Arrays) -> None:
 
 
 def chunk_arrays(scene: Scene, host: Arrays) -> None:
-    """Chunks: runs of quads of one segment that a warp of lanes works on at once."""
+    """Chunks: runs of at most 32 quads of one segment, the work of a warp."""
     host["chunk_quad"], host["segment_chunk"] = chunks_of(host["segment_quad"], host["segment_quad_end"])
     host["chunk_origin"] = np.repeat(host["segment_origin"], np.diff(host["segment_chunk"]))
     host["world_quad"], host["world_vertex"] = (

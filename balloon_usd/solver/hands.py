@@ -77,7 +77,7 @@ class Hands:
         self._upload: BatchedUpload | None = None
         self._uploads = {name: ArrayUpload(scene, name) for name in self._rarely_changed()}
         self._due: dict[str, Any] = {}
-        """What has changed since the last upload, by the names of the arrays."""
+        """Changes since the last upload, by the names of the arrays."""
         self._welded = False
         """Whether joints were welded since the last upload."""
         self.welds: list[tuple[int, ...]] = []
@@ -92,7 +92,7 @@ class Hands:
         self._ring_world = np.repeat(scene.worlds, np.diff(scene.joint_start))
 
     def _rarely_changed(self) -> tuple[str, ...]:
-        """Return the names of the arrays that change in few frames."""
+        """Return the names of the arrays that change in few frames only."""
         return ("fingers", "finger_share", *WELDS)
 
     def update(self, state: Mapping[str, NDArray[Any]]) -> None:
@@ -199,7 +199,7 @@ class Hands:
         """Send the goals of the coming frame to the device; its starts are where the last frame ended.
 
         Raises:
-            ValueError: more welds than there is room for.
+            ValueError: more welds than the capacity.
         """
         self.settle()
         if self._welded:
@@ -215,7 +215,7 @@ class Hands:
         self._upload.send(goals)
 
     def _goals(self) -> dict[str, NDArray[Any]]:
-        """Return what may differ in every frame, by the names of the arrays."""
+        """Return the arrays that may differ in every frame, by name."""
         return {
             "hand": self.mode,
             "hand_from": self.start,

@@ -1,4 +1,4 @@
-"""What a simulation asks of a model of rubber and air."""
+"""The interface between a simulation and its physical model."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from balloon_usd.solver.layout import Layout
 
 
-class Told(NamedTuple):
-    """What is told of a sculpture in words."""
+class Status(NamedTuple):
+    """What a sculpture is doing, for messages."""
 
     doing: str
     """What the hands do."""
@@ -48,15 +48,15 @@ class Model(Protocol):
         """Arrays of the state read back last, of all sculptures; valid for two more read-backs."""
 
     @property
-    def told(self) -> Sequence[Told]:
-        """What was told of every sculpture by then."""
+    def statuses(self) -> Sequence[Status]:
+        """Status of every sculpture then."""
 
     @property
     def suspects(self) -> NDArray[np.int32]:
         """1 for every sculpture with walls that went too far or are stretched too much, (W,)."""
 
     def failures(self) -> dict[int, str]:
-        """Return what is wrong with sculptures in a way that their frames do not show."""
+        """Return failures that the frames do not show, by sculpture."""
 
     def give_up(self, world: int) -> None:
         """Leave a sculpture alone whose run has failed."""

@@ -44,7 +44,7 @@ each needs besides its sculptures does not add up.
 MODELS = {"latex": "LatexModel", "kosaka": "KosakaModel"}
 """Physical models by the names that recipes give them."""
 MANY = 192
-"""Sculptures from which on a GPU has enough to do with half of them."""
+"""Sculptures from which on half of them fill a GPU."""
 
 
 class Simulation:

@@ -1,4 +1,4 @@
-"""Snapshots: what a simulation of many plans gives out at one time, as flat arrays and what has changed."""
+"""Snapshots: a frame of many plans as flat arrays, and the changes since the frame before."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ if TYPE_CHECKING:
     from balloon_usd.solver.frame_arrays import FrameArrays, Place
 
     Memory = Callable[[], FrameArrays]
-    """Gives the arrays into which the next snapshot is written."""
+    """Returns the arrays into which the next snapshot is written."""
 
 Outcome = Frame | SimulationFailed | None
 """What a frame brings for a plan: the frame, its failure, or nothing as it is over."""
 
 
 class Change(NamedTuple):
-    """What is new of one plan."""
+    """Change of the status of one plan."""
 
     plan: int
     doing: str
@@ -43,11 +43,11 @@ class Snapshot:
     time_code: int
     """Number of the frame, from 1."""
     arrays: FrameArrays
-    """The arrays of all plans, one after another. What stands there of a plan that is over means nothing."""
+    """The arrays of all plans, one after another; undefined for plans that are over."""
     made: NDArray[np.bool_]
     """Whether every plan has this frame, (plans,): it is neither over nor failed."""
     changes: Sequence[Change]
-    """Of the plans of which something is new; of all in the first snapshot."""
+    """Of the plans whose status has changed; of all in the first snapshot."""
 
 
 def frames_of(snapshots: Generator[Snapshot], places: Sequence[Place]) -> Iterator[list[Outcome]]:

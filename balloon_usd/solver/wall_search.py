@@ -23,7 +23,7 @@ class WallSearch:
     def __init__(self, launcher: Launcher) -> None:
         self._launcher = launcher
         launcher.values["touch"] = launcher.scene.touch
-        # All in blocks of one size: each size is compiled and loaded for itself.
+        # One block size for all: each size is a separate compilation.
         launcher.launch(find_own_walls, len(launcher.scene.x), lanes=WARP)
         launcher.load(chunk_surface, ring_radii, find_walls, order_hits, lanes=WARP)
 

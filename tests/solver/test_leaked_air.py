@@ -19,7 +19,7 @@ def lost(model: KosakaModel, particle: int, place) -> np.ndarray:
     air[particle] = place
     model.scene.air.assign(air)
     one_frame(model)
-    model.stepper.find_lost()
+    model.stepper.find_leaked()
     return model.scene.air.numpy()[particle]
 
 

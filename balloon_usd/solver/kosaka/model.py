@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from balloon_usd.balloon.detail import Detail
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
-    from balloon_usd.solver.model import Told
+    from balloon_usd.solver.model import Status
 
 READ_BACK = (
     "x",
@@ -49,12 +49,12 @@ READ_BACK = (
 MOST_SEARCHES = 2
 """Searches for neighbours in a frame in which hands are at work or air moves fast."""
 AHEAD = 0.5
-"""Way of the fastest air after which lists are made anew, in the distance that they look ahead."""
+"""Way of the fastest air after which neighbour lists are rebuilt, in their margin."""
 FIRST_FRAMES = 6
 """Frames at the start in which air moves as fast as it may."""
 LEADING = 0.1
 """Force of a hand that leads a bubble, as a share of the largest external force."""
-LOST_EVERY = 12
+LEAK_SEARCH_EVERY = 12
 """Frames between two searches for air that no offset region sees, while no hand is at work."""
 LAST_PASSES = 4
 """Searches for it in the frame in which a sculpture ends."""
@@ -63,7 +63,7 @@ ROOM_TO_GROW = 1.25
 
 
 class _ClusterState(NamedTuple):
-    """What the clusters had come to when the state was read back."""
+    """The clusters when the state was read back."""
 
     of_segment: NDArray[np.int64]
     """Cluster of every segment, (S,)."""
@@ -108,12 +108,12 @@ class KosakaModel:
         sizes = [starts[run.stop] - starts[run.start] for run in self._bodies]
         self._first_bubble = np.repeat([place.bubbles.start for place in self.layout.places], sizes)
         """First bubble of the sculpture of every particle."""
-        self.told: list[Told] = []
-        """What was told of every sculpture when the state was read back."""
+        self.statuses: list[Status] = []
+        """Status of every sculpture when the state was read back."""
         self._read_clusters = self._cluster_state()
         self._frames = 0
         self._moved = 0.0
-        """Way of the fastest air since the last search, in the distance that lists look ahead."""
+        """Way of the fastest air since the last rebuild of the neighbour lists, in their margin."""
 
     @staticmethod
     def usual_substeps(_detail: Detail) -> int:
@@ -140,12 +140,12 @@ class KosakaModel:
         self.hands.arrived()
         self.clusters.part(self.hands.radius_goal > 0.0)
         for _ in range(self._passes(begin, end, handled=handled)):
-            self.stepper.find_lost()
+            self.stepper.find_leaked()
         self.stepper.start_readback()
 
     def _searches(self, seconds: float, *, handled: bool) -> int:
-        """Searches that a frame of some seconds needs: more where hands are at work or air moves fast, none
-        while all that moves stays within what the last lists look ahead.
+        """Rebuilds of the neighbour lists that a frame of some seconds needs: more where hands are at work or
+        air moves fast, none while all motion stays within their margin.
         """
         step = float(self._state["fastest"][0]) * seconds / self.scene.margin
         if handled or self._frames <= FIRST_FRAMES or step > AHEAD:
@@ -158,12 +158,12 @@ class KosakaModel:
         return 1
 
     def _passes(self, begin: float, end: float, *, handled: bool) -> int:
-        """How often lost air is looked for in this frame: what was brought back where a sculpture ends must
-        not have come through another wall.
+        """How often leaked air is searched for in this frame: what was brought back where a sculpture ends
+        must not have come through another wall.
         """
         if any(begin < m.plan.choreography.seconds < end + 0.5 * (end - begin) for m in self.makers):
             return LAST_PASSES
-        return int(handled or self._frames % LOST_EVERY == 0)
+        return int(handled or self._frames % LEAK_SEARCH_EVERY == 0)
 
     def read_back(self) -> None:
         """Wait for the read-back of the latest state: what follows is of that state, until the next
@@ -173,7 +173,7 @@ class KosakaModel:
             self.stepper.start_readback()
         self._state = self._readback.arrays()
         self._read_clusters = self._cluster_state()
-        self.told = [maker.told for maker in self.makers]
+        self.statuses = [maker.status for maker in self.makers]
 
     def _cluster_state(self) -> _ClusterState:
         return _ClusterState(self.clusters.of_segment, self.clusters.of_air)
@@ -204,7 +204,7 @@ class KosakaModel:
         return suspects
 
     def failures(self) -> dict[int, str]:
-        """Return what is wrong with sculptures in a way that their frames do not show."""
+        """Return failures that the frames do not show, by sculpture."""
         most_near = self._state["most_near"]
         return {world: _too_near(int(most_near[world])) for world in np.flatnonzero(most_near).tolist()}
 

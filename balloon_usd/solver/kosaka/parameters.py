@@ -68,7 +68,7 @@ ELONGATION_LIMIT = 2.0
 FASTEST_AIR = 0.4
 """Farthest that an air particle moves in one step, in re: it must not jump over the offset regions."""
 MARGIN = 0.25
-"""Distance that lists of neighbours look ahead, in re."""
+"""Margin (skin) of the neighbour lists, in re."""
 
 
 @dataclass(frozen=True)

@@ -23,11 +23,12 @@ if TYPE_CHECKING:
     from balloon_usd.solver.settings import SceneSettings
 
 NEIGHBOURS = {"cpu": 512, "cuda": 2048}
-"""Room for the neighbours of one particle; on a GPU the lanes of its block share it."""
+"""Capacity for the neighbours of one particle; on a GPU it is split among the lanes of a block."""
 FACE_AIR = {"cpu": 1536, "cuda": 2048}
-"""Room for the particles that one quad may meet, likewise."""
+"""Capacity for the particles that may touch one quad, likewise."""
 AIR_FACES = {"cpu": 3072, "cuda": 6144}
-"""Room for the triangles that one particle may meet, likewise: in a neck most of them fall to one lane."""
+"""Capacity for the triangles that one particle may touch, likewise: in a neck most of them fall to one lane.
+"""
 WATCHED = 2.0
 """Distance within which walls are watched between two searches, in thicknesses of the contact region."""
 
@@ -38,7 +39,7 @@ class KosakaScene(Scene):
 
     bodies: tuple[KosakaBody, ...]
     margin: float = 0.0
-    """Distance that lists of neighbours look ahead, m."""
+    """Margin (skin) of the neighbour lists, m."""
 
     @cached_property
     def air_start(self) -> Ints:

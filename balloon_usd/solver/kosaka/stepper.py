@@ -1,4 +1,4 @@
-"""The substeps of a frame in the thesis's model (Kosaka 2008, fig. 3.8), recorded once as a graph."""
+"""The substeps of a frame in the thesis's model (Kosaka 2008, fig. 3.8), captured once as a graph."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from balloon_usd.solver.checks import travel_limit
 from balloon_usd.solver.kernels.kosaka.air_particles import move_air, repel_air
 from balloon_usd.solver.kernels.kosaka.drift import cluster_drift, fastest_air
 from balloon_usd.solver.kernels.kosaka.frozen_rings import hold_rings, move_rubber
-from balloon_usd.solver.kernels.kosaka.leaked_air import find_lost_air
+from balloon_usd.solver.kernels.kosaka.leaked_air import find_leaked_air
 from balloon_usd.solver.kernels.kosaka.neighbours import LANES, near_air, near_faces, near_faces_air
 from balloon_usd.solver.kernels.kosaka.offset_regions import (
     cluster_pressures,
@@ -68,8 +68,8 @@ class KosakaStepper:
         self._walls = WallSearch(self._launcher)
         self._launcher.load(part_walls, press_fingers)
         self._launch_lanes(hold_rings, len(scene.joint_first), fraction=1.0)
-        # Nothing is lost yet: it is loaded now, not in the middle of a run.
-        self.find_lost()
+        # No air has leaked yet: this loads the kernel now, not in the middle of a run.
+        self.find_leaked()
 
     def advance(self, *, contact: bool, fingers: bool, searches: int, rings: bool = True) -> None:
         """Advance by one frame.
@@ -83,9 +83,9 @@ class KosakaStepper:
             lambda: self._frame(contact=contact, fingers=fingers, searches=searches, rings=rings),
         )
 
-    def find_lost(self) -> None:
+    def find_leaked(self) -> None:
         """Bring back air that has leaked beyond every offset region."""
-        self._launch_lanes(find_lost_air, len(self.scene.air))
+        self._launch_lanes(find_leaked_air, len(self.scene.air))
 
     def start_readback(self) -> None:
         """Start copying what frames are made of."""
@@ -117,9 +117,9 @@ class KosakaStepper:
                 self._launch(cluster_drift, len(s.segment_quad), interval=search_every * self._dt)
             if fingers:
                 self._launch(press_fingers, len(s.x), fraction=(k + 1) / self.substeps)
-            # Their middles are wanted in the end, whatever happens to them.
+            # The last substep of a frame always measures the rings, for read-back.
             self._substep((k + 1) / self.substeps, contact=contact, rings=rings or k + 1 == self.substeps)
-        # What leaked in the last step comes back before it is seen.
+        # Air that leaked in the last substep is put back before read-back.
         self._launch(face_surface, len(s.face_normal))
         self._launch_lanes(press_air, len(s.air))
 
@@ -128,7 +128,7 @@ class KosakaStepper:
         s = self.scene
         vertices, particles = len(s.x), len(s.air)
         if contact:
-            # The wall stands in `x_next` for a moment.
+            # Double buffer: contact writes to `x_next`.
             self._launch(part_walls, vertices)
             wp.copy(s.x, s.x_next)
         with self._launcher.aside():
@@ -148,7 +148,7 @@ class KosakaStepper:
         self._launcher.join()
 
     def _find_neighbours(self, *, contact: bool) -> None:
-        """List the particles, triangles and walls that may meet before the next search."""
+        """Rebuild the lists of particles, triangles and walls that may touch before the next search."""
         s = self.scene
         self._launch(face_surface, len(s.face_normal))
         self._walls.measure_quads(s.x)

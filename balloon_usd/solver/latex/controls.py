@@ -44,7 +44,7 @@ class LatexControls(Hands):
         self._passages = b"", b""
         """How wide all necks are at both ends of the frame, as last looked at."""
         self._necks: dict[str, NDArray[Any]] = {}
-        """What follows from that."""
+        """Arrays that follow from that."""
         self._beyond: dict[tuple[int, float], slice | NDArray[np.int64]] = {}
         """Vertices of the scene that lie beyond a place on a balloon."""
         self.upload()

@@ -54,7 +54,7 @@ class Part:
 
 @dataclass
 class HingedParts:
-    """Both sides of a hinge at a moment, and how they have moved since it was looked at."""
+    """Both sides of a hinge at a moment, and how they have moved since."""
 
     point: Floats
     """Where the joint was, (3,), m."""

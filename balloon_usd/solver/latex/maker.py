@@ -16,7 +16,7 @@ from balloon_usd.solver.latex.friction import Friction
 from balloon_usd.solver.latex.memory import set_bend
 from balloon_usd.solver.latex.torsion import Torsion
 from balloon_usd.solver.maker import ALONG, Maker
-from balloon_usd.solver.model import Told
+from balloon_usd.solver.model import Status
 
 if TYPE_CHECKING:
     from balloon_usd.plan import Plan
@@ -72,11 +72,11 @@ class LatexMaker(Maker):
         super()._perform(begin, end, middle)
         self.torsion.unwind(end - begin, middle)
 
-    def _tell(self) -> None:
+    def _update_status(self) -> None:
         loose, undone = self.torsion.unwinding, self.torsion.undone
         doing = self._text if loose is None else f"comes undone: {loose}"
-        if doing is not self.told.doing or undone is not self.told.undone:
-            self.told = Told(doing, undone)
+        if doing is not self.status.doing or undone is not self.status.undone:
+            self.status = Status(doing, undone)
 
     def _let_go(self, k: int, move: LetGo, share: float, fresh: bool, middle: Floats) -> None:
         super()._let_go(k, move, share, fresh, middle)

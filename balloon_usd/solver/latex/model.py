@@ -32,12 +32,12 @@ if TYPE_CHECKING:
     from balloon_usd.balloon.detail import Detail
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan, Strip
-    from balloon_usd.solver.model import Told
+    from balloon_usd.solver.model import Status
 
 SEALED_KNOT = 0.7
 """Pressure in the knot bead, in Maxwell pressures of its balloon."""
 STRUTS_PER_JOINT = 12
-"""Room for struts, per joint of the scene."""
+"""Capacity for struts, per joint of the scene."""
 SHORT_OF_GAS = 0.98
 """Share of the wanted gas below which inflating counts as failed."""
 READ_BACK = (
@@ -89,8 +89,8 @@ class LatexModel:
         self._readback = Readback(self.scene, READ_BACK)
         self.layout = Layout(self.scene, self._bodies)
         self._state: dict[str, NDArray[Any]] = {}
-        self.told: list[Told] = []
-        """What was told of every sculpture when the state was read back."""
+        self.statuses: list[Status] = []
+        """Status of every sculpture when the state was read back."""
         self._inflated: list[int] = []
         """Sculptures whose last balloon had just got its gas then."""
         self._start_readback()
@@ -125,7 +125,7 @@ class LatexModel:
         read-back.
         """
         self._state = self._readback.arrays()
-        self.told = [maker.told for maker in self.makers]
+        self.statuses = [maker.status for maker in self.makers]
         self._inflated = [world for world, m in enumerate(self.makers) if m.just_inflated]
 
     def rest(self) -> None:
@@ -146,7 +146,7 @@ class LatexModel:
         return suspects
 
     def failures(self) -> dict[int, str]:
-        """Return what is wrong with sculptures in a way that their frames do not show."""
+        """Return failures that the frames do not show, by sculpture."""
         found = {world: cause for world in self._inflated if (cause := self._short_of_gas(world))}
         most_hits = self._state["most_hits"]
         return found | {

@@ -30,7 +30,7 @@ DISCHARGE = 0.6
 EQUALISE = 0.9
 """Largest share of a pressure difference that may even out in one substep, between rigid walls: stable."""
 STRUT_SLOTS = 24
-"""Struts that may end at one joint."""
+"""Most struts that may end at one joint."""
 
 
 @dataclass
@@ -52,21 +52,15 @@ def build_scene(
     """Put bodies on a device.
 
     `worlds`: sculpture of every body; bodies of different sculptures never touch. `weld_count`,
-    `strut_count`: room for welds and struts.
+    `strut_count`: capacity for welds and struts.
     """
     scene = LatexScene.of(bodies, worlds, settings, device)
     data = [
         membrane_data(b, settings.dt, settings.atmosphere, scale_mass=settings.scale_mass) for b in bodies
     ]
     host: Arrays = {
-        name: np.concatenate([getattr(d, field) for d in data]).astype(np.float32)
-        for name, field in (
-            ("rest_inverse", "rest_inverse"),
-            ("hourglass", "hourglass"),
-            ("rubber_volume", "rubber_volume"),
-            ("mass", "mass"),
-            ("true_mass", "true_mass"),
-        )
+        name: np.concatenate([getattr(d, name) for d in data]).astype(np.float32)
+        for name in ("rest_inverse", "hourglass", "rubber_volume", "mass", "true_mass")
     }
     lay_meshes(scene, host, weld_count)
     host = {"quad_law": scene.quad_balloon.numpy()}

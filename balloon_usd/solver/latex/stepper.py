@@ -1,4 +1,4 @@
-"""The substeps of a frame in the latex model, recorded once as a graph and replayed."""
+"""The substeps of a frame in the latex model, captured once as a graph and replayed."""
 
 from __future__ import annotations
 

@@ -25,7 +25,7 @@ ARRAYS = (
     "strut_yield",
     "joint_struts",
 )
-"""What the device knows of struts."""
+"""Device arrays of struts."""
 STRUT_SHARE = 0.6
 """Stiffness of one strut as a share of the largest that a ring bears."""
 
@@ -71,7 +71,7 @@ class Struts:
         `middle`: of all joints, (J, 3), m.
 
         Raises:
-            ValueError: there is no room for so many struts, or too many end at one joint.
+            ValueError: more struts than the capacity, or too many end at one joint.
         """
         fresh = sorted(self._wanted.difference(self.pairs))
         self._wanted.clear()
@@ -96,7 +96,7 @@ class Struts:
             if name == "joint_struts":
                 upload.send()
             else:
-                # What is there already may have given way since.
+                # Earlier struts may have yielded since: their lengths on the device stay.
                 upload.send(before, len(self.pairs))
 
 

@@ -95,7 +95,7 @@ def cluster_drift(
     joint_neck: wp.array[float],
     frozen: wp.array[int],
     ring_middle: wp.array[wp.vec3],
-    ring_speed: wp.array[wp.vec3],
+    ring_velocity: wp.array[wp.vec3],
     x: wp.array[wp.vec3],
     interval: float,
     drifts: wp.array[Drift],
@@ -115,7 +115,7 @@ def cluster_drift(
     drift.joints = wp.vec2i(-1, last_joint)
     if last_joint >= 0:
         drift.end = ring_middle[last_joint]
-        drift.end_speed = ring_speed[last_joint]
+        drift.end_speed = ring_velocity[last_joint]
         drift.start_speed = drift.end_speed
         n = joint_around[last_joint]
         drift.end_inward = wp.normalize(ring_mean(x, joint_first[last_joint] - n, n) - drift.end)
@@ -124,7 +124,7 @@ def cluster_drift(
         if frozen[first_joint] == 1:
             drift.joints[0] = first_joint
             drift.start = ring_middle[first_joint]
-            drift.start_speed = ring_speed[first_joint]
+            drift.start_speed = ring_velocity[first_joint]
             m = joint_around[first_joint]
             drift.start_inward = wp.normalize(ring_mean(x, joint_first[first_joint] + m, m) - drift.start)
             drift.neck = joint_neck[first_joint]

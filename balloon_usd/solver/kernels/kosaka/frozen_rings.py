@@ -62,9 +62,9 @@ def move_rubber(
         if radius_to[j] > 0.0:
             radius = radius_from[j] + fraction * (radius_to[j] - radius_from[j])
             f += pinch_force(x[i], v[i], ring_middle[j], radius, f, law.force_limit, dt)
-    speed = v[i] + f * dt
-    v[i] = speed
-    x_next[i] = x[i] + speed * dt
+    velocity = v[i] + f * dt
+    v[i] = velocity
+    x_next[i] = x[i] + velocity * dt
 
 
 @wp.kernel
@@ -89,24 +89,24 @@ def hold_rings(
     frozen: wp.array[int],
     ring_middle: wp.array[wp.vec3],
     ring_area: wp.array[wp.vec3],
-    ring_speed: wp.array[wp.vec3],
+    ring_velocity: wp.array[wp.vec3],
 ):
     """Freeze rings whose vertices coincide, carry frozen rings with the hand that holds them, lead open ones,
     and write where they are.
 
-    Middles in m, vector areas in m2, speeds in m/s.
+    Middles in m, vector areas in m2, velocities in m/s.
     """
     j, lane = wp.tid()
     first = joint_first[j]
     n = joint_around[j]
     place = wp.vec3(0.0)
-    speed = wp.vec3(0.0)
+    velocity = wp.vec3(0.0)
     for k in range(lane, n, wp.block_dim()):
         place += x[first + k]
-        speed += v[first + k]
-    # Every lane must read a block's sum: it is no place for branches.
+        velocity += v[first + k]
+    # Collective: every lane of the block takes part, so no branches here.
     c = wp.tile_sum(wp.tile(place, preserve_type=True))[0] / float(n)
-    w = wp.tile_sum(wp.tile(speed, preserve_type=True))[0] / float(n)
+    w = wp.tile_sum(wp.tile(velocity, preserve_type=True))[0] / float(n)
     off = float(0.0)
     for k in range(lane, n, wp.block_dim()):
         off = wp.max(off, wp.length(x[first + k] - c))
@@ -114,7 +114,7 @@ def hold_rings(
     still = frozen[j]
     if radius_to[j] > 0.0 and far < COINCIDENT * joint_neck[j]:
         still = 1
-    # A shift does not change the fan's area, and no lane must read what another has shifted.
+    # Measured before the shift, which changes no area: no lane reads what another has moved.
     fan = wp.vec3(0.0)
     for k in range(lane, n, wp.block_dim()):
         fan += wp.cross(x[first + (k + n - 1) % n] - c, x[first + k] - c)
@@ -146,4 +146,4 @@ def hold_rings(
         frozen[j] = still
         ring_middle[j] = c + shift
         ring_area[j] = 0.5 * area
-        ring_speed[j] = wp.where(still == 1, kick, w + kick)
+        ring_velocity[j] = wp.where(still == 1, kick, w + kick)

@@ -1,5 +1,5 @@
-"""Lost air: particles that have leaked beyond every offset region, or into another bubble, and how they come
-back. The thesis has only offset regions (Kosaka 2008, 3.4).
+"""Leaked air: particles beyond every offset region, or in another bubble, and how they are put back. The
+thesis has only offset regions (Kosaka 2008, 3.4).
 """
 
 import warp as wp
@@ -51,7 +51,7 @@ def spread_over(number: int, a: wp.vec3, b: wp.vec3, c: wp.vec3):
 
 
 @wp.kernel
-def find_lost_air(
+def find_leaked_air(
     quads: wp.array[wp.vec4i],
     quad_cluster: wp.array[int],
     balloon_quads: wp.array[int],
@@ -82,10 +82,10 @@ def find_lost_air(
             if far < nearest:
                 nearest = far
                 face = q
-    # Every lane must read a block's sum: it is no place for branches.
+    # Collective: every lane of the block takes part, so no branches here.
     wound = wp.tile_sum(wp.tile(turns))[0]
     least_far = wp.tile_min(wp.tile(nearest))[0]
-    # Where two are as near, the first lane decides.
+    # Ties go to the lowest lane.
     chosen = wp.tile_min(wp.tile(wp.where(nearest == least_far, lane, wp.block_dim())))[0]
     if lane == chosen and wound < wp.pi and face >= 0:
         f = triangle(quads, 2 * face + (p + repairs[p]) % 2)

@@ -1,8 +1,8 @@
-"""Who is near whom: lists of particles and triangles that may meet before the next search.
+"""Neighbour lists: particles and triangles that may touch before the next search, from a hash grid.
 
-A block of threads searches for one particle or quad. Its lanes share the work by place: each looks through
-one of 3 x 3 x 3 boxes of the neighbourhood and keeps a list of its own, so that no list depends on which came
-first. On the CPU a block has one lane, which looks through all.
+A block of threads searches for one particle or quad. Each of its lanes queries one of 3 x 3 x 3 boxes of the
+neighbourhood and keeps a list of its own, so that lists do not depend on the order of threads. On the CPU a
+block has one lane, which queries all.
 """
 
 import warp as wp
@@ -211,7 +211,7 @@ def near_faces_air(
     c = quads[q]
     law = constants[quad_balloon[q]]
     wider = (1.0 + 3.0 * WIDER_OUTSIDE) * quad_half + margin
-    # All that can be met lies in a ball about the middle of the inner region.
+    # Bounding ball of the inner region.
     half = 0.5 * law.air_offset + margin
     normal = wp.normalize(wp.cross(x[c[2]] - x[c[0]], x[c[3]] - x[c[1]]))
     here = quad_middle[q] - (0.5 * law.air_offset) * normal

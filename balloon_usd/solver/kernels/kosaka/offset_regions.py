@@ -225,7 +225,7 @@ def press_air(
     repairs: wp.array[int],
 ):
     """Write the push D_a (m/s2) of the rubber on every particle (Kosaka 2008, eqs. 3.12 and 3.17) and bring
-    leaked ones back, their speed reset (eqs. 3.13 and 3.18).
+    leaked ones back, their velocity reset (eqs. 3.13 and 3.18).
 
     A particle has leaked when of all triangles in whose regions it is the nearest is in its back.
     """
@@ -251,10 +251,10 @@ def press_air(
                     if wp.abs(d) < nearest:
                         nearest = wp.abs(d)
                         face = wp.where(d > 0.0, t, -1)
-    # Every lane must read a block's sum: it is no place for branches.
+    # Collective: every lane of the block takes part, so no branches here.
     push = wp.tile_sum(wp.tile(total, preserve_type=True))[0]
     least_far = wp.tile_min(wp.tile(nearest))[0]
-    # Where two are as near, the first lane decides.
+    # Ties go to the lowest lane.
     chosen = wp.tile_min(wp.tile(wp.where(nearest == least_far, lane, wp.block_dim())))[0]
     if lane == chosen:
         wall_push[p] = push

@@ -42,8 +42,9 @@ def part_walls(
     v: wp.array[wp.vec3],
     x_next: wp.array[wp.vec3],
 ):
-    """Move every vertex that lies inside a wall onto it (Kosaka 2008, eq. 3.15), and take from its speed what
-    would carry it in again; only the vertex's own speed is changed. Necks stay where hands closed them.
+    """Move every vertex that lies inside a wall onto it (Kosaka 2008, eq. 3.15), and take from its velocity
+    what would carry it in again; only the vertex's own velocity is changed. Necks stay where hands closed
+    them.
     """
     i = wp.tid()
     j = vertex_joint[i]

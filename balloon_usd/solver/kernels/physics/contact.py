@@ -275,7 +275,7 @@ def distance_of_wall(
     quad_area: wp.array[wp.vec3],
     ring_radius: wp.array[float],
 ):
-    """Return the distance (m) of a vertex from a quad that faces it, or FAR where the two never meet.
+    """Return the distance (m) of a vertex from a quad that faces it, or FAR where the two never touch.
 
     `d`: from the quad's middle to the vertex, m; `mine`, `bubble`, `place`: its balloon, bubble and place.
     """
@@ -657,7 +657,7 @@ def press_wall(
     x2 = coherent_vec3(x, c[2])
     x3 = coherent_vec3(x, c[3])
     # Prefetch: loaded before the test that may not need them.
-    speed = coherent_vec3(v, i)
+    velocity = coherent_vec3(v, i)
     v0 = coherent_vec3(v, c[0])
     v1 = coherent_vec3(v, c[1])
     v2 = coherent_vec3(v, c[2])
@@ -674,7 +674,7 @@ def press_wall(
     moved = wp.vec3(0.0)
     if overlap > 0.0 and wp.length(gap - height * face) < limits[3]:
         stiffness = limits[0]
-        going = speed - (s[0] * v0 + s[1] * v1 + s[2] * v2 + s[3] * v3)
+        going = velocity - (s[0] * v0 + s[1] * v1 + s[2] * v2 + s[3] * v3)
         approach = wp.dot(going, face)
         near = wp.min(overlap / offset, 1.0)
         push = wp.max(stiffness * overlap - limits[1] * near * approach, 0.0)

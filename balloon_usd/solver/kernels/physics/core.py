@@ -203,7 +203,7 @@ def yield_to_core(
     core_thrust: wp.array[wp.vec3],
     v: wp.array[wp.vec3],
 ):
-    """Add to the speed (m/s) of a ring's vertices what the cores in it and on both sides give them.
+    """Add to the velocity (m/s) of a ring's vertices what the cores in it and on both sides give them.
 
     All add up to nothing and have no torque: those on a ring are along arms from its middle, less their mean,
     and the thrust of a core is along the line between two middles.

@@ -37,7 +37,7 @@ def press_finger(
     x: wp.array[wp.vec3],
     v: wp.array[wp.vec3],
 ):
-    """Add to the speed (m/s) of a vertex under a finger what the finger's force gives it in a substep."""
+    """Add to the velocity (m/s) of a vertex under a finger what the finger's force gives it in a substep."""
     share = float_at(finger_share, i)
     if share > 0.0:
         finger = fingers[int_at(vertex_balloon, i)]

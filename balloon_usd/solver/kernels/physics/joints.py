@@ -41,10 +41,10 @@ def held(mode: int):
 
 @wp.func
 def lead_load(
-    away: wp.vec3, speed: wp.vec3, stiffness: float, mass: float, limit: float, free: wp.vec3
+    away: wp.vec3, velocity: wp.vec3, stiffness: float, mass: float, limit: float, free: wp.vec3
 ) -> wp.vec3:
     """Return the force (N) of a hand that draws a ring to its goal, not along `free`, and at most `limit`."""
-    load = stiffness * away - wp.sqrt(stiffness * mass) * speed
+    load = stiffness * away - wp.sqrt(stiffness * mass) * velocity
     load -= wp.dot(load, free) * free
     size = wp.length(load)
     if size > limit:
@@ -83,7 +83,7 @@ def closing_spin(
     """Return the angular velocity (rad/s) that putting a ring on its polygon would give it: a ring that is
     free to turn must not get it.
 
-    `a`, `b`, `va`, `vb`: sums of places and speeds times the polygon's cosines and sines; `own`: angular
+    `a`, `b`, `va`, `vb`: sums of places and velocities times the polygon's cosines and sines; `own`: angular
     momentum about its middle, per vertex mass.
     """
     p = axes * wp.vec2(1.0, 0.0)
@@ -199,7 +199,7 @@ def move_joint(
     ring_middle: wp.array[wp.vec3],
     ring_area: wp.array[wp.vec3],
     ring_axes: wp.array[Axes],
-    ring_speed: wp.array[wp.vec3],
+    ring_velocity: wp.array[wp.vec3],
     hand_load: wp.array[wp.vec3],
 ):
     """Move the ring of a joint by the forces on it, hold, lead and close it, and write where it is and what
@@ -316,7 +316,7 @@ def move_joint(
         put_vec3(v, i, s)
     if lane == 0 and not idle:
         put_vec3(ring_middle, j, old_middle + (c + shift))
-        put_vec3(ring_speed, j, w + kick)
+        put_vec3(ring_velocity, j, w + kick)
         put_vec3(hand_load, j, load)
         ring_axes[j] = axes
         put_vec3(ring_area, j, area)
@@ -331,7 +331,7 @@ def measure_rings(
     ring_middle: wp.array[wp.vec3],
     ring_area: wp.array[wp.vec3],
     ring_axes: wp.array[Axes],
-    ring_speed: wp.array[wp.vec3],
+    ring_velocity: wp.array[wp.vec3],
 ):
     """Write the middle (m), the vector area (m2) and the in-plane axes of every ring, at rest; a warp of
     lanes each on a GPU.
@@ -355,7 +355,7 @@ def measure_rings(
         put_vec3(ring_middle, j, c)
         put_vec3(ring_area, j, area)
         ring_axes[j] = axes
-        put_vec3(ring_speed, j, wp.vec3(0.0))
+        put_vec3(ring_velocity, j, wp.vec3(0.0))
 
 
 @wp.func
@@ -432,7 +432,7 @@ def load_strut(
     strut_damping: wp.array[float],
     strut_yield: wp.array[float],
     ring_middle: wp.array[wp.vec3],
-    ring_speed: wp.array[wp.vec3],
+    ring_velocity: wp.array[wp.vec3],
     strut_length: wp.array[float],
     strut_force: wp.array[wp.vec3],
 ):
@@ -451,7 +451,7 @@ def load_strut(
             put_float(strut_length, s, now + float_at(strut_yield, s) / float_at(strut_stiffness, s))
             tension = -float_at(strut_yield, s)
         tension += float_at(strut_damping, s) * wp.dot(
-            coherent_vec3(ring_speed, ends[1]) - coherent_vec3(ring_speed, ends[0]), along
+            coherent_vec3(ring_velocity, ends[1]) - coherent_vec3(ring_velocity, ends[0]), along
         )
         pull = tension * along
     put_vec3(strut_force, s, pull)

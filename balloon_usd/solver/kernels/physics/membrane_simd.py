@@ -27,14 +27,14 @@ SIMD_QUADS = 16
 """Quads in a row: as many floats as the widest SIMD registers hold."""
 ROW = wp.constant(SIMD_QUADS)
 
-Given = wp.types.matrix(shape=(34, SIMD_QUADS), dtype=float)
+Inputs = wp.types.matrix(shape=(34, SIMD_QUADS), dtype=float)
 """Rows of what is gathered: positions (0-11) and velocities (12-23) of the four corners, inverse rest edges
 (24-27), hourglass vectors (28-31), volume of rubber (32) and peak energy (33).
 """
-Asked = wp.types.matrix(shape=(5, SIMD_QUADS), dtype=float)
+LawRows = wp.types.matrix(shape=(5, SIMD_QUADS), dtype=float)
 """Rows of two squared stretches (0, 1), and of the three at which the law is taken, then of its result (2-4).
 """
-Found = wp.types.matrix(shape=(26, SIMD_QUADS), dtype=float)
+Results = wp.types.matrix(shape=(26, SIMD_QUADS), dtype=float)
 """Rows of the results: four forces (0-11), four volume gradients (12-23), volume (24) and peak energy (25).
 """
 
@@ -63,9 +63,9 @@ def walls_simd(
     """Write what `wall_of_quad` does for the quads of chunks, each of one rubber, and the volume (m3) between
     those of each chunk and its origin.
     """
-    g = Given()
-    a = Asked()
-    r = Found()
+    g = Inputs()
+    a = LawRows()
+    r = Results()
     # While loops: compilers do not vectorise Warp's ranges.
     chunk = int(begin)
     while chunk < end:

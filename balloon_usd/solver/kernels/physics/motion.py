@@ -101,17 +101,17 @@ def step_of_vertex(
     x: wp.array[wp.vec3],
     v: wp.array[wp.vec3],
 ):
-    """Return where a force (N) moves a vertex (m) and its speed there (m/s), by symplectic Euler
+    """Return where a force (N) moves a vertex (m) and its velocity there (m/s), by symplectic Euler
     (Kosaka 2008, eqs. 3.22 and 3.23).
     """
     b = int_at(vertex_balloon, i)
     turn = spin[b]
     along = float_at(vertex_along, i)
     pull = wp.vec3(0.0, 0.0, -float_at(gravity, b) * float_at(true_mass, i))
-    speed = (coherent_vec3(v, i) + (f + pull) * (dt / float_at(mass, i))) * wp.max(
+    velocity = (coherent_vec3(v, i) + (f + pull) * (dt / float_at(mass, i))) * wp.max(
         1.0 - float_at(drag, b) * dt, 0.0
     )
-    p = coherent_vec3(x, i) + speed * dt
+    p = coherent_vec3(x, i) + velocity * dt
     rate = turn.back_rate
     axis = turn.back_axis
     drift = turn.back_drift
@@ -123,8 +123,8 @@ def step_of_vertex(
         r = wp.quat_from_axis_angle(axis, rate * dt)
         p = turn.point + wp.quat_rotate(r, p - turn.point) + drift * dt
         if turn.back_rate == 0.0:
-            speed = wp.quat_rotate(r, speed)
-    return p, speed
+            velocity = wp.quat_rotate(r, velocity)
+    return p, velocity
 
 
 @wp.func
@@ -148,7 +148,7 @@ def move_vertex(
     x: wp.array[wp.vec3],
     v: wp.array[wp.vec3],
 ):
-    """Move a vertex (m) that belongs to no ring by the forces on it, and write its speed (m/s)."""
+    """Move a vertex (m) that belongs to no ring by the forces on it, and write its velocity (m/s)."""
     segment = int_at(vertex_segment, i)
     inside = coherent_float(pressure, segment)
     f = force_on_vertex(
@@ -157,8 +157,8 @@ def move_vertex(
     last = vec4i_at(corners, i)[3]
     if last < -1:
         f += force_of_further_quads(last, inside, corners, corner_force, volume_gradient)
-    p, speed = step_of_vertex(
+    p, velocity = step_of_vertex(
         i, f, vertex_balloon, vertex_along, mass, true_mass, gravity, drag, dt, spin, x, v
     )
     put_vec3(x, i, p)
-    put_vec3(v, i, speed)
+    put_vec3(v, i, velocity)

@@ -183,7 +183,7 @@ def advance_sculptures(
     core_thrust: wp.array[wp.vec3],
     corner_force: wp.array2d[float],
     volume_gradient: wp.array2d[float],
-    ring_speed: wp.array[wp.vec3],
+    ring_velocity: wp.array[wp.vec3],
     strut_length: wp.array[float],
     strut_force: wp.array[wp.vec3],
     ring_axes: wp.array[Axes],
@@ -454,7 +454,7 @@ def advance_sculptures(
                         strut_damping,
                         strut_yield,
                         ring_middle,
-                        ring_speed,
+                        ring_velocity,
                         strut_length,
                         strut_force,
                     )
@@ -531,7 +531,7 @@ def advance_sculptures(
                     ring_middle,
                     ring_area,
                     ring_axes,
-                    ring_speed,
+                    ring_velocity,
                     hand_load,
                 )
         for i in range(vertex_begin + threads - 1 - thread, vertex_end, threads):
