@@ -1,4 +1,9 @@
-"""Simulations: plans in, frames out, many sculptures in one flat state."""
+"""Simulations: plans in, frames out, many sculptures in one flat state.
+
+Concurrency: on a CPU each thread advances flat states of its own, and holds the capture lock except while a
+graph runs. On a GPU the next frame is computed while the host checks the last one and gives it out; from
+`MANY` sculptures on there are two flat states, of which the GPU steps one while the host processes the other.
+"""
 
 from __future__ import annotations
 

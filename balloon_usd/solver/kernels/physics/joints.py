@@ -238,6 +238,8 @@ def move_joint(
     slots = joint_struts.shape[1]
     strut = wp.where(lane < slots, int_in(joint_struts, j, wp.min(lane, slots - 1)), 0)
     pull = coherent_vec3(strut_force, wp.max(wp.abs(strut) - 1, 0))
+    # Position and velocity of a vertex; then sums over the ring: of positions and velocities (c, w), of the
+    # same times cosines and sines (a, b, va, vb), and angular momentum (own).
     p = wp.vec3(0.0)
     s = wp.vec3(0.0)
     c = wp.vec3(0.0)

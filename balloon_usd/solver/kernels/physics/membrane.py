@@ -128,8 +128,10 @@ def forces_of_quad(
 ):
     """Return the force (N) of the wall on the four corners of a quad and its peak energy (J/m3) hereafter.
 
-    `volume`: of its rubber, m3; `known`: its peak energy so far; `large2`, `small2`: its squared stretches;
-    `t`: the law's stresses and energy at these. Branch-free, so that CPU compilers vectorise it over quads.
+    `b`: inverse rest edges, 1/m; `h`: hourglass vector; `volume`: of its rubber, m3; `softening`: share of a
+    rise of the peak energy that counts in this substep; `known`: peak energy so far; `large2`, `small2`:
+    squared stretches; `t`: the law's stresses and energy at these. Branch-free, so that CPU compilers
+    vectorise it.
     """
     hoop, axial = edges_of_quad(x0, x1, x2, x3)
     f1, f2 = gradient_of_quad(hoop, axial, b)

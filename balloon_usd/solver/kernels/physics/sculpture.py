@@ -67,6 +67,7 @@ SUBWARP_LANES = wp.constant(SUBWARP)
 
 @wp.kernel
 def advance_sculptures(
+    # Launch
     sculpture_blocks: int,
     joint_blocks: int,
     substeps: int,
@@ -74,6 +75,7 @@ def advance_sculptures(
     end: int,
     walls: int,
     pressing: int,
+    # Topology
     world_balloon: wp.array[int],
     world_quad: wp.array[int],
     world_vertex: wp.array[int],
@@ -118,6 +120,7 @@ def advance_sculptures(
     core_next: wp.array[int],
     core_radius: wp.array[float],
     core_row: wp.array[float],
+    # Material
     rest_inverse: wp.array[wp.mat22],
     hourglass: wp.array[wp.vec4],
     rubber_volume: wp.array[float],
@@ -137,6 +140,7 @@ def advance_sculptures(
     strut_yield: wp.array[float],
     weld_reach: wp.array[float],
     weld_gap: wp.array[float],
+    # Time step, hands and pump of the frame
     dt: float,
     frame_seconds: float,
     hand: wp.array[int],
@@ -156,6 +160,7 @@ def advance_sculptures(
     spin: wp.array[Spin],
     fingers: wp.array[Finger],
     finger_share: wp.array[float],
+    # State
     x: wp.array[wp.vec3],
     ring_middle: wp.array[wp.vec3],
     ring_area: wp.array[wp.vec3],
@@ -190,6 +195,7 @@ def advance_sculptures(
     hand_load: wp.array[wp.vec3],
     weld_shift: wp.array[wp.vec3],
     peak_energy: wp.array[float],
+    # Scratch
     x_next: wp.array[wp.vec3],
     chunk_share: wp.array[float],
     pair_corners: wp.array[wp.vec4i],
@@ -282,7 +288,8 @@ def advance_sculptures(
                 press_finger(i, vertex_balloon, mass, fingers, finger_share, dt, fraction, x_here, v_here)
             goal += sculpture_blocks
             sculpture_barrier(barrier_counts, w, sculpture_blocks, goal, lane)
-        # The SIMD variant of a CPU: the block size is a constant, so a GPU does not compile it.
+        # Phase 1: forces of walls, contacts and cores. The SIMD variant is a CPU's: the block size is a
+        # constant, so a GPU does not compile it.
         if block_size == 1:
             walls_simd(
                 chunk_begin,
@@ -378,6 +385,7 @@ def advance_sculptures(
                 )
         goal += sculpture_blocks
         sculpture_barrier(barrier_counts, w, sculpture_blocks, goal, lane)
+        # Phase 2: volumes and gas; reactions of contacts, struts and cores meanwhile.
         if block == 0:
             for first in range(segment_begin, segment_end, block_size // subwarp):
                 s = first + lane // subwarp
@@ -479,6 +487,7 @@ def advance_sculptures(
                 )
         goal += sculpture_blocks
         sculpture_barrier(barrier_counts, w, sculpture_blocks, goal, lane)
+        # Phase 3: motion of joints and of the other vertices, then welds.
         for base in range(joint_begin, joint_end, warp_lanes):
             mine = int(own_joints)
             if base > joint_begin:
