@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from balloon_usd.batch.shared_memory import SharedMemory
-    from balloon_usd.solver.sight import Extent, Place, Sight
+    from balloon_usd.solver.frame_arrays import Extent, FrameArrays, Place
 
 SLOT_BYTES = 16 * 2**20
 """Frames that travel together [B]: four of 128 draft dogs. One at a time, the scheduler of four simulators
@@ -62,7 +62,7 @@ class FrameRing:
         self.layout = layout
         self._bytes: NDArray[np.uint8] = np.frombuffer(memory.buffer, dtype=np.uint8)
 
-    def sight(self, slot: int, number: int) -> Sight:
+    def frame_arrays(self, slot: int, number: int) -> FrameArrays:
         """Return the arrays of a frame, counted from 0 in its slot."""
         free = (slot * self.layout.shape.frames + number) * self.layout.shape.frame_bytes
 
@@ -72,7 +72,7 @@ class FrameRing:
             free += array.nbytes
             return array
 
-        return self.layout.extent.sight(make)
+        return self.layout.extent.frame_arrays(make)
 
 
 def frame_bytes(extent: Extent) -> int:
@@ -85,5 +85,5 @@ def frame_bytes(extent: Extent) -> int:
         size += array.nbytes
         return array
 
-    extent.sight(make)
+    extent.frame_arrays(make)
     return size

@@ -13,7 +13,7 @@ from balloon_usd.endings import endings_wait
 from balloon_usd.files.hashes import hashes_of
 from balloon_usd.plan.meshing import mesh_of
 from balloon_usd.report import History, write_report
-from balloon_usd.solver.tally import Tally
+from balloon_usd.solver.run_summary import RunSummary
 from balloon_usd.stage import StageWriter
 from balloon_usd.staging import describe_stage, provenance_of
 
@@ -38,7 +38,7 @@ class Sculpture:
         level = detail_named(order.detail)
         meshes = tuple(mesh_of(strip, level) for strip in plan.strips.values())
         self._codes = order.frames.within(plan.frame_count)
-        self._tally = Tally(plan, meshes)
+        self._run_summary = RunSummary(plan, meshes)
         self._history = History(plan, meshes) if order.report else None
         self._open = ExitStack()
         self._writer = StageWriter(describe_stage(plan, meshes), order.folder, **order.form)
@@ -62,7 +62,7 @@ class Sculpture:
 
     def add(self, frame: Frame) -> None:
         """Take the next frame; raises `StageError` when the stage cannot be written."""
-        self._tally.add(frame)
+        self._run_summary.add(frame)
         if frame.time_code in self._codes:
             if self._history is not None:
                 self._history.add(frame)
@@ -104,15 +104,15 @@ class Sculpture:
 
     def _summary(self, written: WrittenStage) -> dict[str, object]:
         """What the run came to, in numbers that a table shows."""
-        tally = self._tally
+        summary = self._run_summary
         return {
             "fps": self._plan.recipe.fps,
             "model": self._plan.recipe.physics.model,
-            "tails_left": {name: round(tail, 6) for name, tail in tally.tails_left.items()},
-            "highest_stretch": round(tally.highest_stretch, 4),
+            "tails_left": {name: round(tail, 6) for name, tail in summary.tails_left.items()},
+            "highest_stretch": round(summary.highest_stretch, 4),
             "burst_stretch": BURST_STRETCH if self._plan.recipe.physics.model == "latex" else None,
-            "highest_bubble": tally.highest_bubble,
-            "bursts": tally.bursts,
-            "undone": list(tally.undone),
+            "highest_bubble": summary.highest_bubble,
+            "bursts": summary.bursts,
+            "undone": list(summary.undone),
             "stale": list(written.stale),
         }

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from balloon_usd.batch.messages import Part, Start
-    from balloon_usd.solver.sight import Sight
+    from balloon_usd.solver.frame_arrays import FrameArrays
     from balloon_usd.solver.simulation import Simulation
     from balloon_usd.solver.snapshot import Change, Snapshot
 
@@ -138,13 +138,13 @@ class _Run:
                     break
         self._flush()
 
-    def _memory(self) -> Sight:
+    def _memory(self) -> FrameArrays:
         """Return where the next frame goes; wait for a slot if none is free."""
         while self._ring is None or (self._slot is None and not self._free):
             self._hear(self._connection.recv())
         if self._slot is None:
             self._slot = _Slot(self._free.pop())
-        return self._ring.sight(self._slot.number, self._slot.count)
+        return self._ring.frame_arrays(self._slot.number, self._slot.count)
 
     def _take(self, snapshot: Snapshot) -> None:
         """Take note of the frame that was written last."""

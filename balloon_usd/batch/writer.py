@@ -228,7 +228,7 @@ class _Batch:
             end = min(end, failed[0])
         found = []
         for code in range(frames.first, end):
-            sight = self.ring.sight(frames.slot, code - frames.first)
+            arrays = self.ring.frame_arrays(frames.slot, code - frames.first)
             undone = sculpture.undone_at(code, frames.undone)
-            found.append(sight.frame(self.ring.layout.places[place], code, undone=undone).copy())
+            found.append(arrays.frame(self.ring.layout.places[place], code, undone=undone).copy())
         return found

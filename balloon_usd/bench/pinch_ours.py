@@ -12,9 +12,9 @@ from balloon_usd.balloon.rubber import rubber_named
 from balloon_usd.bench.pinch_task import FPS, GAUGE, PINCHED, RADIUS, PinchRun
 from balloon_usd.bench.pinch_wall import blown_up, rest_points, wall_thickness
 from balloon_usd.solver.body import RingSpec
-from balloon_usd.solver.kernels.gas import OPEN_PASSAGE
+from balloon_usd.solver.kernels.physics.gas import OPEN_PASSAGE
 from balloon_usd.solver.latex.body import LatexBody
-from balloon_usd.solver.latex.hands import LatexHands
+from balloon_usd.solver.latex.controls import LatexControls
 from balloon_usd.solver.latex.scene import build_scene
 from balloon_usd.solver.latex.stepper import Stepper
 from balloon_usd.solver.settings import SceneSettings
@@ -45,7 +45,7 @@ class PinchedTube:
         mass[np.concatenate(task.ends)] *= HELD_MASS
         self.scene.mass.assign(mass)
         self.stepper = Stepper(self.scene, substeps)
-        self.hands = LatexHands(self.scene)
+        self.hands = LatexControls(self.scene)
         self.hands.touch([0])
         self._whole = np.full(len(self.neck), RADIUS)
         middle = task.middle

@@ -8,7 +8,7 @@ import numpy as np
 
 from balloon_usd.operations.moves import Pinch
 from balloon_usd.report.step_marks import StepMark, step_marks
-from balloon_usd.solver.tally import flat_tail
+from balloon_usd.solver.run_summary import flat_tail
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from balloon_usd.solver.capture_lock import capture_lock
+from balloon_usd.solver.checks import BatchCheck
 from balloon_usd.solver.errors import SimulationFailed
-from balloon_usd.solver.sight import Extent
+from balloon_usd.solver.frame_arrays import Extent
 from balloon_usd.solver.snapshot import Change, Snapshot
-from balloon_usd.solver.turns import turn
-from balloon_usd.solver.watch import Lookout
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator, Iterable, Sequence
@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
-    from balloon_usd.solver.model import Model, ModelMaker, Told
-    from balloon_usd.solver.sight import Sight
+    from balloon_usd.solver.frame_arrays import FrameArrays
+    from balloon_usd.solver.model import Model, ModelMaker, Status
     from balloon_usd.solver.snapshot import Memory
 
 
@@ -48,11 +48,11 @@ class Batch:
         self._over = np.zeros(len(plans), dtype=bool)
         """Plans that have failed."""
         self._ahead = ahead
-        with turn():
+        with capture_lock():
             self.model: Model = model(plans, meshes, self._fps, substeps, device)
-        self._lookout = Lookout(plans, meshes, self.model.layout.places, self._fps, substeps)
-        self._told: Sequence[Told | None] = [None] * len(plans)
-        """What was told of every plan so far."""
+        self._checks = BatchCheck(plans, meshes, self.model.layout.places, self._fps, substeps)
+        self._statuses: Sequence[Status | None] = [None] * len(plans)
+        """Latest status of every plan."""
 
     def __len__(self) -> int:
         """Return the number of plans."""
@@ -66,24 +66,24 @@ class Batch:
         """Tell whether any plan has the frame of an index."""
         return bool(self._made(index).any())
 
-    def snapshot(self, index: int, into: Sight) -> Snapshot:
-        """Return the frame of an index, written into a sight; the makers and the physics of the next have
+    def snapshot(self, index: int, into: FrameArrays) -> Snapshot:
+        """Return the frame of an index, written into arrays; the makers and the physics of the next have
         begun then.
         """
-        with turn():
+        with capture_lock():
             if index and not self._ahead:
                 self._advance(index)
-            self.model.look()
-            sight, told, suspects = self.model.sight, self.model.told, self.model.suspects
+            self.model.read_back()
+            arrays, statuses, suspects = self.model.frame_arrays, self.model.statuses, self.model.suspects
             causes = self.model.failures()
             # A plan that fails in this frame still takes part in the next one, unseen.
             if self._ahead and self.goes_on(index + 1):
                 self._advance(index + 1)
-            sight.copy_to(into)
-            for world in self._lookout.look(sight, suspects):
-                if self._made(index)[world] and (cause := self._lookout.failure(world)):
+            arrays.copy_to(into)
+            for world in self._checks.suspicious(arrays, suspects):
+                if self._made(index)[world] and (cause := self._checks.failure(world)):
                     causes[world] = cause
-            changes = self._changes(index, told, causes)
+            changes = self._changes(index, statuses, causes)
         return Snapshot(index + 1, into, self._made(index), changes)
 
     def _advance(self, index: int) -> None:
@@ -93,17 +93,17 @@ class Batch:
         """Return which plans have the frame of an index, (plans,)."""
         return (index < self._counts) & ~self._over
 
-    def _changes(self, index: int, told: Sequence[Told], causes: dict[int, str]) -> list[Change]:
-        """Return what is new, and give up the plans that have failed, by the causes."""
+    def _changes(self, index: int, statuses: Sequence[Status], causes: dict[int, str]) -> list[Change]:
+        """Return the changes since the last frame, and give up the plans that have failed."""
         made = self._made(index)
-        before, self._told = self._told, told
-        fresh = {k: Change(k, *now) for k, now in enumerate(told) if now != before[k] and made[k]}
+        before, self._statuses = self._statuses, statuses
+        fresh = {k: Change(k, *now) for k, now in enumerate(statuses) if now != before[k] and made[k]}
         for world, cause in causes.items():
             if made[world]:
                 self._over[world] = True
                 self.model.give_up(world)
-                failed = SimulationFailed(told[world].doing, index / self._fps, cause, index + 1)
-                fresh[world] = Change(world, *told[world], failed)
+                failed = SimulationFailed(statuses[world].doing, index / self._fps, cause, index + 1)
+                fresh[world] = Change(world, *statuses[world], failed)
         return [fresh[world] for world in sorted(fresh)]
 
 
@@ -114,7 +114,7 @@ def snapshots_of(
 ) -> Generator[Snapshot]:
     """Yield all plans of some batches together, frame by frame, until all are finished or have failed.
 
-    `memory`: gives the sight of all into which each is written; `ask`: as `map`.
+    `memory`: gives the arrays of all into which each is written; `ask`: as `map`.
     """
     extents = [batch.model.layout.extent for batch in batches]
     befores = list(accumulate(extents, lambda *both: Extent.of(both), initial=extents[0].nothing))[:-1]
@@ -127,19 +127,19 @@ def snapshots_of(
             yield shots[0] if len(batches) == 1 else _together(index, whole, shots)
             index += 1
     finally:
-        # What was begun ahead ends before its arrays go.
+        # Pending work ends before its arrays are freed.
         for batch in batches:
             batch.rest()
 
 
-def _next(batch: Batch, part: Sight, index: int) -> Snapshot:
+def _next(batch: Batch, part: FrameArrays, index: int) -> Snapshot:
     """Return the next snapshot of a batch; nothing is done for one whose plans are all over."""
     if batch.goes_on(index):
         return batch.snapshot(index, part)
     return Snapshot(index + 1, part, np.zeros(len(batch), dtype=bool), [])
 
 
-def _together(index: int, whole: Sight, shots: Sequence[Snapshot]) -> Snapshot:
+def _together(index: int, whole: FrameArrays, shots: Sequence[Snapshot]) -> Snapshot:
     """Return the snapshots of batches as one."""
     first = accumulate([len(shot.made) for shot in shots[:-1]], initial=0)
     changes = [

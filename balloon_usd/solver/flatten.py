@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from balloon_usd.solver.corners import corner_table
-from balloon_usd.solver.kernels.lanes import WARP
+from balloon_usd.solver.kernels.device.warp_reduce import WARP
 
 if TYPE_CHECKING:
     from balloon_usd.solver.scene import Scene
@@ -75,7 +75,7 @@ def ring_arrays(scene: Scene, host: Arrays) -> None:
     ).astype(np.int32)
     first = [r.first + v[k] for k, b in enumerate(bodies) for r in b.rings]
     around = [r.around for b in bodies for r in b.rings]
-    # A scene without rings still needs arrays to launch over; an empty ring does nothing.
+    # Device arrays are never empty: a scene without rings gets one that does nothing.
     host["joint_first"] = np.array(first or [0], dtype=np.int32)
     host["joint_around"] = np.array(around or [1], dtype=np.int32)
     host["joint_parts"] = np.array([r.parts for b in bodies for r in b.rings] or [False], dtype=np.int32)
@@ -85,16 +85,16 @@ def ring_arrays(scene: Scene, host: Arrays) -> None:
     for j, (f, n, before) in enumerate(zip(first, around, carried, strict=True)):
         vertex_joint[f - before : f + n] = j
     host["vertex_joint"] = vertex_joint
-    host["corner"] = np.zeros((v[-1], 2), dtype=np.float32)
+    host["ring_cos_sin"] = np.zeros((v[-1], 2), dtype=np.float32)
     sizes = host["ring_around"].astype(np.int64)
     place = np.arange(sizes.sum()) - np.repeat(np.cumsum(sizes) - sizes, sizes)
     turn = 2.0 * np.pi * place / np.repeat(sizes, sizes)
     vertices = np.repeat(host["ring_first"], sizes) + place
-    host["corner"][vertices] = np.stack([np.cos(turn), np.sin(turn)], axis=1)
-    home = np.full(v[-1], -1, dtype=np.int32)
-    home[host["quads"].reshape(-1)] = np.repeat(host["quad_segment"], 4)
+    host["ring_cos_sin"][vertices] = np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    segment = np.full(v[-1], -1, dtype=np.int32)
+    segment[host["quads"].reshape(-1)] = np.repeat(host["quad_segment"], 4)
     parting = (vertex_joint >= 0) & (host["joint_parts"][vertex_joint] == 1)
-    host["vertex_segment"] = np.where(parting, -1, home).astype(np.int32)
+    host["vertex_segment"] = np.where(parting, -1, segment).astype(np.int32)
     mass = host["mass"]
     host["joint_mass"] = np.array(
         [mass[f : f + n].sum() for f, n in zip(first, around, strict=True)] or [1.0], dtype=np.float32
@@ -125,12 +125,12 @@ def segment_arrays(scene: Scene, host: Arrays) -> None:
     host["segment_origin"] = np.array(origin, np.int32)
     host["start_joint"], host["end_joint"] = np.array(start_joint, np.int32), np.array(end_joint, np.int32)
     # A ring that parts nothing lies within one segment.
-    home = host["vertex_segment"][host["joint_first"]][:, None]
-    host["joint_beside"] = np.where(sides < 0, np.maximum(home, 0), sides)
+    within = host["vertex_segment"][host["joint_first"]][:, None]
+    host["joint_beside"] = np.where(sides < 0, np.maximum(within, 0), sides)
 
 
 def chunk_arrays(scene: Scene, host: Arrays) -> None:
-    """Chunks: runs of quads of one segment that a warp of lanes works on at once."""
+    """Chunks: runs of at most 32 quads of one segment, the work of a warp."""
     host["chunk_quad"], host["segment_chunk"] = chunks_of(host["segment_quad"], host["segment_quad_end"])
     host["chunk_origin"] = np.repeat(host["segment_origin"], np.diff(host["segment_chunk"]))
     host["world_quad"], host["world_vertex"] = (

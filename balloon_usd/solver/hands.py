@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from balloon_usd.plan.welding import MOST_WELDED
 from balloon_usd.solver.gathering import pose_chains
-from balloon_usd.solver.kernels.joints import CLASP_MODE, GRIP_MODE, LEAD_MODE
-from balloon_usd.solver.parcel import Letter, Parcel
+from balloon_usd.solver.kernels.physics.joints import CLASP_MODE, GRIP_MODE, LEAD_MODE
+from balloon_usd.solver.upload import ArrayUpload, BatchedUpload
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -71,13 +71,13 @@ class Hands:
         self.pressing = False
         """Whether any finger is on a wall."""
         self.places = scene.x.numpy()
-        """Where all vertices are, (V, 3), m, as last looked at."""
+        """Where all vertices are, (V, 3), m, as last read back."""
         self.rings = (scene.joint_first.numpy(), scene.joint_around.numpy())
         """First vertex of every ring, and how many it has."""
-        self._parcel: Parcel | None = None
-        self._letters = {name: Letter(scene, name) for name in self._now_and_then()}
+        self._upload: BatchedUpload | None = None
+        self._uploads = {name: ArrayUpload(scene, name) for name in self._rarely_changed()}
         self._due: dict[str, Any] = {}
-        """What has changed since the last upload, by the names of the arrays."""
+        """Changes since the last upload, by the names of the arrays."""
         self._welded = False
         """Whether joints were welded since the last upload."""
         self.welds: list[tuple[int, ...]] = []
@@ -91,13 +91,13 @@ class Hands:
         """Chains that are brought somewhere in the coming frame."""
         self._ring_world = np.repeat(scene.worlds, np.diff(scene.joint_start))
 
-    def _now_and_then(self) -> tuple[str, ...]:
-        """Return the names of the arrays that change in few frames."""
+    def _rarely_changed(self) -> tuple[str, ...]:
+        """Return the names of the arrays that change in few frames only."""
         return ("fingers", "finger_share", *WELDS)
 
-    def see(self, seen: Mapping[str, NDArray[Any]]) -> None:
-        """Take note of how things are, by the names of arrays of the scene."""
-        self.places = seen["x"]
+    def update(self, state: Mapping[str, NDArray[Any]]) -> None:
+        """Take over the state read back last, by the names of arrays of the scene."""
+        self.places = state["x"]
 
     def grip(self, joint: int, middle: Floats) -> None:
         """Take hold of a ring where it is."""
@@ -199,23 +199,23 @@ class Hands:
         """Send the goals of the coming frame to the device; its starts are where the last frame ended.
 
         Raises:
-            ValueError: more welds than there is room for.
+            ValueError: more welds than the capacity.
         """
         self.settle()
         if self._welded:
             self._upload_welds()
             self._welded = False
         for name, changed in self._due.items():
-            self._letters[name].open()[...] = changed
-            self._letters[name].send()
+            self._uploads[name].staged()[...] = changed
+            self._uploads[name].send()
         self._due.clear()
         goals = self._goals()
-        if self._parcel is None:
-            self._parcel = Parcel(self.scene, goals)
-        self._parcel.send(goals)
+        if self._upload is None:
+            self._upload = BatchedUpload(self.scene, goals)
+        self._upload.send(goals)
 
     def _goals(self) -> dict[str, NDArray[Any]]:
-        """Return what may differ in every frame, by the names of the arrays."""
+        """Return the arrays that may differ in every frame, by name."""
         return {
             "hand": self.mode,
             "hand_from": self.start,

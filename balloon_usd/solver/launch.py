@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import warp as wp
 
-from balloon_usd.solver.turns import turn_given_away
+from balloon_usd.solver.capture_lock import capture_lock_released
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Hashable, Iterator
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from balloon_usd.solver.scene import Scene
 
 LAUNCH_BLOCK = 256
-"""Threads of a block on a GPU where they do not work together: Warp's choice."""
+"""Block size on a GPU of kernels without cooperation between threads: Warp's default."""
 VOLUME_BLOCK = 64
 """Threads that sum one segment on a GPU."""
 
@@ -32,15 +32,16 @@ class Launcher:
         self._side = wp.Stream(scene.device) if wp.get_device(scene.device).is_cuda else None
 
     def load(self, *kernels: Any, lanes: int = LAUNCH_BLOCK) -> None:
-        """Compile and load kernels that are first launched in the middle of a run, so that none waits there.
+        """Compile and load kernels that are first launched in the middle of a run, so that no frame waits for
+        them.
 
-        `lanes`: threads of a block with which they are launched on a GPU; each number is compiled for itself.
+        `lanes`: block size with which they are launched on a GPU; each size is a separate compilation.
         """
         for kernel in kernels:
             wp.load_module(kernel.module, device=self.scene.device, block_dim=lanes)
 
     def lanes(self, wanted: int) -> int:
-        """Return how many lanes a block has that is launched with so many: on the CPU one."""
+        """Return the block size of a launch that asks for so many lanes: on the CPU one."""
         return wanted if wp.get_device(self.scene.device).is_cuda else 1
 
     def launch(
@@ -69,7 +70,9 @@ class Launcher:
 
     @contextmanager
     def aside(self) -> Iterator[None]:
-        """Launch what the block launches beside what follows, until `join`; on the CPU one by one."""
+        """Launch on a side stream during the block, concurrently with what follows until `join`; on the CPU
+        serially.
+        """
         if self._side is None:
             yield
             return
@@ -78,22 +81,22 @@ class Launcher:
             yield
 
     def join(self) -> None:
-        """Let what follows wait for what was launched aside."""
+        """Let the main stream wait for the side stream."""
         if self._side is not None:
             wp.get_stream(self.scene.device).wait_stream(self._side)
 
     def replay(self, key: Hashable, record: Callable[[], None]) -> None:
-        """Launch what was recorded under a key; record it the first time."""
+        """Launch the graph of a key; capture it the first time."""
         if key not in self._graphs:
             device = self.scene.device
-            # Only what is recorded is loaded: other modules may be of another model.
+            # Modules load as they are captured: others may belong to another model.
             wp.capture_begin(device=device)
             try:
                 record()
             finally:
                 graph = wp.capture_end(device=device)
             self._graphs[key] = graph
-        with turn_given_away():
+        with capture_lock_released():
             wp.capture_launch(self._graphs[key])
 
     def _inputs(self, kernel: Any, changing: dict[str, Any]) -> list[Any]:

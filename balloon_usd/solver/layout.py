@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from balloon_usd.solver.sight import Extent, Place
-from balloon_usd.solver.watch import FARTHEST
+from balloon_usd.solver.checks import FARTHEST
+from balloon_usd.solver.frame_arrays import Extent, Place
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -13,7 +13,7 @@ from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.operations.moves import Bend, Bring, Gather, LetGo, Move, Push, Weld
 from balloon_usd.plan.closing import ClosingChain, smooth
 from balloon_usd.solver.gathering import Gathering
-from balloon_usd.solver.model import Told
+from balloon_usd.solver.model import Status
 from balloon_usd.solver.push import FINGER_STIFFNESS, Patch, patch_under, press_profile
 
 if TYPE_CHECKING:
@@ -42,7 +42,7 @@ class Maker(ABC):
         self.body = {name: first_body + k for k, name in enumerate(names)}
         self._ring = self._global_rings()
         self._began: dict[int, NDArray[np.float64]] = {}
-        """What a move found when it began, by index of the move."""
+        """State of the sculpture when a move began, by index of the move."""
         self._gathered: dict[int, Gathering] = {}
         """Chains that are being closed, by index of the move."""
         self._steadied: dict[int, int] = {}
@@ -57,8 +57,8 @@ class Maker(ABC):
         self._span = (0.0, 0.0)
         """Beginning and end of the coming frame, s."""
         self._text = ""
-        self.told = Told("")
-        """What is told of the sculpture."""
+        self.status = Status("")
+        """Status of the sculpture after the coming frame."""
         self._brought = False
         """Whether a chain is brought somewhere in the coming frame."""
         self._moves = [(move.start, move.end, move) for move in plan.choreography.moves]
@@ -70,7 +70,7 @@ class Maker(ABC):
             Weld: self._weld,
             LetGo: self._let_go,
         }
-        """Who performs a kind of move; what has nobody is waited for."""
+        """Method for each kind of move; during others the hands wait."""
 
     def _global_rings(self) -> list[int]:
         """Joint of the scene of every planned ring: a body's rings are its plan's, after its spare ones."""
@@ -89,7 +89,7 @@ class Maker(ABC):
         m.
         """
         self._perform(begin, end, middle)
-        self._tell()
+        self._update_status()
 
     def _perform(self, begin: float, end: float, middle: Floats) -> None:
         self._frame = round(end * self._fps)
@@ -113,10 +113,10 @@ class Maker(ABC):
             if over <= end and k == self._done:
                 self._done += 1
 
-    def _tell(self) -> None:
-        """Take note of what there is to tell."""
-        if self._text is not self.told.doing:
-            self.told = Told(self._text)
+    def _update_status(self) -> None:
+        """Set the status, a new object only where it differs."""
+        if self._text is not self.status.doing:
+            self.status = Status(self._text)
 
     def _weld(self, _: int, move: Weld, __: float, fresh: bool, ___: Floats) -> None:
         if fresh:

@@ -1,4 +1,4 @@
-"""What a simulation asks of a model of rubber and air."""
+"""The interface between a simulation and its physical model."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ if TYPE_CHECKING:
     from balloon_usd.balloon.detail import Detail
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
+    from balloon_usd.solver.frame_arrays import FrameArrays
     from balloon_usd.solver.layout import Layout
-    from balloon_usd.solver.sight import Sight
 
 
-class Told(NamedTuple):
-    """What is told of a sculpture in words."""
+class Status(NamedTuple):
+    """What a sculpture is doing, for messages."""
 
     doing: str
     """What the hands do."""
@@ -30,31 +30,33 @@ class Model(Protocol):
     """Sculptures of one physical model in one flat state, advanced together."""
 
     layout: Layout
-    """Where every sculpture lies in its sights."""
+    """Where every sculpture lies in the arrays of a frame."""
 
     def advance(self, begin: float, end: float) -> None:
         """Let the makers act and start the physics from `begin` to `end` (s)."""
 
-    def look(self) -> None:
-        """Wait for the state that was reached last, of which all that follows tells until the next look."""
+    def read_back(self) -> None:
+        """Wait for the read-back of the latest state: what follows is of that state, until the next
+        read-back.
+        """
 
     def rest(self) -> None:
-        """Wait until nothing is under way."""
+        """Wait for the pending read-back, and so for all work before it."""
 
     @property
-    def sight(self) -> Sight:
-        """What was looked at, of all sculptures; it stays as it is for two more looks."""
+    def frame_arrays(self) -> FrameArrays:
+        """Arrays of the state read back last, of all sculptures; valid for two more read-backs."""
 
     @property
-    def told(self) -> Sequence[Told]:
-        """What was told of every sculpture by then."""
+    def statuses(self) -> Sequence[Status]:
+        """Status of every sculpture then."""
 
     @property
     def suspects(self) -> NDArray[np.int32]:
         """1 for every sculpture with walls that went too far or are stretched too much, (W,)."""
 
     def failures(self) -> dict[int, str]:
-        """Return what is wrong with sculptures in a way that their frames do not show."""
+        """Return failures that the frames do not show, by sculpture."""
 
     def give_up(self, world: int) -> None:
         """Leave a sculpture alone whose run has failed."""

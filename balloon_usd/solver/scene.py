@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from balloon_usd.plan.welding import MOST_WELDED
 from balloon_usd.solver.flatten import Arrays, chunk_arrays, mesh_arrays, ring_arrays, segment_arrays
-from balloon_usd.solver.kernels.contact import HITS, TARGETS, Touch
-from balloon_usd.solver.kernels.fingers import Finger
+from balloon_usd.solver.kernels.physics.contact import HITS, TARGETS, Touch
+from balloon_usd.solver.kernels.physics.fingers import Finger
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from balloon_usd.solver.settings import SceneSettings
 
 NO_LIMIT = 1.0e38
-"""Stretch that nothing has which has one."""
+"""Stretch above any other: no limit."""
 SELF_DISTANCE = 1.0
 """Unstressed distance along one bubble within which its wall never meets itself, R0."""
 
@@ -74,10 +74,6 @@ class Scene:
             self.segment_start[body] + self.bodies[body].spare_segments, self.segment_start[body + 1]
         )
 
-    def world_of_joint(self, joint: int) -> int:
-        """Sculpture of a ring."""
-        return self.worlds[int(np.searchsorted(self.joint_start, joint, side="right")) - 1]
-
     def by_world(self, first: NDArray[Any]) -> NDArray[np.int32]:
         """Return the first thing of every sculpture and the end of the last, (W + 1,), given those of every
         body, (B + 1,).
@@ -98,7 +94,7 @@ class Scene:
 def lay_meshes(scene: Scene, host: Arrays, weld_count: int) -> None:
     """Put what all models share on the device: meshes, rings, hands, welds and contact.
 
-    `host`: what a model has already; of it `mass` (V,), kg, is needed. `weld_count`: room for welds.
+    `host`: arrays of the model so far, among them `mass` (V,), kg. `weld_count`: capacity for welds.
     """
     mesh_arrays(scene, host)
     ring_arrays(scene, host)
@@ -113,9 +109,9 @@ def lay_meshes(scene: Scene, host: Arrays, weld_count: int) -> None:
 def _motion_arrays(scene: Scene) -> None:
     vertices, a = int(scene.vertex_start[-1]), scene.arrays
     points = np.concatenate([b.points for b in scene.bodies]).astype(np.float32)
-    for name in ("x", "x_next", "x_shown"):
+    for name in ("x", "x_next", "x_checked"):
         a[name] = wp.array(points, dtype=wp.vec3, device=scene.device)
-    a["most_stretch"] = wp.full(len(scene.bodies), NO_LIMIT, dtype=float, device=scene.device)
+    a["stretch_limit"] = wp.full(len(scene.bodies), NO_LIMIT, dtype=float, device=scene.device)
     scene.zeros("suspects", max(scene.worlds) + 1, int)
     scene.zeros("v", vertices, wp.vec3)
     scene.zeros("stretch", vertices, float)
@@ -138,7 +134,7 @@ def _contact_arrays(scene: Scene) -> None:
     scene.zeros("touching", len(scene.bodies), int)
     scene.zeros("hit_count", quads, int)
     scene.zeros("hits", (quads, HITS), int)
-    # Vertices that touch a wall, as twice their number and which of their walls; quads that are touched.
+    # Compact lists: contacts as 2 * vertex + target, and quads that are touched.
     scene.zeros("pairs", TARGETS * vertices, int)
     scene.zeros("pressed", quads, int)
     for name in ("most_hits", "pair_count", "pressed_count"):
@@ -151,7 +147,15 @@ def _contact_arrays(scene: Scene) -> None:
 
 def _hand_arrays(scene: Scene, welds: int) -> None:
     joints = len(scene.arrays["joint_first"])
-    for name in ("ring_middle", "ring_area", "ring_speed", "hand_load", "hand_from", "hand_to", "hand_free"):
+    for name in (
+        "ring_middle",
+        "ring_area",
+        "ring_velocity",
+        "hand_load",
+        "hand_from",
+        "hand_to",
+        "hand_free",
+    ):
         scene.zeros(name, joints, wp.vec3)
     for name in ("radius_from", "radius_to", "hand_force", "hand_stiffness"):
         scene.zeros(name, joints, float)
@@ -171,9 +175,9 @@ def _hand_arrays(scene: Scene, welds: int) -> None:
 _VECTORS = {
     "quads": wp.vec4i,
     "corners": wp.vec4i,
-    "to_rest": wp.mat22,
+    "rest_inverse": wp.mat22,
     "hourglass": wp.vec4,
-    "corner": wp.vec2,
+    "ring_cos_sin": wp.vec2,
     "joint_beside": wp.vec2i,
     "air": wp.vec3,
     "vertex_place": wp.vec3,

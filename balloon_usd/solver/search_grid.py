@@ -26,7 +26,7 @@ class SearchGrid:
     """The grid that was built last, by device."""
 
     def __init__(self, scene: Scene, cell: float, most_points: int) -> None:
-        """Make room for so many points; `cell`: size of a cell (m), about that of the searches."""
+        """Reserve memory for so many points; `cell`: size of a cell (m), about that of the searches."""
         self._device = scene.device
         self._cell = cell
         self._grouped = max(scene.worlds) > 0
@@ -36,7 +36,7 @@ class SearchGrid:
 
     @property
     def id(self) -> int:
-        """What kernels know the grid by."""
+        """Handle of the grid for kernels."""
         return int(self._grid.id)
 
     def build(self, points: Any, worlds: Any) -> None:

@@ -1,4 +1,9 @@
-"""Simulations: plans in, frames out, many sculptures in one flat state."""
+"""Simulations: plans in, frames out, many sculptures in one flat state.
+
+Concurrency: on a CPU each thread advances flat states of its own, and holds the capture lock except while a
+graph runs. On a GPU the next frame is computed while the host checks the last one and gives it out; from
+`MANY` sculptures on there are two flat states, of which the GPU steps one while the host processes the other.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +20,7 @@ from balloon_usd.balloon.detail import Detail, detail_named
 from balloon_usd.plan.meshing import mesh_of
 from balloon_usd.solver.batch import Batch, snapshots_of
 from balloon_usd.solver.device import device_named
-from balloon_usd.solver.sight import Extent
+from balloon_usd.solver.frame_arrays import Extent
 from balloon_usd.solver.snapshot import frames_of
 
 if TYPE_CHECKING:
@@ -23,8 +28,8 @@ if TYPE_CHECKING:
 
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
+    from balloon_usd.solver.frame_arrays import Place
     from balloon_usd.solver.model import Model, ModelMaker
-    from balloon_usd.solver.sight import Place
     from balloon_usd.solver.snapshot import Memory, Outcome, Snapshot
 
 T = TypeVar("T")
@@ -44,7 +49,7 @@ each needs besides its sculptures does not add up.
 MODELS = {"latex": "LatexModel", "kosaka": "KosakaModel"}
 """Physical models by the names that recipes give them."""
 MANY = 192
-"""Sculptures from which on a GPU has enough to do with half of them."""
+"""Sculptures from which on half of them fill a GPU."""
 
 
 class Simulation:
@@ -83,7 +88,7 @@ class Simulation:
         if model not in THREADED:
             return 1
         if on_gpu:
-            # While it advances one half of many, the host sees to the other.
+            # Double buffering: the GPU steps one half while the host processes the other.
             return 2 if count >= MANY else 1
         return 1 if self._threads == 1 else min(count, STATES_PER_THREAD * self._threads)
 
@@ -123,10 +128,10 @@ class Simulation:
         """Yield flat arrays of all plans, frame by frame, until all are finished, and what has changed.
 
         Args:
-            memory: gives the sight, made by `extent.sight`, into which the next snapshot is written; new
-                arrays if it is absent. It may wait until somebody has read what it gives once more.
+            memory: gives the arrays, made by `extent.frame_arrays`, into which the next snapshot is written;
+                new ones if it is absent. It may block until their readers are done.
         """
-        memory = memory or self.extent.sight
+        memory = memory or self.extent.frame_arrays
         with ThreadPoolExecutor(self._threads) as threads:
             ask = map if self._threads == 1 else threads.map
             yield from snapshots_of(self._batches, memory, ask)

@@ -1,4 +1,4 @@
-"""Snapshots: what a simulation of many plans gives out at one time, as flat arrays and what has changed."""
+"""Snapshots: a frame of many plans as flat arrays, and the changes since the frame before."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from balloon_usd.solver.sight import Place, Sight
+    from balloon_usd.solver.frame_arrays import FrameArrays, Place
 
-    Memory = Callable[[], Sight]
-    """Gives the sight into which the next snapshot is written."""
+    Memory = Callable[[], FrameArrays]
+    """Returns the arrays into which the next snapshot is written."""
 
 Outcome = Frame | SimulationFailed | None
 """What a frame brings for a plan: the frame, its failure, or nothing as it is over."""
 
 
 class Change(NamedTuple):
-    """What is new of one plan."""
+    """Change of the status of one plan."""
 
     plan: int
     doing: str
@@ -42,12 +42,12 @@ class Snapshot:
 
     time_code: int
     """Number of the frame, from 1."""
-    sight: Sight
-    """The arrays of all plans, one after another. What stands there of a plan that is over means nothing."""
+    arrays: FrameArrays
+    """The arrays of all plans, one after another; undefined for plans that are over."""
     made: NDArray[np.bool_]
     """Whether every plan has this frame, (plans,): it is neither over nor failed."""
     changes: Sequence[Change]
-    """Of the plans of which something is new; of all in the first snapshot."""
+    """Of the plans whose status has changed; of all in the first snapshot."""
 
 
 def frames_of(snapshots: Generator[Snapshot], places: Sequence[Place]) -> Iterator[list[Outcome]]:
@@ -60,6 +60,6 @@ def frames_of(snapshots: Generator[Snapshot], places: Sequence[Place]) -> Iterat
             for change in shot.changes:
                 doing[change.plan], undone[change.plan] = change.doing, change.undone
             yield [
-                shot.sight.frame(place, shot.time_code, doing[k], undone[k]) if made else failed.get(k)
+                shot.arrays.frame(place, shot.time_code, doing[k], undone[k]) if made else failed.get(k)
                 for k, (place, made) in enumerate(zip(places, shot.made.tolist(), strict=True))
             ]

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from balloon_usd.solver.kernels.contact import (
+from balloon_usd.solver.kernels.device.warp_reduce import WARP
+from balloon_usd.solver.kernels.physics.contact import (
     chunk_surface,
     find_own_walls,
     find_walls,
     order_hits,
     ring_radii,
 )
-from balloon_usd.solver.kernels.lanes import WARP
 
 if TYPE_CHECKING:
     from balloon_usd.solver.launch import Launcher
@@ -23,7 +23,7 @@ class WallSearch:
     def __init__(self, launcher: Launcher) -> None:
         self._launcher = launcher
         launcher.values["touch"] = launcher.scene.touch
-        # All in blocks of one size: each size is compiled and loaded for itself.
+        # One block size for all: each size is a separate compilation.
         launcher.launch(find_own_walls, len(launcher.scene.x), lanes=WARP)
         launcher.load(chunk_surface, ring_radii, find_walls, order_hits, lanes=WARP)
 

@@ -121,7 +121,7 @@ def test_a_look_that_a_stage_cannot_have_is_told(plan: Plan, tmp_path: Path) -> 
 def test_a_failed_simulation_is_raised_and_leaves_no_stage(
     plan: Plan, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("balloon_usd.solver.watch.FASTEST", 0.0)
+    monkeypatch.setattr("balloon_usd.solver.checks.FASTEST", 0.0)
     with pytest.raises(SimulationFailed, match=r"inflate: main: a part of tail moves"):
         write_stage(plan, simulate(plan, device="cpu"), tmp_path)
     assert list(tmp_path.iterdir()) == []

@@ -16,7 +16,7 @@ from balloon_usd.batch.frame_ring import (
     frame_bytes,
 )
 from balloon_usd.batch.shared_memory import SharedMemory
-from balloon_usd.solver.sight import Extent, Place
+from balloon_usd.solver.frame_arrays import Extent, Place
 from tests.batch.runs import ROOT
 
 EXTENT = Extent(7, 3)
@@ -27,14 +27,14 @@ import sys
 import numpy as np
 from balloon_usd.batch.frame_ring import FrameLayout, FrameRing, RingShape
 from balloon_usd.batch.shared_memory import SharedMemory
-from balloon_usd.solver.sight import Extent, Place
+from balloon_usd.solver.frame_arrays import Extent, Place
 
 extent = Extent(7, 3)
 shape = RingShape(4, int(sys.argv[2]), 3)
 ring = FrameRing(FrameLayout(shape, extent, ()), SharedMemory(shape.size, int(sys.argv[1])))
 for slot in range(3):
     for number in range(4):
-        frame = ring.sight(slot, number).frame(Place((slice(0, 4), slice(4, 7)), slice(0, 3)), 1)
+        frame = ring.frame_arrays(slot, number).frame(Place((slice(0, 4), slice(4, 7)), slice(0, 3)), 1)
         assert (frame.points[1] == 100 * slot + number).all(), (slot, number)
         frame.pressure[...] = -frame.points[0][0, 0]
 """
@@ -52,20 +52,20 @@ def test_two_processes_see_the_same_frames(ring):
     frames, memory = ring
     for slot in range(3):
         for number in range(4):
-            for points in frames.sight(slot, number).frame(PLACE, 1).points:
+            for points in frames.frame_arrays(slot, number).frame(PLACE, 1).points:
                 points[...] = 100 * slot + number
     words = [sys.executable, "-c", OTHER, str(memory.handle), str(frame_bytes(EXTENT))]
     subprocess.run(words, pass_fds=[memory.handle], env={**os.environ, "PYTHONPATH": str(ROOT)}, check=True)
     for slot in range(3):
         for number in range(4):
-            pressure = frames.sight(slot, number).frame(PLACE, 1).pressure
+            pressure = frames.frame_arrays(slot, number).frame(PLACE, 1).pressure
             assert (pressure == -(100 * slot + number)).all()
 
 
 def test_no_two_frames_share_memory(ring):
     frames, _ = ring
-    sights = [frames.sight(slot, number) for slot in range(3) for number in range(4)]
-    arrays = [array for sight in sights for array in sight.frame(PLACE, 1).points]
+    slots = [frames.frame_arrays(slot, number) for slot in range(3) for number in range(4)]
+    arrays = [array for one in slots for array in one.frame(PLACE, 1).points]
     for array in arrays:
         array[...] = 0
     for number, array in enumerate(arrays):
@@ -76,7 +76,7 @@ def test_no_two_frames_share_memory(ring):
 def test_nothing_lies_beyond_the_last_slot(ring):
     frames, _ = ring
     with pytest.raises((TypeError, ValueError)):
-        frames.sight(3, 0)
+        frames.frame_arrays(3, 0)
 
 
 @pytest.mark.parametrize(("vertices", "count"), [(10, MOST_FRAMES), (10**7, 1)])
@@ -92,7 +92,7 @@ def test_memory_and_descriptors_go_with_the_arrays():
     for _ in range(50):
         shape = RingShape.of(EXTENT)
         memory = SharedMemory(shape.size)
-        FrameRing(FrameLayout(shape, EXTENT, (PLACE,)), memory).sight(0, 0)
+        FrameRing(FrameLayout(shape, EXTENT, (PLACE,)), memory).frame_arrays(0, 0)
         memory.close()
     assert len(list(Path("/proc/self/fd").iterdir())) <= before + 1
     assert bytes(SharedMemory(10).buffer) == bytes(10)

@@ -16,7 +16,7 @@ from balloon_usd.balloon.detail import detail_named
 from balloon_usd.plan.meshing import mesh_of
 from balloon_usd.solver.errors import SimulationFailed
 from balloon_usd.solver.frame import Frame
-from balloon_usd.solver.sight import Extent, Place
+from balloon_usd.solver.frame_arrays import Extent, Place
 from balloon_usd.solver.snapshot import Change, Snapshot
 
 FRAMES = 6
@@ -54,21 +54,21 @@ class FakeSimulation:
     def snapshots(self, memory=None):
         places = self.places
         for code, outcomes in enumerate(self.frames(), start=1):
-            sight = (memory or self.extent.sight)()
+            arrays = (memory or self.extent.frame_arrays)()
             changes = []
             for world, (outcome, place) in enumerate(zip(outcomes, places, strict=True)):
                 if isinstance(outcome, SimulationFailed):
                     changes.append(Change(world, "pinch: nose", (), outcome))
                 elif outcome is not None:
                     changes.append(Change(world, outcome.doing, outcome.undone))
-                    there = sight.frame(place, code)
+                    there = arrays.frame(place, code)
                     for kind in ("points", "stretch"):
                         for array, other in zip(getattr(there, kind), getattr(outcome, kind), strict=True):
                             array[...] = other
                     there.pressure[...], there.volume[...] = outcome.pressure, outcome.volume
                     there.contact[...] = 0.0
             made = np.array([isinstance(outcome, Frame) for outcome in outcomes])
-            yield Snapshot(code, sight, made, changes)
+            yield Snapshot(code, arrays, made, changes)
 
     def frames(self):
         try:

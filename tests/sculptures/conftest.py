@@ -12,8 +12,8 @@ import pytest
 from balloon_usd.plan import Plan, plan
 from balloon_usd.recipe import Recipe
 from balloon_usd.solver.frame import Frame
+from balloon_usd.solver.run_summary import RunSummary
 from balloon_usd.solver.simulation import Simulation, simulate_many
-from balloon_usd.solver.tally import Tally
 from balloon_usd.stage import StageWriter
 from balloon_usd.staging import describe_stage
 
@@ -29,7 +29,7 @@ class Made:
     joints: np.ndarray
     """Middles of all planned rings in every frame after the hands let go, (frames, rings, 3), m."""
     last: Frame
-    tally: Tally
+    summary: RunSummary
     stage: Path
     """Its stage with all looks, and a shot beside it."""
 
@@ -53,19 +53,19 @@ def make(path: Path, folder: Path) -> Made:
     planned = plan(Recipe.load(path))
     simulation = simulate_many([planned], detail="draft", device="cpu")
     let_go = round(planned.choreography.moves[-1].start * simulation.fps)
-    tally, joints = Tally(planned, simulation.meshes[0]), []
+    summary, joints = RunSummary(planned, simulation.meshes[0]), []
     frame = None
     with StageWriter(describe_stage(planned, simulation.meshes[0]), folder, shot=True) as writer:
         for frames in simulation.frames():
             frame = frames[0]
             assert isinstance(frame, Frame), f"{path.name}: {frame}"
-            tally.add(frame)
+            summary.add(frame)
             writer.write(frame)
             if frame.time_code > let_go:
                 joints.append(middles(simulation, frame))
         written = writer.finish()
     assert frame is not None
-    return Made(planned, simulation, np.array(joints), frame, tally, written.files[0])
+    return Made(planned, simulation, np.array(joints), frame, summary, written.files[0])
 
 
 @pytest.fixture(scope="session")

@@ -56,17 +56,17 @@ def test_joints_that_are_twisted_into_one_lie_together(made):
 
 def test_every_bubble_is_full_and_none_has_burst(made):
     assert made.last.pressure.min() > 3.0e3, made.last.pressure
-    assert made.tally.highest_stretch < BURST_STRETCH, made.tally.highest_bubble
+    assert made.summary.highest_stretch < BURST_STRETCH, made.summary.highest_bubble
 
 
 def test_every_balloon_has_flat_tail_left(made):
-    for name, tail in made.tally.tails_left.items():
+    for name, tail in made.summary.tails_left.items():
         assert tail > 0.0, name
 
 
 def test_the_dog_uses_5_to_15_mm_of_flat_tail_for_every_twist(dog):
     twists = len(dog.plan.bubbles) - 1
-    used = (dog.plan.strips["main"].tail - dog.tally.tails_left["main"]) / twists
+    used = (dog.plan.strips["main"].tail - dog.summary.tails_left["main"]) / twists
     assert 5.0e-3 < used < 15.0e-3, f"{used * 1e3:.1f} mm"
 
 

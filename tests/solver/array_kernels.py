@@ -2,7 +2,7 @@
 
 import warp as wp
 
-from balloon_usd.solver.kernels.at import (
+from balloon_usd.solver.kernels.device.array_access import (
     float_at,
     int_at,
     int_in,
@@ -15,8 +15,8 @@ from balloon_usd.solver.kernels.at import (
     vec4_at,
     vec4i_at,
 )
-from balloon_usd.solver.kernels.planes import put, seen_in
-from balloon_usd.solver.kernels.seen import float_seen, vec2_seen, vec3_seen
+from balloon_usd.solver.kernels.device.coherent_load import coherent_float, coherent_vec2, coherent_vec3
+from balloon_usd.solver.kernels.device.soa import load_soa, store_soa
 
 
 @wp.kernel
@@ -44,9 +44,9 @@ def compare_readings(
     count += wp.where(vec3_at(three, i) == three[i], 1, 0)
     count += wp.where(vec4_at(four, i) == four[i], 1, 0)
     count += wp.where(mat22_at(matrix, i) == matrix[i], 1, 0)
-    count += wp.where(float_seen(number, i) == number[i], 1, 0)
-    count += wp.where(vec2_seen(two, i) == two[i], 1, 0)
-    count += wp.where(vec3_seen(three, i) == three[i], 1, 0)
+    count += wp.where(coherent_float(number, i) == number[i], 1, 0)
+    count += wp.where(coherent_vec2(two, i) == two[i], 1, 0)
+    count += wp.where(coherent_vec3(three, i) == three[i], 1, 0)
     same[i] = count
 
 
@@ -59,11 +59,11 @@ def double(number: wp.array[float], three: wp.array[wp.vec3]):
 
 
 @wp.kernel
-def through_planes(given: wp.array2d[wp.vec3], planes: wp.array2d[float], found: wp.array2d[wp.vec3]):
-    """Put all vectors of every item into planes and read them again, the last one first."""
+def through_soa(given: wp.array2d[wp.vec3], planes: wp.array2d[float], found: wp.array2d[wp.vec3]):
+    """Store all vectors of every item in planes and load them again, the last one first."""
     item = wp.tid()
     for k in range(given.shape[1]):
-        put(planes, item, k, given[item, k])
+        store_soa(planes, item, k, given[item, k])
     for k in range(given.shape[1]):
         last = given.shape[1] - 1 - k
-        found[item, last] = seen_in(planes, item, last)
+        found[item, last] = load_soa(planes, item, last)

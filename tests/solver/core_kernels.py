@@ -2,14 +2,14 @@
 
 import warp as wp
 
-from balloon_usd.solver.kernels.core import press_core, yield_to_core
+from balloon_usd.solver.kernels.physics.core import press_core, yield_to_core
 
 
 @wp.kernel
 def press_cores(
     ring_first: wp.array[int],
     ring_around: wp.array[int],
-    corner: wp.array[wp.vec2],
+    ring_cos_sin: wp.array[wp.vec2],
     core_ring: wp.array[int],
     core_next: wp.array[int],
     core_radius: wp.array[float],
@@ -30,7 +30,7 @@ def press_cores(
         wp.block_dim(),
         ring_first,
         ring_around,
-        corner,
+        ring_cos_sin,
         core_ring,
         core_next,
         core_radius,

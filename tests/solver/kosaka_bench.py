@@ -11,10 +11,10 @@ import warp as wp
 
 from balloon_usd.balloon.capsule_mesh import capsule_mesh
 from balloon_usd.solver.corners import corner_table
-from balloon_usd.solver.kernels.drift import Drift
-from balloon_usd.solver.kernels.near import LANES
-from balloon_usd.solver.kernels.offsets import WIDER, WIDER_OUTSIDE
-from balloon_usd.solver.kernels.springs import Constants
+from balloon_usd.solver.kernels.kosaka.drift import Drift
+from balloon_usd.solver.kernels.kosaka.neighbours import LANES
+from balloon_usd.solver.kernels.kosaka.offset_regions import WIDER, WIDER_OUTSIDE
+from balloon_usd.solver.kernels.kosaka.springs import Constants
 from balloon_usd.solver.kosaka.net import edges_of, net_of
 from tests.solver import kosaka_reference as thesis
 
@@ -132,22 +132,22 @@ def _by_lanes(kernel: Any) -> bool:
 def listed(rows: list[np.ndarray], device: str) -> tuple[np.ndarray, np.ndarray]:
     """Lists as kernels read them, shared out over the lanes: how many each lane has, and who."""
     lanes = lanes_on(device)
-    room = max(1, -(-max(map(len, rows)) // lanes))
+    capacity = max(1, -(-max(map(len, rows)) // lanes))
     count = np.zeros((len(rows), LANES), dtype=np.int32)
-    table = np.full((len(rows), room * lanes), -1, dtype=np.int32)
+    table = np.full((len(rows), capacity * lanes), -1, dtype=np.int32)
     for k, row in enumerate(rows):
         for lane, part in enumerate(np.array_split(row, lanes)):
             count[k, lane] = len(part)
-            table[k, lane * room : lane * room + len(part)] = part
+            table[k, lane * capacity : lane * capacity + len(part)] = part
     return count, table
 
 
 def members(count: np.ndarray, table: np.ndarray, device: str) -> list[np.ndarray]:
     """What kernels have listed, row by row in the order in which it is read."""
     lanes = lanes_on(device)
-    room = table.shape[1] // lanes
+    capacity = table.shape[1] // lanes
     return [
-        np.concatenate([row[lane * room : lane * room + n[lane]] for lane in range(lanes)])
+        np.concatenate([row[lane * capacity : lane * capacity + n[lane]] for lane in range(lanes)])
         for n, row in zip(count, table, strict=True)
     ]
 

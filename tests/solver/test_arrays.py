@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 import warp as wp
 
-from balloon_usd.solver.parcel import Parcel
-from tests.solver.array_kernels import compare_readings, double, through_planes
+from balloon_usd.solver.upload import BatchedUpload
+from tests.solver.array_kernels import compare_readings, double, through_soa
 
 DEVICES = ["cpu", *(device.alias for device in wp.get_cuda_devices())]
 """Where simulations can run on this machine."""
@@ -34,7 +34,7 @@ def test_every_way_of_reading_an_element_gives_what_warp_gives(device):
 
 
 @pytest.mark.parametrize("device", DEVICES)
-def test_what_is_put_into_an_array_is_there(device):
+def test_what_is_stored_in_an_array_is_there(device):
     number, three = some(float, device), some(wp.vec3, device)
     before = number.numpy().copy(), three.numpy().copy()
     wp.launch(double, ITEMS, inputs=[number, three], device=device)
@@ -44,24 +44,24 @@ def test_what_is_put_into_an_array_is_there(device):
 
 @pytest.mark.parametrize("device", DEVICES)
 @pytest.mark.parametrize("vectors", [2, 4])
-def test_planes_keep_every_vector_of_every_item(device, vectors):
+def test_a_structure_of_arrays_keeps_every_vector_of_every_item(device, vectors):
     given = some(wp.vec3, device, (ITEMS, vectors))
     planes = wp.zeros((3 * vectors, ITEMS), dtype=float, device=device)
     found = wp.zeros_like(given)
-    wp.launch(through_planes, ITEMS, inputs=[given, planes, found], device=device)
+    wp.launch(through_soa, ITEMS, inputs=[given, planes, found], device=device)
     assert (found.numpy() == given.numpy()).all()
     assert sorted(planes.numpy().ravel()) == sorted(given.numpy().ravel())
 
 
 @pytest.mark.parametrize("device", DEVICES)
-def test_arrays_in_a_parcel_keep_what_they_held_and_take_what_is_sent(device):
+def test_arrays_in_a_batched_upload_keep_their_values_and_take_what_is_sent(device):
     held = {"mode": some(int, device), "goal": some(wp.vec3, device), "gas": some(wp.float64, device)}
     scene = SimpleNamespace(arrays=dict(held), device=device)
-    parcel = Parcel(scene, held)
+    upload = BatchedUpload(scene, held)
     for name, array in held.items():
         assert (scene.arrays[name].numpy() == array.numpy()).all()
     goal = np.full((ITEMS, 3), 7.5, np.float32)
-    parcel.send({"goal": goal, "mode": np.arange(ITEMS)})
+    upload.send({"goal": goal, "mode": np.arange(ITEMS)})
     assert (scene.arrays["goal"].numpy() == goal).all()
     assert (scene.arrays["mode"].numpy() == np.arange(ITEMS)).all()
     assert (scene.arrays["gas"].numpy() == held["gas"].numpy()).all()

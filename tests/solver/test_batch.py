@@ -12,7 +12,7 @@ from balloon_usd.recipe import Recipe
 from balloon_usd.solver.batch import Batch, snapshots_of
 from balloon_usd.solver.errors import SimulationFailed
 from balloon_usd.solver.frame import Frame
-from balloon_usd.solver.mirror import Mirror
+from balloon_usd.solver.readback import Readback
 from balloon_usd.solver.simulation import model_named, simulate_many
 from balloon_usd.solver.snapshot import frames_of
 from tests.solver.bits import bits
@@ -51,7 +51,7 @@ def batch_of(*plans, ahead, most=1000):
 
 def frames_from(batch):
     layout = batch.model.layout
-    return frames_of(snapshots_of([batch], layout.extent.sight), layout.places)
+    return frames_of(snapshots_of([batch], layout.extent.frame_arrays), layout.places)
 
 
 def all_bits(batch):
@@ -161,14 +161,14 @@ def test_threads_share_out_the_sculptures_of_the_kosaka_model_to_none(monkeypatc
     assert len(model.makers) == 2
 
 
-def test_what_was_fetched_stays_for_two_more_turns():
+def test_a_read_back_is_valid_for_two_more():
     scene = batch_of(small(), ahead=False).model.scene
-    mirror = Mirror(scene, ["x"])
-    seen = []
+    readback = Readback(scene, ["x"])
+    read = []
     for number in range(4):
         scene.x.fill_(float(number))
-        mirror.turn()
-        mirror.copy()
-        seen.append(mirror.arrays()["x"])
-        assert [float(x[0, 0]) for x in seen[-3:]] == [float(k) for k in range(number + 1)][-3:]
-    assert np.shares_memory(seen[0], seen[3])
+        readback.next_buffer()
+        readback.copy()
+        read.append(readback.arrays()["x"])
+        assert [float(x[0, 0]) for x in read[-3:]] == [float(k) for k in range(number + 1)][-3:]
+    assert np.shares_memory(read[0], read[3])

@@ -10,8 +10,8 @@ from balloon_usd.bench.pinch_ours import tube_body
 from balloon_usd.bench.pinch_task import RADIUS, PinchTask
 from balloon_usd.plan import plan
 from balloon_usd.recipe import Recipe
-from balloon_usd.solver.kernels.contact import ring_radii
-from balloon_usd.solver.kernels.lanes import WARP
+from balloon_usd.solver.kernels.device.warp_reduce import WARP
+from balloon_usd.solver.kernels.physics.contact import ring_radii
 from balloon_usd.solver.latex.cores import core_radii
 from balloon_usd.solver.latex.scene import build_scene
 from balloon_usd.solver.latex.stepper import Stepper
@@ -142,7 +142,7 @@ def test_a_wound_tube_gives_the_same_bits_alone_in_a_batch_and_by_one_block(devi
         scene.touching.fill_(1)
         stepper = Stepper(scene, 16)
         if blocks:
-            stepper._crew.blocks = blocks
+            stepper._sculptures.blocks = blocks
         stepper.advance(contact=True)
         return scene.x.numpy().reshape(copies, -1)
 

@@ -17,7 +17,7 @@ from balloon_usd.plan import plan as plan_recipe
 from balloon_usd.recipe import Recipe
 from balloon_usd.solver import kernels
 from balloon_usd.solver.latex.body import tube_body
-from balloon_usd.solver.latex.crew import Crew
+from balloon_usd.solver.latex.launch_shape import SculptureLaunch
 from balloon_usd.solver.latex.scene import build_scene
 from balloon_usd.solver.settings import SceneSettings
 from balloon_usd.solver.simulation import simulate_many
@@ -33,13 +33,13 @@ CHANGING = {
     "quad_half",
     "substeps",
     "interval",
-    "crew",
+    "sculpture_blocks",
     "joint_blocks",
     "begin",
     "end",
     "walls",
     "pressing",
-    "most_way",
+    "travel_limit",
 }
 """Arguments that are no arrays of the scene."""
 
@@ -58,7 +58,7 @@ physics: {model: kosaka}
 
 def all_kernels():
     found = {}
-    for module in pkgutil.iter_modules(kernels.__path__, kernels.__name__ + "."):
+    for module in pkgutil.walk_packages(kernels.__path__, kernels.__name__ + "."):
         for thing in vars(importlib.import_module(module.name)).values():
             if isinstance(thing, wp.Kernel):
                 found[thing.key] = thing
@@ -71,7 +71,7 @@ def arrays():
     mesh = tube_mesh(size, detail_named("draft"), (0.03,), (0.03, size.length))
     body = tube_body(mesh, rubber_named(), size.radius, size.thickness, (0.03,), (), 5000.0)
     scene = build_scene([body], [0], SceneSettings(dt=4e-4), "cpu", 1, 1)
-    Crew(scene)
+    SculptureLaunch(scene)
     return scene.arrays | kosaka_arrays()
 
 
@@ -93,7 +93,7 @@ def test_every_kernel_says_what_it_writes(name):
 
 
 def test_no_kernel_adds_floats_atomically():
-    for module in pkgutil.iter_modules(kernels.__path__, kernels.__name__ + "."):
+    for module in pkgutil.walk_packages(kernels.__path__, kernels.__name__ + "."):
         source = Path(importlib.import_module(module.name).__file__).read_text(encoding="utf-8")
         for line in source.splitlines():
             if "atomic_" in line:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from balloon_usd.recipe.kosaka import Kosaka
-from balloon_usd.solver.kernels.offsets import WIDER
+from balloon_usd.solver.kernels.kosaka.offset_regions import WIDER
 from balloon_usd.solver.kosaka.parameters import (
     GRADED_AWAY,
     Parameters,

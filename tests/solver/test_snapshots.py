@@ -59,7 +59,7 @@ def assert_frames_are_snapshots(plans):
         assert shot.made.tolist() == [isinstance(outcome, Frame) for outcome in outcomes]
         for k in np.flatnonzero(shot.made):
             place = simulation.places[k]
-            frame = shot.sight.frame(place, shot.time_code, told[k].doing, told[k].undone)
+            frame = shot.arrays.frame(place, shot.time_code, told[k].doing, told[k].undone)
             assert bits(frame) == bits(outcomes[k])
 
 
@@ -90,20 +90,20 @@ def test_a_change_is_told_once_and_a_failure_with_it():
 @pytest.mark.usefixtures("states")
 def test_snapshots_are_written_into_memory_that_the_caller_gives():
     simulation = simulate_many(three(), device="cpu")
-    slots = [simulation.extent.sight(np.zeros) for _ in range(2)]
+    slots = [simulation.extent.frame_arrays(np.zeros) for _ in range(2)]
     turns = cycle(slots)
     given = simulation.snapshots(lambda: next(turns))
     expected = simulate_many(three(), device="cpu").snapshots()
     for k, (shot, fresh) in enumerate(zip(given, expected, strict=True)):
-        assert np.shares_memory(shot.sight.points, slots[k % 2].points)
-        assert len(shot.sight.points) == simulation.extent.vertices
+        assert np.shares_memory(shot.arrays.points, slots[k % 2].points)
+        assert len(shot.arrays.points) == simulation.extent.vertices
         if shot.made.all():
-            assert shot.sight.points.tobytes() == fresh.sight.points.tobytes()
-            assert shot.sight.contact.tobytes() == fresh.sight.contact.tobytes()
+            assert shot.arrays.points.tobytes() == fresh.arrays.points.tobytes()
+            assert shot.arrays.contact.tobytes() == fresh.arrays.contact.tobytes()
 
 
 def test_no_more_memory_is_asked_for_than_there_are_snapshots():
     simulation = simulate_many([small()], device="cpu")
     asked = []
-    shots = list(simulation.snapshots(lambda: (asked.append(1), simulation.extent.sight())[1]))
+    shots = list(simulation.snapshots(lambda: (asked.append(1), simulation.extent.frame_arrays())[1]))
     assert len(asked) == len(shots) == simulation.frame_counts[0]

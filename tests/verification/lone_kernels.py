@@ -2,10 +2,10 @@
 
 import warp as wp
 
-from balloon_usd.solver.kernels.gas import Air, advance_gas
-from balloon_usd.solver.kernels.membrane import wall_of_quad
-from balloon_usd.solver.kernels.planes import put, seen_in
-from balloon_usd.solver.kernels.rubber import Knot, Law
+from balloon_usd.solver.kernels.device.soa import load_soa, store_soa
+from balloon_usd.solver.kernels.physics.gas import Air, advance_gas
+from balloon_usd.solver.kernels.physics.membrane import wall_of_quad
+from balloon_usd.solver.kernels.physics.rubber import CurveSegment, Law
 
 
 @wp.kernel
@@ -13,18 +13,18 @@ def quad_forces(
     quads: wp.array[wp.vec4i],
     quad_segment: wp.array[int],
     quad_law: wp.array[int],
-    to_rest: wp.array[wp.mat22],
+    rest_inverse: wp.array[wp.mat22],
     hourglass: wp.array[wp.vec4],
     rubber_volume: wp.array[float],
     laws: wp.array[Law],
-    curves: wp.array[Knot],
+    curves: wp.array[CurveSegment],
     pressure: wp.array[float],
     x: wp.array[wp.vec3],
     v: wp.array[wp.vec3],
     softening_rate: wp.array[float],
     peak_energy: wp.array[float],
     corner_force: wp.array2d[float],
-    lift: wp.array2d[float],
+    volume_gradient: wp.array2d[float],
 ):
     """Write the force (N) of wall and gas on the four corners of every quad."""
     q = wp.tid()
@@ -32,7 +32,7 @@ def quad_forces(
         q,
         quads,
         quad_law,
-        to_rest,
+        rest_inverse,
         hourglass,
         rubber_volume,
         laws,
@@ -43,11 +43,11 @@ def quad_forces(
         softening_rate,
         peak_energy,
         corner_force,
-        lift,
+        volume_gradient,
     )
     for k in range(4):
-        push = pressure[quad_segment[q]] * seen_in(lift, q, k)
-        put(corner_force, q, k, seen_in(corner_force, q, k) + push)
+        push = pressure[quad_segment[q]] * load_soa(volume_gradient, q, k)
+        store_soa(corner_force, q, k, load_soa(corner_force, q, k) + push)
 
 
 @wp.kernel
@@ -68,7 +68,7 @@ def balloon_gas(
     pump_limit: wp.array[float],
     pump_goal: wp.array[wp.float64],
     volume: wp.array[float],
-    room: wp.array[float],
+    chamber_volume: wp.array[float],
     flow: wp.array[wp.float64],
     amount: wp.array[wp.float64],
     pressure: wp.array[float],
@@ -94,7 +94,7 @@ def balloon_gas(
         pump_limit,
         pump_goal,
         volume,
-        room,
+        chamber_volume,
         flow,
         amount,
         pressure,

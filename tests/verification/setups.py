@@ -23,7 +23,7 @@ from balloon_usd.balloon.rubber import Rubber
 from balloon_usd.balloon.tube_theory import TubeState
 from balloon_usd.solver.body import RingSpec
 from balloon_usd.solver.latex.body import LatexBody
-from balloon_usd.solver.latex.hands import LatexHands
+from balloon_usd.solver.latex.controls import LatexControls
 from balloon_usd.solver.latex.scene import LatexScene, build_scene
 from balloon_usd.solver.latex.stepper import Stepper
 from balloon_usd.solver.settings import SceneSettings
@@ -111,7 +111,7 @@ class Rig:
         # Masses are scaled for rubber like latex; one that stiffens a hundredfold needs more.
         self.scene.mass.assign((inertia * self.array("mass")).astype(np.float32))
         self.stepper = Stepper(self.scene, substeps)
-        self.hands = LatexHands(self.scene)
+        self.hands = LatexControls(self.scene)
         # Chambers exchange no gas, although their rings are wide open.
         self.hands.passage[:] = self.hands.passage_goal[:] = 0.0
 

@@ -42,7 +42,7 @@ def potential(rig):
     corners = rig.points[rig.mesh.quads]
     hoop = 0.5 * (corners[:, 1] - corners[:, 0] + corners[:, 2] - corners[:, 3])
     axial = 0.5 * (corners[:, 3] - corners[:, 0] + corners[:, 2] - corners[:, 1])
-    gradient = np.stack([hoop, axial], axis=2) @ rig.array("to_rest")
+    gradient = np.stack([hoop, axial], axis=2) @ rig.array("rest_inverse")
     small, large = np.sqrt(np.linalg.eigvalsh(gradient.transpose(0, 2, 1) @ gradient)).T
     wall = (rig.array("rubber_volume") * LATEX.energy(*relaxed_stretches(large, small))).sum()
     bow = np.einsum("qk,qkd->qd", rig.array("hourglass"), corners)

@@ -43,7 +43,7 @@ class Clusters:
         fresh = np.flatnonzero(frozen & ~self._frozen)
         self._frozen = frozen
         if len(fresh):
-            # What was looked at must not change.
+            # The state that was read back refers to the old array.
             self.of_air = self.of_air.copy()
         for joint in fresh:
             ending = np.flatnonzero(self._ends == joint)

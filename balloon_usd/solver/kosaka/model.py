@@ -9,6 +9,8 @@ import numpy as np
 
 from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.solver.body import body_ranges, places_beside
+from balloon_usd.solver.checks import stretch_limits
+from balloon_usd.solver.frame_arrays import FrameArrays
 from balloon_usd.solver.hands import Hands
 from balloon_usd.solver.kosaka.body import KosakaBody, kosaka_body
 from balloon_usd.solver.kosaka.clusters import Clusters
@@ -17,10 +19,8 @@ from balloon_usd.solver.kosaka.parameters import RUBBER_DRAG, SUBSTEPS
 from balloon_usd.solver.kosaka.scene import KosakaScene, kosaka_scene
 from balloon_usd.solver.kosaka.stepper import KosakaStepper
 from balloon_usd.solver.layout import Layout
-from balloon_usd.solver.mirror import Mirror
+from balloon_usd.solver.readback import Readback
 from balloon_usd.solver.settings import SceneSettings
-from balloon_usd.solver.sight import Sight
-from balloon_usd.solver.watch import most_stretches
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -30,9 +30,9 @@ if TYPE_CHECKING:
     from balloon_usd.balloon.detail import Detail
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
-    from balloon_usd.solver.model import Told
+    from balloon_usd.solver.model import Status
 
-LOOKED_AT = (
+READ_BACK = (
     "x",
     "stretch",
     "volume",
@@ -43,18 +43,18 @@ LOOKED_AT = (
     "fastest",
     "suspects",
 )
-"""Arrays of which frames are made."""
+"""Arrays that are read back for every frame."""
 
 
 MOST_SEARCHES = 2
 """Searches for neighbours in a frame in which hands are at work or air moves fast."""
 AHEAD = 0.5
-"""Way of the fastest air after which lists are made anew, in the distance that they look ahead."""
+"""Way of the fastest air after which neighbour lists are rebuilt, in their margin."""
 FIRST_FRAMES = 6
 """Frames at the start in which air moves as fast as it may."""
 LEADING = 0.1
 """Force of a hand that leads a bubble, as a share of the largest external force."""
-LOST_EVERY = 12
+LEAK_SEARCH_EVERY = 12
 """Frames between two searches for air that no offset region sees, while no hand is at work."""
 LAST_PASSES = 4
 """Searches for it in the frame in which a sculpture ends."""
@@ -62,8 +62,8 @@ ROOM_TO_GROW = 1.25
 """Largest size of a quad, in its size at the start, up to which the searches are sure to find it."""
 
 
-class _Shown(NamedTuple):
-    """What the clusters had come to when the state was looked at."""
+class _ClusterState(NamedTuple):
+    """The clusters when the state was read back."""
 
     of_segment: NDArray[np.int64]
     """Cluster of every segment, (S,)."""
@@ -93,27 +93,27 @@ class KosakaModel:
             contact_offset=min(b.parameters.contact_offset for b in bodies),
         )
         self.scene = kosaka_scene(bodies, worlds, settings, device)
-        self.scene.most_stretch.assign(most_stretches(plans, self._bodies))
-        self._mirror = Mirror(self.scene, LOOKED_AT)
-        self.stepper = KosakaStepper(self.scene, substeps, _quad_half(bodies), self._mirror)
+        self.scene.stretch_limit.assign(stretch_limits(plans, self._bodies))
+        self._readback = Readback(self.scene, READ_BACK)
+        self.stepper = KosakaStepper(self.scene, substeps, _quad_half(bodies), self._readback)
         self.hands = _hands(self.scene)
         self.clusters = Clusters(self.scene)
         self.makers = [
             KosakaMaker(plan, self.scene, self.hands, run.start)
             for plan, run in zip(plans, self._bodies, strict=True)
         ]
-        self._seen: dict[str, NDArray[Any]] = {}
+        self._state: dict[str, NDArray[Any]] = {}
         starts = self.scene.air_start
         self.layout = Layout(self.scene, self._bodies, np.diff(starts).tolist())
         sizes = [starts[run.stop] - starts[run.start] for run in self._bodies]
         self._first_bubble = np.repeat([place.bubbles.start for place in self.layout.places], sizes)
         """First bubble of the sculpture of every particle."""
-        self.told: list[Told] = []
-        """What was told of every sculpture when the state was looked at."""
-        self._shown = self._come_to()
+        self.statuses: list[Status] = []
+        """Status of every sculpture when the state was read back."""
+        self._read_clusters = self._cluster_state()
         self._frames = 0
         self._moved = 0.0
-        """Way of the fastest air since the last search, in the distance that lists look ahead."""
+        """Way of the fastest air since the last rebuild of the neighbour lists, in their margin."""
 
     @staticmethod
     def usual_substeps(_detail: Detail) -> int:
@@ -122,8 +122,8 @@ class KosakaModel:
 
     def advance(self, begin: float, end: float) -> None:
         """Let the makers act and start the physics from `begin` to `end` (s)."""
-        middle = self._seen["ring_middle"].copy()
-        self.hands.see(self._seen)
+        middle = self._state["ring_middle"].copy()
+        self.hands.update(self._state)
         self.hands.lift_fingers()
         for maker, lost in zip(self.makers, self.layout.astray(middle), strict=True):
             if not lost:
@@ -140,14 +140,14 @@ class KosakaModel:
         self.hands.arrived()
         self.clusters.part(self.hands.radius_goal > 0.0)
         for _ in range(self._passes(begin, end, handled=handled)):
-            self.stepper.find_lost()
-        self.stepper.look()
+            self.stepper.find_leaked()
+        self.stepper.start_readback()
 
     def _searches(self, seconds: float, *, handled: bool) -> int:
-        """Searches that a frame of some seconds needs: more where hands are at work or air moves fast, none
-        while all that moves stays within what the last lists look ahead.
+        """Rebuilds of the neighbour lists that a frame of some seconds needs: more where hands are at work or
+        air moves fast, none while all motion stays within their margin.
         """
-        step = float(self._seen["fastest"][0]) * seconds / self.scene.margin
+        step = float(self._state["fastest"][0]) * seconds / self.scene.margin
         if handled or self._frames <= FIRST_FRAMES or step > AHEAD:
             self._moved = step
             return MOST_SEARCHES
@@ -158,52 +158,54 @@ class KosakaModel:
         return 1
 
     def _passes(self, begin: float, end: float, *, handled: bool) -> int:
-        """How often lost air is looked for in this frame: what was brought back where a sculpture ends must
-        not have come through another wall.
+        """How often leaked air is searched for in this frame: what was brought back where a sculpture ends
+        must not have come through another wall.
         """
         if any(begin < m.plan.choreography.seconds < end + 0.5 * (end - begin) for m in self.makers):
             return LAST_PASSES
-        return int(handled or self._frames % LOST_EVERY == 0)
+        return int(handled or self._frames % LEAK_SEARCH_EVERY == 0)
 
-    def look(self) -> None:
-        """Wait for the state that was reached last, of which all that follows tells until the next look."""
+    def read_back(self) -> None:
+        """Wait for the read-back of the latest state: what follows is of that state, until the next
+        read-back.
+        """
         if self._frames == 0:
-            self.stepper.look()
-        self._seen = self._mirror.arrays()
-        self._shown = self._come_to()
-        self.told = [maker.told for maker in self.makers]
+            self.stepper.start_readback()
+        self._state = self._readback.arrays()
+        self._read_clusters = self._cluster_state()
+        self.statuses = [maker.status for maker in self.makers]
 
-    def _come_to(self) -> _Shown:
-        return _Shown(self.clusters.of_segment, self.clusters.of_air)
+    def _cluster_state(self) -> _ClusterState:
+        return _ClusterState(self.clusters.of_segment, self.clusters.of_air)
 
     def rest(self) -> None:
-        """Wait until nothing is under way."""
-        self._mirror.wait()
+        """Wait for the pending read-back, and so for all work before it."""
+        self._readback.wait()
 
     @property
-    def sight(self) -> Sight:
-        """What was looked at, of all sculptures; it stays as it is for two more looks."""
-        seen, bubbles = self._seen, self.layout.bubbles
-        pressure = seen["cluster_pressure"][self._shown.of_segment[bubbles]]
-        cluster = np.searchsorted(bubbles, self._shown.of_air) - self._first_bubble
-        return Sight(
-            seen["x"],
-            seen["stretch"],
+    def frame_arrays(self) -> FrameArrays:
+        """Arrays of the state read back last, of all sculptures; valid for two more read-backs."""
+        state, bubbles = self._state, self.layout.bubbles
+        pressure = state["cluster_pressure"][self._read_clusters.of_segment[bubbles]]
+        cluster = np.searchsorted(bubbles, self._read_clusters.of_air) - self._first_bubble
+        return FrameArrays(
+            state["x"],
+            state["stretch"],
             pressure,
-            seen["volume"][bubbles],
-            air=seen["air"],
+            state["volume"][bubbles],
+            air=state["air"],
             cluster=cluster.astype(np.int32),
         )
 
     @property
     def suspects(self) -> NDArray[np.int32]:
         """1 for every sculpture with walls that went too far or are stretched too much, (W,)."""
-        suspects: NDArray[np.int32] = self._seen["suspects"]
+        suspects: NDArray[np.int32] = self._state["suspects"]
         return suspects
 
     def failures(self) -> dict[int, str]:
-        """Return what is wrong with sculptures in a way that their frames do not show."""
-        most_near = self._seen["most_near"]
+        """Return failures that the frames do not show, by sculpture."""
+        most_near = self._state["most_near"]
         return {world: _too_near(int(most_near[world])) for world in np.flatnonzero(most_near).tolist()}
 
     def give_up(self, world: int) -> None:

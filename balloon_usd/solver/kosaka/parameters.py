@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from balloon_usd.plan.particles import EXPERIMENT_RADIUS, experiment_spacing
-from balloon_usd.solver.kernels.offsets import REACHES_OVER
+from balloon_usd.solver.kernels.kosaka.offset_regions import REACHES_OVER
 
 if TYPE_CHECKING:
     from balloon_usd.recipe.kosaka import Kosaka
@@ -68,7 +68,7 @@ ELONGATION_LIMIT = 2.0
 FASTEST_AIR = 0.4
 """Farthest that an air particle moves in one step, in re: it must not jump over the offset regions."""
 MARGIN = 0.25
-"""Distance that lists of neighbours look ahead, in re."""
+"""Margin (skin) of the neighbour lists, in re."""
 
 
 @dataclass(frozen=True)

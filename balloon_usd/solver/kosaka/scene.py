@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 import warp as wp
 
-from balloon_usd.solver.kernels.drift import Drift
-from balloon_usd.solver.kernels.near import LANES
-from balloon_usd.solver.kernels.springs import Constants
+from balloon_usd.solver.kernels.kosaka.drift import Drift
+from balloon_usd.solver.kernels.kosaka.neighbours import LANES
+from balloon_usd.solver.kernels.kosaka.springs import Constants
 from balloon_usd.solver.kosaka.parameters import FASTEST_AIR, MARGIN
 from balloon_usd.solver.scene import Ints, Scene, lay_meshes
 
@@ -23,11 +23,12 @@ if TYPE_CHECKING:
     from balloon_usd.solver.settings import SceneSettings
 
 NEIGHBOURS = {"cpu": 512, "cuda": 2048}
-"""Room for the neighbours of one particle; on a GPU the lanes of its block share it."""
+"""Capacity for the neighbours of one particle; on a GPU it is split among the lanes of a block."""
 FACE_AIR = {"cpu": 1536, "cuda": 2048}
-"""Room for the particles that one quad may meet, likewise."""
+"""Capacity for the particles that may touch one quad, likewise."""
 AIR_FACES = {"cpu": 3072, "cuda": 6144}
-"""Room for the triangles that one particle may meet, likewise: in a neck most of them fall to one lane."""
+"""Capacity for the triangles that one particle may touch, likewise: in a neck most of them fall to one lane.
+"""
 WATCHED = 2.0
 """Distance within which walls are watched between two searches, in thicknesses of the contact region."""
 
@@ -38,7 +39,7 @@ class KosakaScene(Scene):
 
     bodies: tuple[KosakaBody, ...]
     margin: float = 0.0
-    """Distance that lists of neighbours look ahead, m."""
+    """Margin (skin) of the neighbour lists, m."""
 
     @cached_property
     def air_start(self) -> Ints:
@@ -143,9 +144,9 @@ def _scratch_arrays(scene: KosakaScene) -> None:
     ):
         scene.zeros(name, shape, int)
     kind = scene.device.partition(":")[0]
-    for name, count, room in (
+    for name, count, capacity in (
         ("neighbours", particles, NEIGHBOURS),
         ("face_air", quads, FACE_AIR),
         ("air_faces", particles, AIR_FACES),
     ):
-        scene.zeros(name, (count, room[kind]), int)
+        scene.zeros(name, (count, capacity[kind]), int)

@@ -1,4 +1,4 @@
-"""The substeps of a frame in the thesis's model (Kosaka 2008, fig. 3.8), recorded once as a graph."""
+"""The substeps of a frame in the thesis's model (Kosaka 2008, fig. 3.8), captured once as a graph."""
 
 from __future__ import annotations
 
@@ -6,30 +6,30 @@ from typing import TYPE_CHECKING, Any
 
 import warp as wp
 
-from balloon_usd.solver.kernels.drift import cluster_drift, fastest_air
-from balloon_usd.solver.kernels.fingers import press_fingers
-from balloon_usd.solver.kernels.frozen import hold_rings, move_rubber
-from balloon_usd.solver.kernels.gas import segment_volumes
-from balloon_usd.solver.kernels.lost import find_lost_air
-from balloon_usd.solver.kernels.near import LANES, near_air, near_faces, near_faces_air
-from balloon_usd.solver.kernels.offsets import (
+from balloon_usd.solver.checks import travel_limit
+from balloon_usd.solver.kernels.kosaka.air_particles import move_air, repel_air
+from balloon_usd.solver.kernels.kosaka.drift import cluster_drift, fastest_air
+from balloon_usd.solver.kernels.kosaka.frozen_rings import hold_rings, move_rubber
+from balloon_usd.solver.kernels.kosaka.leaked_air import find_leaked_air
+from balloon_usd.solver.kernels.kosaka.neighbours import LANES, near_air, near_faces, near_faces_air
+from balloon_usd.solver.kernels.kosaka.offset_regions import (
     cluster_pressures,
     face_surface,
     press_air,
     press_faces,
     press_vertices,
 )
-from balloon_usd.solver.kernels.particles import move_air, repel_air
-from balloon_usd.solver.kernels.springs import limit_elongation, pull_springs, spring_stretch
-from balloon_usd.solver.kernels.walls import part_walls
+from balloon_usd.solver.kernels.kosaka.springs import limit_elongation, pull_springs, spring_stretch
+from balloon_usd.solver.kernels.kosaka.wall_contact import part_walls
+from balloon_usd.solver.kernels.physics.fingers import press_fingers
+from balloon_usd.solver.kernels.physics.gas import segment_volumes
 from balloon_usd.solver.launch import Launcher
 from balloon_usd.solver.search_grid import SearchGrid
 from balloon_usd.solver.wall_search import WallSearch
-from balloon_usd.solver.watch import most_way
 
 if TYPE_CHECKING:
     from balloon_usd.solver.kosaka.scene import KosakaScene
-    from balloon_usd.solver.mirror import Mirror
+    from balloon_usd.solver.readback import Readback
 
 
 MANY_LANES = 256
@@ -39,25 +39,25 @@ MANY_LANES = 256
 class KosakaStepper:
     """Advances a scene of springs and particles by whole frames of a fixed number of substeps."""
 
-    def __init__(self, scene: KosakaScene, substeps: int, quad_half: float, mirror: Mirror) -> None:
+    def __init__(self, scene: KosakaScene, substeps: int, quad_half: float, readback: Readback) -> None:
         """Prepare a scene.
 
         Args:
             scene: state to advance.
             substeps: per frame.
             quad_half: largest distance of a quad's corner from its middle (m).
-            mirror: what to copy for frames.
+            readback: what to copy for frames.
         """
         self.scene = scene
         self.substeps = substeps
-        self._mirror = mirror
+        self._readback = readback
         dt = self._dt = scene.settings.dt
         cell = max(b.parameters.re for b in scene.bodies) + scene.margin
         self._grid = SearchGrid(scene, cell, max(len(scene.air), len(scene.quads)))
         values: dict[str, Any] = {
             "dt": dt,
             "frame_seconds": dt * substeps,
-            "most_way": most_way(dt * substeps),
+            "travel_limit": travel_limit(dt * substeps),
             "substeps": float(substeps),
             "margin": scene.margin,
             "quad_half": quad_half,
@@ -68,8 +68,8 @@ class KosakaStepper:
         self._walls = WallSearch(self._launcher)
         self._launcher.load(part_walls, press_fingers)
         self._launch_lanes(hold_rings, len(scene.joint_first), fraction=1.0)
-        # Nothing is lost yet: it is loaded now, not in the middle of a run.
-        self.find_lost()
+        # No air has leaked yet: this loads the kernel now, not in the middle of a run.
+        self.find_leaked()
 
     def advance(self, *, contact: bool, fingers: bool, searches: int, rings: bool = True) -> None:
         """Advance by one frame.
@@ -83,17 +83,17 @@ class KosakaStepper:
             lambda: self._frame(contact=contact, fingers=fingers, searches=searches, rings=rings),
         )
 
-    def find_lost(self) -> None:
+    def find_leaked(self) -> None:
         """Bring back air that has leaked beyond every offset region."""
-        self._launch_lanes(find_lost_air, len(self.scene.air))
+        self._launch_lanes(find_leaked_air, len(self.scene.air))
 
-    def look(self) -> None:
+    def start_readback(self) -> None:
         """Start copying what frames are made of."""
-        self._mirror.turn()
-        self._launcher.replay(("look", self._mirror.side), self._look)
-        self._mirror.begun()
+        self._readback.next_buffer()
+        self._launcher.replay(("read back", self._readback.buffer), self._read_back)
+        self._readback.record()
 
-    def _look(self) -> None:
+    def _read_back(self) -> None:
         """Write the stretch of every vertex and the volumes (m3) and pressures (Pa) of all segments, and
         copy.
         """
@@ -104,7 +104,7 @@ class KosakaStepper:
         self._launcher.launch_tiled(cluster_pressures, segments, lanes=MANY_LANES)
         self.scene.fastest.zero_()
         self._launch(fastest_air, len(self.scene.air))
-        self._mirror.copy()
+        self._readback.copy()
 
     def _frame(self, *, contact: bool, fingers: bool, searches: int, rings: bool) -> None:
         s = self.scene
@@ -117,9 +117,9 @@ class KosakaStepper:
                 self._launch(cluster_drift, len(s.segment_quad), interval=search_every * self._dt)
             if fingers:
                 self._launch(press_fingers, len(s.x), fraction=(k + 1) / self.substeps)
-            # Their middles are wanted in the end, whatever happens to them.
+            # The last substep of a frame always measures the rings, for read-back.
             self._substep((k + 1) / self.substeps, contact=contact, rings=rings or k + 1 == self.substeps)
-        # What leaked in the last step comes back before it is seen.
+        # Air that leaked in the last substep is put back before read-back.
         self._launch(face_surface, len(s.face_normal))
         self._launch_lanes(press_air, len(s.air))
 
@@ -128,7 +128,7 @@ class KosakaStepper:
         s = self.scene
         vertices, particles = len(s.x), len(s.air)
         if contact:
-            # The wall stands in `x_next` for a moment.
+            # Double buffer: contact writes to `x_next`.
             self._launch(part_walls, vertices)
             wp.copy(s.x, s.x_next)
         with self._launcher.aside():
@@ -148,7 +148,7 @@ class KosakaStepper:
         self._launcher.join()
 
     def _find_neighbours(self, *, contact: bool) -> None:
-        """List the particles, triangles and walls that may meet before the next search."""
+        """Rebuild the lists of particles, triangles and walls that may touch before the next search."""
         s = self.scene
         self._launch(face_surface, len(s.face_normal))
         self._walls.measure_quads(s.x)

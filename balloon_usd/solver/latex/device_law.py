@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from balloon_usd.solver.kernels.rubber import Law
+from balloon_usd.solver.kernels.physics.rubber import Law
 from balloon_usd.solver.latex.membrane_data import step_viscosity
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ STRETCH_LIMIT = 9.0
 STRESS_OCTAVES = 100.0
 """Doublings of stress up to which they are followed, where a float can still hold it."""
 LEAST_KNOTS = 16
-"""Least knots of a curve per doubling of the squared stretch."""
+"""Least spline knots of a curve per doubling of the squared stretch."""
 STEP_POWER = 1.0 / 6.0
 """Largest product of a knot's share of a doubling and the largest power of the squared stretch: cubics then
 are off by less than a float's last digits.
@@ -35,8 +35,8 @@ MANTISSA_BITS, EXPONENT_BIAS = 23, 127
 
 
 @dataclass(frozen=True)
-class Knots:
-    """Where a curve has its knots: evenly within every doubling of the squared stretch."""
+class CurveGrid:
+    """Spline knots of a curve: evenly spaced within every doubling of the squared stretch."""
 
     most: float
     """Largest squared stretch."""
@@ -45,7 +45,7 @@ class Knots:
     octaves: int
     """Doublings."""
     each: int
-    """Knots in one of them, a power of two."""
+    """CurveGrid in one of them, a power of two."""
 
     @property
     def squared(self) -> NDArray[np.float64]:
@@ -66,21 +66,21 @@ def device_laws(rubbers: Sequence[Rubber], dt: float) -> tuple[list[Law], NDArra
     return [_device_law(rubber, dt, first[rubber]) for rubber in rubbers], np.concatenate(curves)
 
 
-def knots_of(rubber: Rubber) -> Knots:
-    """Return where the curve of a rubber has its knots."""
+def curve_grid(rubber: Rubber) -> CurveGrid:
+    """Return the spline knots of the curve of a rubber."""
     power = 0.5 * max(map(abs, rubber.alpha), default=1.0)
     most = min(STRETCH_LIMIT**2, 2.0 ** (STRESS_OCTAVES / power))
     # Where both stretches in the wall are at their limit, it is as thin as can be.
     first = math.floor(math.log2(most**-2.0))
     each = max(LEAST_KNOTS, 2 ** math.ceil(math.log2(power / STEP_POWER)))
-    return Knots(most, first, math.ceil(math.log2(most)) - first, each)
+    return CurveGrid(most, first, math.ceil(math.log2(most)) - first, each)
 
 
 def ogden_curve(rubber: Rubber) -> NDArray[np.float32]:
     """Return the sums over a rubber's Ogden terms of mu stretch^alpha (Pa) and mu / alpha (stretch^alpha - 1)
     (J/m3) as cubics of the squared stretch between knots (Hermite), (K, 2, 4) float32.
     """
-    squared = knots_of(rubber).squared
+    squared = curve_grid(rubber).squared
     mu, half = np.array(rubber.mu)[:, None], 0.5 * np.array(rubber.alpha)[:, None]
     # Beyond the knot after the last stretch that is followed it need only stay a number.
     power = mu * np.minimum(squared**half, 2.0 ** (STRESS_OCTAVES + 1.0))
@@ -96,14 +96,14 @@ def ogden_curve(rubber: Rubber) -> NDArray[np.float32]:
     return cubic.astype(np.float32)
 
 
-def _device_law(rubber: Rubber, dt: float, first_knot: int) -> Law:
-    """Return a rubber whose curve begins at a knot."""
-    law, knots = Law(), knots_of(rubber)
-    law.first_knot, law.last_knot = first_knot, first_knot + knots.octaves * knots.each - 1
-    law.zero_knot = first_knot - (knots.first_octave + EXPONENT_BIAS) * knots.each
-    law.step_bits = MANTISSA_BITS - (knots.each.bit_length() - 1)
+def _device_law(rubber: Rubber, dt: float, first_segment: int) -> Law:
+    """Return a rubber, given the first segment of its curve."""
+    law, grid = Law(), curve_grid(rubber)
+    law.first_segment, law.last_segment = first_segment, first_segment + grid.octaves * grid.each - 1
+    law.zero_segment = first_segment - (grid.first_octave + EXPONENT_BIAS) * grid.each
+    law.step_bits = MANTISSA_BITS - (grid.each.bit_length() - 1)
     law.step_share = 0.5**law.step_bits
-    law.most = knots.most
+    law.most = grid.most
     law.gent_mu, law.gent_limit = rubber.gent_mu, min(rubber.gent_limit, 1e9)
     if rubber.softening is not None:
         law.soft_depth, law.soft_steepness = 1.0 / rubber.softening.r, 1.0 / rubber.softening.c

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from balloon_usd.solver.latex.hands import LatexHands
+    from balloon_usd.solver.latex.controls import LatexControls
     from balloon_usd.solver.latex.scene import LatexScene
 
 Floats = NDArray[np.float64]
@@ -54,7 +54,7 @@ class Part:
 
 @dataclass
 class HingedParts:
-    """Both sides of a hinge at a moment, and how they have moved since it was looked at."""
+    """Both sides of a hinge at a moment, and how they have moved since."""
 
     point: Floats
     """Where the joint was, (3,), m."""
@@ -118,7 +118,7 @@ class Hinge:
         )
         return HingedParts(point.astype(float), before, beyond)
 
-    def follow(self, hands: LatexHands, parts: HingedParts, seconds: float) -> None:
+    def follow(self, hands: LatexControls, parts: HingedParts, seconds: float) -> None:
         """Let all vertices follow the motion of both parts in the coming frame of so many seconds."""
         beyond = screw(parts.beyond.turned, parts.moved, seconds)
         before = screw(parts.before.turned, parts.moved, seconds)

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from balloon_usd.plan import Plan
-    from balloon_usd.solver.latex.hands import LatexHands
+    from balloon_usd.solver.latex.controls import LatexControls
     from balloon_usd.solver.latex.scene import LatexScene
 
     Floats = NDArray[np.float64]
@@ -25,7 +25,7 @@ class Leak:
     """The sculptures of a scene that leak, and how fast their clocks run."""
 
     def __init__(
-        self, plans: Sequence[Plan], scene: LatexScene, hands: LatexHands, bodies: Sequence[range]
+        self, plans: Sequence[Plan], scene: LatexScene, hands: LatexControls, bodies: Sequence[range]
     ) -> None:
         """Take note of the plans that want it; `bodies`: of every plan."""
         self.scene = scene
@@ -43,21 +43,21 @@ class Leak:
         self._walls: dict[int, tuple[NDArray[np.int32], NDArray[np.float32]]] = {}
         """Quads of every bubble that leaks, (Q, 4), and the volume of their rubber, (Q,), m3."""
 
-    def advance(self, begin: float, end: float, seen: Mapping[str, NDArray[Any]]) -> None:
+    def advance(self, begin: float, end: float, state: Mapping[str, NDArray[Any]]) -> None:
         """Take the gas that is lost in a frame from `begin` to `end` (s) out of every bubble."""
         for let_go, over, leak, bubbles in self._worlds:
             shown = max(0.0, min(end, over) - max(begin, let_go))
             if shown > 0.0:
-                self.hands.lose_gas(bubbles, self._lost(bubbles, leak * shown / (over - let_go), seen))
+                self.hands.lose_gas(bubbles, self._lost(bubbles, leak * shown / (over - let_go), state))
 
-    def _lost(self, bubbles: NDArray[np.int64], seconds: float, seen: Mapping[str, NDArray[Any]]) -> Floats:
+    def _lost(self, bubbles: NDArray[np.int64], seconds: float, state: Mapping[str, NDArray[Any]]) -> Floats:
         """Return what some bubbles lose in a time as long as they keep their walls, (bubbles,), mol.
 
         What is left of the excess over the pressure of the room decays exponentially.
         """
         energy = float(self.scene.air.molar_energy)
-        volume, pressure = seen["volume"][bubbles].astype(float), seen["pressure"][bubbles].astype(float)
-        through = np.array([self._conductance(bubble, seen["x"]) for bubble in bubbles])
+        volume, pressure = state["volume"][bubbles].astype(float), state["pressure"][bubbles].astype(float)
+        through = np.array([self._conductance(bubble, state["x"]) for bubble in bubbles])
         share = -np.expm1(-through * energy / volume * seconds)
         return np.asarray(share * pressure * volume / energy)
 

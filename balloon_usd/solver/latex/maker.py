@@ -16,12 +16,12 @@ from balloon_usd.solver.latex.friction import Friction
 from balloon_usd.solver.latex.memory import set_bend
 from balloon_usd.solver.latex.torsion import Torsion
 from balloon_usd.solver.maker import ALONG, Maker
-from balloon_usd.solver.model import Told
+from balloon_usd.solver.model import Status
 
 if TYPE_CHECKING:
     from balloon_usd.plan import Plan
     from balloon_usd.plan.shaped import Shaped
-    from balloon_usd.solver.latex.hands import LatexHands
+    from balloon_usd.solver.latex.controls import LatexControls
     from balloon_usd.solver.latex.scene import LatexScene
     from balloon_usd.solver.latex.struts import Struts
 
@@ -45,10 +45,10 @@ class LatexMaker(Maker):
     """Performs one plan on its balloons in a scene of the latex model."""
 
     scene: LatexScene
-    hands: LatexHands
+    hands: LatexControls
 
     def __init__(
-        self, plan: Plan, scene: LatexScene, hands: LatexHands, struts: Struts, first_body: int
+        self, plan: Plan, scene: LatexScene, hands: LatexControls, struts: Struts, first_body: int
     ) -> None:
         super().__init__(plan, scene, hands, first_body)
         self.struts = struts
@@ -72,11 +72,11 @@ class LatexMaker(Maker):
         super()._perform(begin, end, middle)
         self.torsion.unwind(end - begin, middle)
 
-    def _tell(self) -> None:
+    def _update_status(self) -> None:
         loose, undone = self.torsion.unwinding, self.torsion.undone
         doing = self._text if loose is None else f"comes undone: {loose}"
-        if doing is not self.told.doing or undone is not self.told.undone:
-            self.told = Told(doing, undone)
+        if doing is not self.status.doing or undone is not self.status.undone:
+            self.status = Status(doing, undone)
 
     def _let_go(self, k: int, move: LetGo, share: float, fresh: bool, middle: Floats) -> None:
         super()._let_go(k, move, share, fresh, middle)

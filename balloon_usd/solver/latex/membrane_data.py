@@ -31,7 +31,7 @@ GAS_AREA_GAIN = 24.0
 class MembraneData:
     """Per-quad and per-vertex constants of one balloon."""
 
-    to_rest: Floats
+    rest_inverse: Floats
     """Inverse rest edges, (Q, 2, 2), 1/m: deformation gradient = edges times this."""
     rubber_volume: Floats
     """Volume of rubber, (Q,), m3."""
@@ -59,7 +59,7 @@ def membrane_data(body: LatexBody, dt: float, atmosphere: float, *, scale_mass: 
     height = np.linalg.norm(axial - shear[:, None] * e1, axis=1)
     zero = np.zeros_like(width)
     # Rest edges as columns ((width, shear), (0, height)), inverted.
-    to_rest = np.stack(
+    rest_inverse = np.stack(
         [np.stack([1 / width, -shear / (width * height)], -1), np.stack([zero, 1 / height], -1)], axis=1
     )
     area = width * height
@@ -81,7 +81,7 @@ def membrane_data(body: LatexBody, dt: float, atmosphere: float, *, scale_mass: 
     for k in range(4):
         np.add.at(mass, body.quads[:, k], 0.25 * inertia * area)
         np.add.at(true_mass, body.quads[:, k], 0.25 * density * area)
-    return MembraneData(to_rest, volume, hourglass, mass, true_mass)
+    return MembraneData(rest_inverse, volume, hourglass, mass, true_mass)
 
 
 def _hourglass(p: Floats, hoop: Floats, axial: Floats, spring: Floats) -> Floats:

@@ -29,13 +29,13 @@ def set_bend(scene: LatexScene, body: int, faces: NDArray[np.int64]) -> None:
     b = scene.bodies[body]
     around = b.rings[0].around
     index = faces + int(scene.quad_start[body])
-    to_rest = scene.to_rest.numpy()
+    rest_inverse = scene.rest_inverse.numpy()
     volume = scene.rubber_volume.numpy()
     x = scene.x.numpy().astype(np.float64)[scene.quads.numpy()[index]]
     axial = 0.5 * (x[:, 3] - x[:, 0] + x[:, 2] - x[:, 1])
-    stretch = (np.linalg.norm(axial, axis=1) * to_rest[index, 1, 1]).reshape(-1, around)
+    stretch = (np.linalg.norm(axial, axis=1) * rest_inverse[index, 1, 1]).reshape(-1, around)
     grown = (stretch / stretch.mean(axis=1, keepdims=True)).reshape(-1) ** BEND_SET
-    to_rest[index, :, 1] /= grown[:, None].astype(np.float32)
+    rest_inverse[index, :, 1] /= grown[:, None].astype(np.float32)
     volume[index] *= grown.astype(np.float32)
-    scene.to_rest.assign(to_rest)
+    scene.rest_inverse.assign(rest_inverse)
     scene.rubber_volume.assign(volume)

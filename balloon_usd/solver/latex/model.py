@@ -9,9 +9,11 @@ import numpy as np
 from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.plan.meshing import joint_places
 from balloon_usd.solver.body import body_ranges, places_beside
-from balloon_usd.solver.kernels.contact import HITS
+from balloon_usd.solver.checks import crowded, stretch_limits
+from balloon_usd.solver.frame_arrays import FrameArrays
+from balloon_usd.solver.kernels.physics.contact import HITS
 from balloon_usd.solver.latex.body import LatexBody, tube_body
-from balloon_usd.solver.latex.hands import LatexHands
+from balloon_usd.solver.latex.controls import LatexControls
 from balloon_usd.solver.latex.leak import Leak
 from balloon_usd.solver.latex.maker import LatexMaker
 from balloon_usd.solver.latex.scene import build_scene
@@ -19,10 +21,8 @@ from balloon_usd.solver.latex.shape_body import shape_body
 from balloon_usd.solver.latex.stepper import Stepper
 from balloon_usd.solver.latex.struts import StrutLaw, Struts
 from balloon_usd.solver.layout import Layout
-from balloon_usd.solver.mirror import Mirror
+from balloon_usd.solver.readback import Readback
 from balloon_usd.solver.settings import SceneSettings
-from balloon_usd.solver.sight import Sight
-from balloon_usd.solver.watch import crowded, most_stretches
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -32,15 +32,15 @@ if TYPE_CHECKING:
     from balloon_usd.balloon.detail import Detail
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan, Strip
-    from balloon_usd.solver.model import Told
+    from balloon_usd.solver.model import Status
 
 SEALED_KNOT = 0.7
 """Pressure in the knot bead, in Maxwell pressures of its balloon."""
 STRUTS_PER_JOINT = 12
-"""Room for struts, per joint of the scene."""
+"""Capacity for struts, per joint of the scene."""
 SHORT_OF_GAS = 0.98
 """Share of the wanted gas below which inflating counts as failed."""
-LOOKED_AT = (
+READ_BACK = (
     "x",
     "stretch",
     "pressure",
@@ -51,7 +51,7 @@ LOOKED_AT = (
     "wall_load",
     "suspects",
 )
-"""Arrays of which frames are made."""
+"""Arrays that are read back for every frame."""
 
 
 class LatexModel:
@@ -77,23 +77,23 @@ class LatexModel:
         )
         rings = sum(len(b.rings) for b in bodies)
         self.scene = build_scene(bodies, worlds, settings, device, rings, STRUTS_PER_JOINT * rings)
-        self.scene.most_stretch.assign(most_stretches(plans, self._bodies))
+        self.scene.stretch_limit.assign(stretch_limits(plans, self._bodies))
         self.stepper = Stepper(self.scene, substeps)
-        self.hands = LatexHands(self.scene)
+        self.hands = LatexControls(self.scene)
         self._struts = Struts(self.scene, StrutLaw())
         self.makers = [
             LatexMaker(plan, self.scene, self.hands, self._struts, run.start)
             for plan, run in zip(plans, self._bodies, strict=True)
         ]
         self._leak = Leak(plans, self.scene, self.hands, self._bodies)
-        self._mirror = Mirror(self.scene, LOOKED_AT)
+        self._readback = Readback(self.scene, READ_BACK)
         self.layout = Layout(self.scene, self._bodies)
-        self._seen: dict[str, NDArray[Any]] = {}
-        self.told: list[Told] = []
-        """What was told of every sculpture when the state was looked at."""
+        self._state: dict[str, NDArray[Any]] = {}
+        self.statuses: list[Status] = []
+        """Status of every sculpture when the state was read back."""
         self._inflated: list[int] = []
         """Sculptures whose last balloon had just got its gas then."""
-        self._fetch()
+        self._start_readback()
 
     @staticmethod
     def usual_substeps(detail: Detail) -> int:
@@ -102,51 +102,53 @@ class LatexModel:
 
     def advance(self, begin: float, end: float) -> None:
         """Let the makers act and start the physics from `begin` to `end` (s)."""
-        middle = self._seen["ring_middle"].copy()
-        self.hands.see(self._seen)
+        middle = self._state["ring_middle"].copy()
+        self.hands.update(self._state)
         self.hands.lift_fingers()
         astray = self.layout.astray(middle)
         for maker, lost in zip(self.makers, astray, strict=True):
             if not lost:
                 maker.act(begin, end, middle)
-        self._leak.advance(begin, end, self._seen)
+        self._leak.advance(begin, end, self._state)
         self._struts.put(middle)
         self.hands.upload()
         self.stepper.advance(contact=bool(self.hands.touching.any()), fingers=self.hands.pressing)
         self.hands.arrived()
-        self._fetch()
+        self._start_readback()
 
-    def _fetch(self) -> None:
-        """Start to fetch the present state, from which frames are made."""
-        self.stepper.look(self._mirror, contact=bool(self.hands.touching.any()))
+    def _start_readback(self) -> None:
+        """Start reading back the present state, from which frames are made."""
+        self.stepper.start_readback(self._readback, contact=bool(self.hands.touching.any()))
 
-    def look(self) -> None:
-        """Wait for the state that was reached last, of which all that follows tells until the next look."""
-        self._seen = self._mirror.arrays()
-        self.told = [maker.told for maker in self.makers]
+    def read_back(self) -> None:
+        """Wait for the read-back of the latest state: what follows is of that state, until the next
+        read-back.
+        """
+        self._state = self._readback.arrays()
+        self.statuses = [maker.status for maker in self.makers]
         self._inflated = [world for world, m in enumerate(self.makers) if m.just_inflated]
 
     def rest(self) -> None:
-        """Wait until nothing is under way."""
-        self._mirror.wait()
+        """Wait for the pending read-back, and so for all work before it."""
+        self._readback.wait()
 
     @property
-    def sight(self) -> Sight:
-        """What was looked at, of all sculptures; it stays as it is for two more looks."""
-        seen, bubbles = self._seen, self.layout.bubbles
-        gas = (seen[name][bubbles] for name in ("pressure", "volume", "wall_load"))
-        return Sight(seen["x"], seen["stretch"], *gas)
+    def frame_arrays(self) -> FrameArrays:
+        """Arrays of the state read back last, of all sculptures; valid for two more read-backs."""
+        state, bubbles = self._state, self.layout.bubbles
+        gas = (state[name][bubbles] for name in ("pressure", "volume", "wall_load"))
+        return FrameArrays(state["x"], state["stretch"], *gas)
 
     @property
     def suspects(self) -> NDArray[np.int32]:
         """1 for every sculpture with walls that went too far or are stretched too much, (W,)."""
-        suspects: NDArray[np.int32] = self._seen["suspects"]
+        suspects: NDArray[np.int32] = self._state["suspects"]
         return suspects
 
     def failures(self) -> dict[int, str]:
-        """Return what is wrong with sculptures in a way that their frames do not show."""
+        """Return failures that the frames do not show, by sculpture."""
         found = {world: cause for world in self._inflated if (cause := self._short_of_gas(world))}
-        most_hits = self._seen["most_hits"]
+        most_hits = self._state["most_hits"]
         return found | {
             world: crowded(int(most_hits[world])) for world in np.flatnonzero(most_hits > HITS).tolist()
         }
@@ -158,7 +160,7 @@ class LatexModel:
     def _short_of_gas(self, world: int) -> str | None:
         """Tell when inflating has ended without the gas that the plan asks for."""
         for b in self._bodies[world]:
-            got = float(self._seen["amount"][self.scene.bubbles_of(b)].sum())
+            got = float(self._state["amount"][self.scene.bubbles_of(b)].sum())
             if got < SHORT_OF_GAS * self.hands.pump_goal[b]:
                 share = got / self.hands.pump_goal[b]
                 return f"the pump brought only {share:.0%} of the gas: give it more seconds"

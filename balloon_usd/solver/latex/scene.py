@@ -9,10 +9,10 @@ import numpy as np
 import warp as wp
 
 from balloon_usd.balloon.air import AIR_DENSITY, GAS_CONSTANT, ROOM_TEMPERATURE
-from balloon_usd.solver.kernels.gas import Air
-from balloon_usd.solver.kernels.joints import Axes
-from balloon_usd.solver.kernels.motion import Spin
-from balloon_usd.solver.kernels.rubber import Knot, Law
+from balloon_usd.solver.kernels.physics.gas import Air
+from balloon_usd.solver.kernels.physics.joints import Axes
+from balloon_usd.solver.kernels.physics.motion import Spin
+from balloon_usd.solver.kernels.physics.rubber import CurveSegment, Law
 from balloon_usd.solver.latex.cores import core_arrays
 from balloon_usd.solver.latex.device_law import device_laws
 from balloon_usd.solver.latex.membrane_data import membrane_data
@@ -30,7 +30,7 @@ DISCHARGE = 0.6
 EQUALISE = 0.9
 """Largest share of a pressure difference that may even out in one substep, between rigid walls: stable."""
 STRUT_SLOTS = 24
-"""Struts that may end at one joint."""
+"""Most struts that may end at one joint."""
 
 
 @dataclass
@@ -52,21 +52,15 @@ def build_scene(
     """Put bodies on a device.
 
     `worlds`: sculpture of every body; bodies of different sculptures never touch. `weld_count`,
-    `strut_count`: room for welds and struts.
+    `strut_count`: capacity for welds and struts.
     """
     scene = LatexScene.of(bodies, worlds, settings, device)
     data = [
         membrane_data(b, settings.dt, settings.atmosphere, scale_mass=settings.scale_mass) for b in bodies
     ]
     host: Arrays = {
-        name: np.concatenate([getattr(d, field) for d in data]).astype(np.float32)
-        for name, field in (
-            ("to_rest", "to_rest"),
-            ("hourglass", "hourglass"),
-            ("rubber_volume", "rubber_volume"),
-            ("mass", "mass"),
-            ("weight", "true_mass"),
-        )
+        name: np.concatenate([getattr(d, name) for d in data]).astype(np.float32)
+        for name in ("rest_inverse", "hourglass", "rubber_volume", "mass", "true_mass")
     }
     lay_meshes(scene, host, weld_count)
     host = {"quad_law": scene.quad_balloon.numpy()}
@@ -108,14 +102,14 @@ def _state_arrays(scene: LatexScene, strut_count: int) -> None:
     a["peak_energy"] = wp.array(worked, dtype=float, device=scene.device)
     a["softening_rate"] = wp.full(balloons, 1.0, dtype=float, device=scene.device)
     scene.zeros("pressure", segments, float)
-    scene.zeros("room", segments, float)
+    scene.zeros("chamber_volume", segments, float)
     scene.zeros("wall_load", segments, float)
     for name in ("amount", "flow"):
         scene.zeros(name, segments, wp.float64)
     scene.zeros("pair_corners", len(a["pairs"]), wp.vec4i)
     scene.zeros("pair_limits", len(a["pairs"]), wp.vec4)
     scene.zeros("corner_force", (4 * 3, quads), float)
-    scene.zeros("lift", (4 * 3, quads), float)
+    scene.zeros("volume_gradient", (4 * 3, quads), float)
     for name in ("chamber_first", "chamber_last"):
         a[name] = wp.array(np.arange(segments), dtype=int, device=scene.device)
     for name in ("open_from", "open_to"):
@@ -134,4 +128,4 @@ def _state_arrays(scene: LatexScene, strut_count: int) -> None:
     scene.zeros("strut_force", struts, wp.vec3)
     laws, curves = device_laws([b.rubber for b in scene.bodies], scene.settings.dt)
     a["laws"] = wp.array(laws, dtype=Law, device=scene.device)
-    a["curves"] = wp.array(curves, dtype=Knot, device=scene.device)
+    a["curves"] = wp.array(curves, dtype=CurveSegment, device=scene.device)

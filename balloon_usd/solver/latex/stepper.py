@@ -1,22 +1,22 @@
-"""The substeps of a frame in the latex model, recorded once as a graph and replayed."""
+"""The substeps of a frame in the latex model, captured once as a graph and replayed."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from balloon_usd.solver.kernels.gas import segment_volumes
-from balloon_usd.solver.kernels.joints import measure_rings
-from balloon_usd.solver.kernels.lanes import WARP
-from balloon_usd.solver.kernels.membrane import vertex_stretch
-from balloon_usd.solver.kernels.wall_load import wall_loads
-from balloon_usd.solver.latex.crew import Crew
+from balloon_usd.solver.checks import travel_limit
+from balloon_usd.solver.kernels.device.warp_reduce import WARP
+from balloon_usd.solver.kernels.physics.gas import segment_volumes
+from balloon_usd.solver.kernels.physics.joints import measure_rings
+from balloon_usd.solver.kernels.physics.membrane import vertex_stretch
+from balloon_usd.solver.kernels.physics.wall_load import wall_loads
+from balloon_usd.solver.latex.launch_shape import SculptureLaunch
 from balloon_usd.solver.launch import Launcher
 from balloon_usd.solver.wall_search import WallSearch
-from balloon_usd.solver.watch import most_way
 
 if TYPE_CHECKING:
     from balloon_usd.solver.latex.scene import LatexScene
-    from balloon_usd.solver.mirror import Mirror
+    from balloon_usd.solver.readback import Readback
 
 SEARCH_SECONDS = 1.0 / 120.0
 """Time between two searches for facing walls, s."""
@@ -31,13 +31,13 @@ class Stepper:
         self.substeps = substeps
         dt = scene.settings.dt
         values: dict[str, Any] = {"dt": dt, "frame_seconds": dt * substeps, "air": scene.air}
-        values["most_way"] = most_way(dt * substeps)
+        values["travel_limit"] = travel_limit(dt * substeps)
         self._search_every = max(1, round(SEARCH_SECONDS / dt))
         self._launcher = Launcher(scene, values)
         self._launch = self._launcher.launch
         self._search = WallSearch(self._launcher)
         self._launcher.load(wall_loads, lanes=WARP)
-        self._crew = Crew(scene)
+        self._sculptures = SculptureLaunch(scene)
         self._start()
 
     def _start(self) -> None:
@@ -56,13 +56,15 @@ class Stepper:
         """Advance by one frame, with or without walls that can touch and fingers that press."""
         self._launcher.replay((contact, fingers), lambda: self._frame(contact=contact, fingers=fingers))
 
-    def look(self, mirror: Mirror, *, contact: bool) -> None:
+    def start_readback(self, readback: Readback, *, contact: bool) -> None:
         """Start copying what frames are made of; where walls can touch, with the loads on them."""
-        mirror.turn()
-        self._launcher.replay(("look", mirror.side, contact), lambda: self._look(mirror, contact=contact))
-        mirror.begun()
+        readback.next_buffer()
+        self._launcher.replay(
+            ("read back", readback.buffer, contact), lambda: self._read_back(readback, contact=contact)
+        )
+        readback.record()
 
-    def _look(self, mirror: Mirror, *, contact: bool) -> None:
+    def _read_back(self, readback: Readback, *, contact: bool) -> None:
         """Write the largest principal stretch of every vertex and the force with which other walls press on
         every segment, and copy.
         """
@@ -70,7 +72,7 @@ class Stepper:
         self._launch(vertex_stretch, len(self.scene.x))
         if contact:
             self._launcher.launch_tiled(wall_loads, len(self.scene.segment_quad), lanes=WARP)
-        mirror.copy()
+        readback.copy()
 
     def _frame(self, *, contact: bool, fingers: bool) -> None:
         stride = self._search_every if contact else self.substeps
@@ -79,7 +81,9 @@ class Stepper:
                 self._search.measure_quads(self.scene.x)
                 self._search.find(self.scene.x)
             end = min(begin + stride, self.substeps)
-            self._crew.advance(self._launcher, self.substeps, begin, end, contact=contact, fingers=fingers)
+            self._sculptures.advance(
+                self._launcher, self.substeps, begin, end, contact=contact, fingers=fingers
+            )
 
     def _volumes(self) -> None:
         self._launcher.launch_tiled(segment_volumes, len(self.scene.segment_quad))

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from balloon_usd.solver.hands import STEP_STIFFNESS
-from balloon_usd.solver.parcel import Letter
+from balloon_usd.solver.upload import ArrayUpload
 
 if TYPE_CHECKING:
     from balloon_usd.solver.latex.scene import LatexScene
@@ -25,7 +25,7 @@ ARRAYS = (
     "strut_yield",
     "joint_struts",
 )
-"""What the device knows of struts."""
+"""Device arrays of struts."""
 STRUT_SHARE = 0.6
 """Stiffness of one strut as a share of the largest that a ring bears."""
 
@@ -49,7 +49,7 @@ class Struts:
         self.pairs: dict[tuple[int, int], int] = {}
         """Strut of every pair of joints."""
         self._wanted: set[tuple[int, int]] = set()
-        self._letters = {name: Letter(scene, name) for name in ARRAYS}
+        self._uploads = {name: ArrayUpload(scene, name) for name in ARRAYS}
         self._mass = scene.joint_mass.numpy().copy()
 
     def hold(self, pairs: set[tuple[int, int]]) -> None:
@@ -62,8 +62,8 @@ class Struts:
         gone = [p for p in self.pairs if joints.issuperset(p) and p not in kept]
         if gone:
             for name in ("strut_stiffness", "strut_damping"):
-                self._letters[name].open()[[self.pairs[pair] for pair in gone]] = 0.0
-                self._letters[name].send()
+                self._uploads[name].staged()[[self.pairs[pair] for pair in gone]] = 0.0
+                self._uploads[name].send()
 
     def put(self, middle: Floats) -> None:
         """Put down the struts that were asked for, at the distances that their joints have now.
@@ -71,16 +71,16 @@ class Struts:
         `middle`: of all joints, (J, 3), m.
 
         Raises:
-            ValueError: there is no room for so many struts, or too many end at one joint.
+            ValueError: more struts than the capacity, or too many end at one joint.
         """
         fresh = sorted(self._wanted.difference(self.pairs))
         self._wanted.clear()
         if not fresh:
             return
-        before, room = len(self.pairs), len(self.scene.strut_joint)
-        if before + len(fresh) > room:
-            raise ValueError(f"{before + len(fresh)} struts but room for {room}")
-        arrays = {name: letter.open() for name, letter in self._letters.items()}
+        before, capacity = len(self.pairs), len(self.scene.strut_joint)
+        if before + len(fresh) > capacity:
+            raise ValueError(f"{before + len(fresh)} struts but room for {capacity}")
+        arrays = {name: upload.staged() for name, upload in self._uploads.items()}
         for a, b in fresh:
             k = self.pairs[a, b] = len(self.pairs)
             arrays["strut_joint"][k] = (a, b)
@@ -92,12 +92,12 @@ class Struts:
             arrays["strut_damping"][k] = 0.3 * np.sqrt(stiffness * least)
             arrays["strut_yield"][k] = self.law.yielding
             _enter(arrays["joint_struts"], k, a, b)
-        for name, letter in self._letters.items():
+        for name, upload in self._uploads.items():
             if name == "joint_struts":
-                letter.send()
+                upload.send()
             else:
-                # What is there already may have given way since.
-                letter.send(before, len(self.pairs))
+                # Earlier struts may have yielded since: their lengths on the device stay.
+                upload.send(before, len(self.pairs))
 
 
 def _enter(slots: NDArray[np.int32], strut: int, first: int, second: int) -> None:
@@ -107,7 +107,7 @@ def _enter(slots: NDArray[np.int32], strut: int, first: int, second: int) -> Non
         ValueError: too many end there.
     """
     for end, sign in ((first, 1), (second, -1)):
-        room = np.flatnonzero(slots[end] == 0)
-        if len(room) == 0:
+        free = np.flatnonzero(slots[end] == 0)
+        if len(free) == 0:
             raise ValueError(f"more than {slots.shape[1]} struts at one joint")
-        slots[end, room[0]] = sign * (strut + 1)
+        slots[end, free[0]] = sign * (strut + 1)

@@ -29,8 +29,8 @@ if TYPE_CHECKING:
     from balloon_usd.plan import Plan
     from balloon_usd.plan.holding import LooseJoint
     from balloon_usd.plan.strip import Strip
+    from balloon_usd.solver.latex.controls import LatexControls
     from balloon_usd.solver.latex.friction import Friction
-    from balloon_usd.solver.latex.hands import LatexHands
     from balloon_usd.solver.latex.scene import LatexScene
     from balloon_usd.solver.latex.struts import Struts
 
@@ -123,7 +123,7 @@ class Torsion:
         self,
         plan: Plan,
         scene: LatexScene,
-        hands: LatexHands,
+        hands: LatexControls,
         rings: Sequence[int],
         bodies: Mapping[str, int],
         friction: Friction,
@@ -219,8 +219,8 @@ class Torsion:
 
     def _widen(self, loose: _Loose, wound: WoundJoint) -> None:
         # No wider than the smaller bubble beside it could be.
-        room = float(self.hands.volume[self.hands.beside[loose.joint]].min())
-        ball = (3.0 * max(room, 0.0) / (4.0 * math.pi)) ** (1.0 / 3.0)
+        smaller = float(self.hands.volume[self.hands.beside[loose.joint]].min())
+        ball = (3.0 * max(smaller, 0.0) / (4.0 * math.pi)) ** (1.0 / 3.0)
         radius = max(wound.neck, min(wound.waist, ball))
         if wound.turns == 0.0:
             self.hands.free_neck(loose.joint)

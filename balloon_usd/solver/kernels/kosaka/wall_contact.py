@@ -1,0 +1,69 @@
+"""Rubber on rubber in the thesis's model: a vertex inside a wall is put back onto it (Kosaka 2008, 3.5)."""
+
+import warp as wp
+
+from balloon_usd.solver.kernels.kosaka.offset_regions import (
+    WIDER,
+    least,
+    onto_plane,
+    plane_distance,
+    plane_normal,
+    shares,
+    triangle,
+)
+from balloon_usd.solver.kernels.kosaka.springs import Constants
+
+
+@wp.func
+def onto_wall(r: wp.vec3, normal_r: wp.vec3, a: wp.vec3, b: wp.vec3, c: wp.vec3, thickness: float) -> wp.vec3:
+    """Return a vertex moved onto a triangle if it lies behind it within the offset region and their normals
+    point against each other (Kosaka 2008, eq. 3.14), else where it is.
+    """
+    normal = plane_normal(a, b, c)
+    d = plane_distance(r, a, normal)
+    there = r
+    if d < 0.0 and d > -thickness and wp.dot(normal_r, normal) < 0.0:
+        on = onto_plane(r, a, normal)
+        if least(shares(on, a, b, c)) > -WIDER:
+            there = on
+    return there
+
+
+@wp.kernel
+def part_walls(
+    quads: wp.array[wp.vec4i],
+    vertex_joint: wp.array[int],
+    vertex_balloon: wp.array[int],
+    constants: wp.array[Constants],
+    radius_to: wp.array[float],
+    target: wp.array2d[int],
+    normal: wp.array[wp.vec3],
+    x: wp.array[wp.vec3],
+    v: wp.array[wp.vec3],
+    x_next: wp.array[wp.vec3],
+):
+    """Move every vertex that lies inside a wall onto it (Kosaka 2008, eq. 3.15), and take from its velocity
+    what would carry it in again; only the vertex's own velocity is changed. Necks stay where hands closed
+    them.
+    """
+    i = wp.tid()
+    j = vertex_joint[i]
+    if j >= 0:
+        if radius_to[j] > 0.0:
+            x_next[i] = x[i]
+            return
+    thickness = constants[vertex_balloon[i]].contact_offset
+    p = x[i]
+    u = v[i]
+    for k in range(2):
+        q = target[i, k]
+        if q >= 0:
+            for half in range(2):
+                f = triangle(quads, 2 * q + half)
+                there = onto_wall(p, normal[i], x[f[0]], x[f[1]], x[f[2]], thickness)
+                if wp.length_sq(there - p) > 0.0:
+                    face = plane_normal(x[f[0]], x[f[1]], x[f[2]])
+                    u -= wp.min(wp.dot(u, face), 0.0) * face
+                    p = there
+    x_next[i] = p
+    v[i] = u

@@ -1,0 +1,1 @@
+"""Rubber, gas, joints and contact: the kernels of the latex model, some of which both models share."""

@@ -1,0 +1,748 @@
+"""Contact of walls: broad phase over bounding boxes of chunks of quads, narrow phase against bilinear
+patches, penalty forces and Coulomb friction.
+"""
+
+import warp as wp
+
+from balloon_usd.solver.kernels.device.array_access import (
+    float_at,
+    int_at,
+    int_in,
+    vec2_at,
+    vec3_at,
+    vec4i_at,
+)
+from balloon_usd.solver.kernels.device.coherent_load import coherent_vec2, coherent_vec3
+from balloon_usd.solver.kernels.device.soa import load_soa, store_soa
+from balloon_usd.solver.kernels.device.warp_reduce import (
+    lowest_bit,
+    warp_ballot,
+    warp_max,
+    warp_max3,
+    warp_sum,
+)
+
+TARGETS = 2
+"""Walls that one vertex may touch at a time."""
+HITS = 24
+"""Vertices that may press on one quad at a time."""
+MOST_HITS = wp.constant(HITS)
+
+FACING = wp.constant(-0.1)
+"""Walls face each other when the dot product of their outward normals is below this."""
+DEPTH_LIMIT = wp.constant(0.6)
+"""Deepest overlap taken for a contact, in local tube radii: beyond it the other wall is the tube's far
+side.
+"""
+REACH = wp.constant(0.85)
+"""Search reach in lengths of a quad's side: more than half its diagonal."""
+SIDE_SLIP = wp.constant(0.25)
+"""How far beside a quad, in lengths of its side, its plane still holds a vertex."""
+STICK = wp.constant(0.5)
+"""Tangential stiffness of a contact, in normal stiffnesses."""
+STABLE = wp.constant(0.25)
+"""Largest contact stiffness, in the lightest of the vertex masses per squared time step."""
+CROWD = wp.constant(0.5)
+"""How much each further vertex on the same quad lowers that limit."""
+OWN = wp.constant(256)
+"""Most quads before a vertex, and after it, that are known as its own."""
+FAR = wp.constant(1.0e6)
+"""Farther than any wall, m."""
+NONE = wp.constant(1 << 30)
+"""Index beyond any other."""
+ROUNDED = wp.constant(1.001)
+"""Inflation of a warp's bounding box, so that rounding culls nothing that is within reach of one of its
+lanes.
+"""
+NORMAL_DAMPING = wp.constant(0.3)
+"""Damping of the approach, as a share of what would stop the vertex in one substep."""
+
+
+@wp.struct
+class Touch:
+    """How walls press on each other."""
+
+    offset: float
+    """Distance at which walls begin to press, m."""
+    pressure: float
+    """Contact pressure where the offset is used up, Pa."""
+    margin: float
+    """Further distance within which walls are watched between two searches, m."""
+    apart: float
+    """Unstressed distance within one bubble, in R0, within which its wall never meets itself."""
+
+
+@wp.kernel
+def chunk_surface(
+    quads: wp.array[wp.vec4i],
+    chunk_quad: wp.array[int],
+    x: wp.array[wp.vec3],
+    quad_middle: wp.array[wp.vec3],
+    quad_area: wp.array[wp.vec3],
+    chunk_low: wp.array[wp.vec3],
+    chunk_high: wp.array[wp.vec3],
+    hit_count: wp.array[int],
+):
+    """Write the middle (m) and the vector area (m2) of every quad, and the lowest and the highest coordinates
+    (m) of the middles of a chunk of quads; nothing touches them yet. A warp of lanes each on a GPU.
+    """
+    chunk, lane = wp.tid()
+    high = wp.vec3(-FAR)
+    low = wp.vec3(FAR)
+    for q in range(chunk_quad[chunk] + lane, chunk_quad[chunk + 1], wp.block_dim()):
+        c = quads[q]
+        middle = 0.25 * (x[c[0]] + x[c[1]] + x[c[2]] + x[c[3]])
+        quad_middle[q] = middle
+        quad_area[q] = 0.5 * wp.cross(x[c[2]] - x[c[0]], x[c[3]] - x[c[1]])
+        hit_count[q] = 0
+        high = wp.max(high, middle)
+        low = wp.min(low, middle)
+    high = warp_max3(high)
+    low = -warp_max3(-low)
+    if lane == 0:
+        chunk_low[chunk] = low
+        chunk_high[chunk] = high
+
+
+@wp.func
+def surface_of_vertex(i: int, corners: wp.array[wp.vec4i], quad_area: wp.array[wp.vec3]):
+    """Return the outward vector area (m2) of the wall about a vertex, and the vertex's share of it (m2)."""
+    total = wp.vec3(0.0)
+    size = float(0.0)
+    row = int(i)
+    while row >= 0:
+        slots = vec4i_at(corners, row)
+        for k in range(4):
+            if slots[k] >= 0:
+                a = vec3_at(quad_area, slots[k] // 4)
+                total += a
+                size += 0.25 * wp.length(a)
+        row = -2 - slots[3]
+    return total, size
+
+
+@wp.kernel
+def ring_radii(
+    ring_first: wp.array[int],
+    ring_around: wp.array[int],
+    x: wp.array[wp.vec3],
+    ring_radius: wp.array[float],
+):
+    """Write the radius (m) of every ring, its girth over 2 pi; a warp of lanes each on a GPU."""
+    r, lane = wp.tid()
+    girth = float(0.0)
+    first = ring_first[r]
+    n = ring_around[r]
+    for k in range(lane, n, wp.block_dim()):
+        girth += wp.length(x[first + k] - x[first + (k + n - 1) % n])
+    girth = warp_sum(girth)
+    if lane == 0:
+        ring_radius[r] = girth / (2.0 * wp.pi)
+
+
+@wp.func
+def nearer_on_patch(x0: wp.vec3, x1: wp.vec3, x2: wp.vec3, x3: wp.vec3, p: wp.vec3, place: wp.vec2):
+    """Return the coordinates (-1/2 .. 1/2) of a point of a bilinear patch that is nearer to p than one at
+    hand: a step of Gauss and Newton.
+    """
+    u = place[0]
+    w = place[1]
+    a = 0.5 * (x1 - x0 + x2 - x3)
+    b = 0.5 * (x3 - x0 + x2 - x1)
+    h = x0 - x1 + x2 - x3
+    r = 0.25 * (x0 + x1 + x2 + x3) - p + u * a + w * b + u * w * h
+    du = a + w * h
+    dw = b + u * h
+    aa = wp.dot(du, du)
+    bb = wp.dot(dw, dw)
+    ab = wp.dot(du, dw)
+    det = wp.max(aa * bb - ab * ab, 1.0e-20)
+    ra = wp.dot(r, du)
+    rb = wp.dot(r, dw)
+    return wp.vec2(
+        wp.clamp(u - (bb * ra - ab * rb) / det, -0.5, 0.5),
+        wp.clamp(w - (aa * rb - ab * ra) / det, -0.5, 0.5),
+    )
+
+
+@wp.func
+def nearest_on_patch(x0: wp.vec3, x1: wp.vec3, x2: wp.vec3, x3: wp.vec3, p: wp.vec3):
+    """Return the coordinates (-1/2 .. 1/2) of the point of a bilinear patch nearest to p."""
+    place = wp.vec2(0.0, 0.0)
+    for _ in range(3):
+        place = nearer_on_patch(x0, x1, x2, x3, p, place)
+    return place
+
+
+@wp.func
+def patch_shares(uw: wp.vec2):
+    """Return how a point of a bilinear patch is shared by its four corners."""
+    u = uw[0]
+    w = uw[1]
+    return wp.vec4((0.5 - u) * (0.5 - w), (0.5 + u) * (0.5 - w), (0.5 + u) * (0.5 + w), (0.5 - u) * (0.5 + w))
+
+
+@wp.func
+def distance_beside(
+    q: int, face: wp.vec3, most: float, p: wp.vec3, quads: wp.array[wp.vec4i], x: wp.array[wp.vec3]
+):
+    """Return the distance (m) of a point from a quad, or FAR where the point lies more than `most` (m) beside
+    it.
+    """
+    c = vec4i_at(quads, q)
+    x0 = vec3_at(x, c[0])
+    x1 = vec3_at(x, c[1])
+    x2 = vec3_at(x, c[2])
+    x3 = vec3_at(x, c[3])
+    s = patch_shares(nearest_on_patch(x0, x1, x2, x3, p))
+    gap = p - (s[0] * x0 + s[1] * x1 + s[2] * x2 + s[3] * x3)
+    distance = float(FAR)
+    if wp.length(gap - wp.dot(gap, face) * face) < most:
+        distance = wp.length(gap)
+    return distance
+
+
+@wp.func
+def may_meet(
+    q: int,
+    mine: int,
+    bubble: int,
+    place: wp.vec3,
+    apart: float,
+    quad_segment: wp.array[int],
+    quad_place: wp.array[wp.vec3],
+    quad_balloon: wp.array[int],
+):
+    """Return whether a quad may ever touch a vertex, given its balloon, bubble and place."""
+    elsewhere = int_at(quad_balloon, q) != mine or wp.max(wp.abs(vec3_at(quad_place, q) - place)) > apart
+    return elsewhere or (bubble >= 0 and int_at(quad_segment, q) != bubble)
+
+
+@wp.kernel
+def find_own_walls(
+    quads: wp.array[wp.vec4i],
+    corners: wp.array[wp.vec4i],
+    quad_segment: wp.array[int],
+    quad_place: wp.array[wp.vec3],
+    quad_balloon: wp.array[int],
+    vertex_place: wp.array[wp.vec3],
+    vertex_balloon: wp.array[int],
+    vertex_segment: wp.array[int],
+    balloon_radius: wp.array[float],
+    touch: Touch,
+    vertex_own: wp.array[wp.vec2i],
+):
+    """Write for every vertex the first and the end of a run of quads about it that it never touches."""
+    i = wp.tid()
+    mine = vertex_balloon[i]
+    bubble = vertex_segment[i]
+    place = vertex_place[i]
+    apart = touch.apart * balloon_radius[mine]
+    middle = wp.max(corners[i][0], 0) // 4
+    first = wp.max(middle - OWN, 0)
+    begin = int(middle)
+    while begin > first and not may_meet(
+        wp.max(begin - 1, first), mine, bubble, place, apart, quad_segment, quad_place, quad_balloon
+    ):
+        begin -= 1
+    last = wp.min(middle + OWN, quads.shape[0]) - 1
+    end = int(middle)
+    while end <= last and not may_meet(
+        wp.min(end, last), mine, bubble, place, apart, quad_segment, quad_place, quad_balloon
+    ):
+        end += 1
+    vertex_own[i] = wp.vec2i(begin, end)
+
+
+@wp.func
+def distance_of_wall(
+    q: int,
+    d: wp.vec3,
+    mine: int,
+    bubble: int,
+    place: wp.vec3,
+    apart: float,
+    depth: float,
+    n: wp.vec3,
+    p: wp.vec3,
+    touch: Touch,
+    quads: wp.array[wp.vec4i],
+    quad_segment: wp.array[int],
+    quad_ring: wp.array[int],
+    quad_place: wp.array[wp.vec3],
+    quad_balloon: wp.array[int],
+    x: wp.array[wp.vec3],
+    quad_area: wp.array[wp.vec3],
+    ring_radius: wp.array[float],
+):
+    """Return the distance (m) of a vertex from a quad that faces it, or FAR where the two never touch.
+
+    `d`: from the quad's middle to the vertex, m; `mine`, `bubble`, `place`: its balloon, bubble and place.
+    """
+    distance = float(FAR)
+    if may_meet(q, mine, bubble, place, apart, quad_segment, quad_place, quad_balloon):
+        a = vec3_at(quad_area, q)
+        size = wp.length(a)
+        face = a / wp.max(size, 1.0e-12)
+        height = wp.dot(d, face)
+        limit = wp.min(depth, DEPTH_LIMIT * float_at(ring_radius, int_at(quad_ring, q)))
+        if wp.dot(face, n) < FACING and height > -limit and height < touch.offset + touch.margin:
+            distance = distance_beside(q, face, SIDE_SLIP * wp.sqrt(size), p, quads, x)
+    return distance
+
+
+@wp.func
+def weigh_wall(
+    q: int,
+    near: wp.vec2,
+    nearest: wp.vec2i,
+    mine: int,
+    bubble: int,
+    place: wp.vec3,
+    apart: float,
+    depth: float,
+    n: wp.vec3,
+    p: wp.vec3,
+    touch: Touch,
+    quads: wp.array[wp.vec4i],
+    quad_segment: wp.array[int],
+    quad_ring: wp.array[int],
+    quad_place: wp.array[wp.vec3],
+    quad_balloon: wp.array[int],
+    x: wp.array[wp.vec3],
+    quad_middle: wp.array[wp.vec3],
+    quad_area: wp.array[wp.vec3],
+    ring_radius: wp.array[float],
+):
+    """Return the distances (m) of the two nearest quads of different bubbles, and these, after one more."""
+    d = p - vec3_at(quad_middle, q)
+    distance = distance_of_wall(
+        q,
+        d,
+        mine,
+        bubble,
+        place,
+        apart,
+        depth,
+        n,
+        p,
+        touch,
+        quads,
+        quad_segment,
+        quad_ring,
+        quad_place,
+        quad_balloon,
+        x,
+        quad_area,
+        ring_radius,
+    )
+    other = nearest[0] >= 0 and int_at(quad_segment, wp.max(nearest[0], 0)) != int_at(quad_segment, q)
+    if distance < near[0]:
+        if other:
+            near = wp.vec2(distance, near[0])
+            nearest = wp.vec2i(q, nearest[0])
+        else:
+            near = wp.vec2(distance, near[1])
+            nearest = wp.vec2i(q, nearest[1])
+    elif distance < near[1] and other:
+        near = wp.vec2(near[0], distance)
+        nearest = wp.vec2i(nearest[0], q)
+    return near, nearest
+
+
+@wp.func
+def close_quads(base: int, first: int, end: int, p: wp.vec3, reach: float, quad_middle: wp.array[wp.vec3]):
+    """Return the bits, counted from quad `base`, of those quads whose middles are within reach (m) of a
+    point.
+    """
+    bits = int(0)
+    for q in range(first, end):
+        d = p - vec3_at(quad_middle, q)
+        if wp.dot(d, d) < reach * reach:
+            bits |= 1 << (q - base)
+    return bits
+
+
+@wp.func
+def enter_walls(
+    i: int,
+    p: wp.vec3,
+    found: wp.vec2i,
+    before: wp.vec2i,
+    quads: wp.array[wp.vec4i],
+    quad_segment: wp.array[int],
+    x: wp.array[wp.vec3],
+    target: wp.array2d[int],
+    contact_place: wp.array[wp.vec2],
+    contact_force: wp.array2d[float],
+    slip: wp.array2d[wp.vec3],
+    hit_count: wp.array[int],
+    hits: wp.array2d[int],
+):
+    """Enter the walls that a vertex was found to touch in their lists, with what it has slipped on those that
+    it touched before.
+    """
+    slip0 = slip[i, 0]
+    slip1 = slip[i, 1]
+    for k in range(2):
+        kept = wp.vec3(0.0)
+        if found[k] >= 0:
+            if before[0] >= 0 and quad_segment[before[0]] == quad_segment[found[k]]:
+                kept = slip0
+            elif before[1] >= 0 and quad_segment[before[1]] == quad_segment[found[k]]:
+                kept = slip1
+            c = quads[found[k]]
+            contact_place[2 * i + k] = nearest_on_patch(x[c[0]], x[c[1]], x[c[2]], x[c[3]], p)
+            slot = wp.atomic_add(hit_count, found[k], 1)
+            if slot < MOST_HITS:
+                hits[found[k], slot] = 2 * i + k
+        else:
+            store_soa(contact_force, i, k, wp.vec3(0.0))
+        target[i, k] = found[k]
+        slip[i, k] = kept
+
+
+@wp.kernel
+def find_walls(
+    world_chunk: wp.array[int],
+    world_vertex: wp.array[int],
+    chunk_quad: wp.array[int],
+    quads: wp.array[wp.vec4i],
+    corners: wp.array[wp.vec4i],
+    quad_segment: wp.array[int],
+    quad_ring: wp.array[int],
+    quad_place: wp.array[wp.vec3],
+    quad_balloon: wp.array[int],
+    vertex_ring: wp.array[int],
+    vertex_place: wp.array[wp.vec3],
+    vertex_balloon: wp.array[int],
+    vertex_segment: wp.array[int],
+    vertex_own: wp.array[wp.vec2i],
+    balloon_world: wp.array[int],
+    balloon_radius: wp.array[float],
+    touching: wp.array[int],
+    touch: Touch,
+    x: wp.array[wp.vec3],
+    quad_middle: wp.array[wp.vec3],
+    quad_area: wp.array[wp.vec3],
+    chunk_low: wp.array[wp.vec3],
+    chunk_high: wp.array[wp.vec3],
+    ring_radius: wp.array[float],
+    normal: wp.array[wp.vec3],
+    area: wp.array[float],
+    target: wp.array2d[int],
+    contact_place: wp.array[wp.vec2],
+    contact_force: wp.array2d[float],
+    slip: wp.array2d[wp.vec3],
+    hit_count: wp.array[int],
+    hits: wp.array2d[int],
+    pair_count: wp.array[int],
+    pairs: wp.array[int],
+):
+    """Choose for every vertex the nearest facing quads, of different bubbles, and enter it in their lists;
+    write its outward unit normal and its share of the wall's area (m2).
+
+    On a GPU a warp searches for 32 neighbouring vertices: a broad phase culls chunks by the bounding box of
+    the whole warp, a narrow phase measures each lane's own candidates.
+    """
+    group, lane = wp.tid()
+    i = group * wp.block_dim() + lane
+    spare = i >= x.shape[0]
+    i = wp.min(i, x.shape[0] - 1)
+    p = x[i]
+    mine = vertex_balloon[i]
+    # The bubble of a vertex; a ring between two bubbles belongs to neither.
+    bubble = vertex_segment[i]
+    place = vertex_place[i]
+    own = vertex_own[i]
+    apart = touch.apart * balloon_radius[mine]
+    depth = DEPTH_LIMIT * ring_radius[vertex_ring[i]]
+    world = balloon_world[mine]
+    outward, size = surface_of_vertex(i, corners, quad_area)
+    n = wp.normalize(outward)
+    normal[i] = n
+    area[i] = size
+    reach = REACH * wp.sqrt(size) + touch.offset + touch.margin
+    near = wp.vec2(reach, reach)
+    nearest = wp.vec2i(-1, -1)
+    first = world_chunk[world]
+    last = world_chunk[world + 1]
+    # Bounding box of the warp: what is within reach of any of its lanes.
+    low = p - wp.vec3(ROUNDED * reach)
+    high = p + wp.vec3(ROUNDED * reach)
+    own_of_all = own
+    if spare or touching[mine] == 0:
+        first = NONE
+        last = -NONE
+        low = wp.vec3(FAR)
+        high = wp.vec3(-FAR)
+        own_of_all = wp.vec2i(-NONE, NONE)
+    low = -warp_max3(-low)
+    high = warp_max3(high)
+    own_of_all = wp.vec2i(warp_max(own_of_all[0]), -warp_max(-own_of_all[1]))
+    begin = -warp_max(-first)
+    end = warp_max(last)
+    while begin < end:
+        some = int(0)
+        if begin + lane < end:
+            chunk_l = vec3_at(chunk_low, begin + lane)
+            chunk_h = vec3_at(chunk_high, begin + lane)
+            # Broad phase: the first axis already culls most chunks.
+            if chunk_l[0] < high[0] and chunk_h[0] > low[0]:
+                if (
+                    chunk_l[1] < high[1]
+                    and chunk_h[1] > low[1]
+                    and chunk_l[2] < high[2]
+                    and chunk_h[2] > low[2]
+                ):
+                    if own_of_all[0] > int_at(chunk_quad, begin + lane) or own_of_all[1] < int_at(
+                        chunk_quad, begin + lane + 1
+                    ):
+                        some = 1
+        chunks = warp_ballot(some)
+        while chunks != 0:
+            chunk = begin + lowest_bit(chunks)
+            chunks &= chunks - 1
+            base = int_at(chunk_quad, chunk)
+            first_quad = int(base)
+            end_quad = int_at(chunk_quad, chunk + 1)
+            # Trim the vertex's own neighbourhood from either end of the chunk.
+            if own[0] <= base:
+                first_quad = wp.max(first_quad, own[1])
+            if own[1] >= end_quad:
+                end_quad = wp.min(end_quad, own[0])
+            off = wp.max(wp.max(vec3_at(chunk_low, chunk) - p, p - vec3_at(chunk_high, chunk)), wp.vec3(0.0))
+            close = int(0)
+            if chunk >= first and chunk < last and wp.dot(off, off) < reach * reach:
+                close = close_quads(base, first_quad, end_quad, p, reach, quad_middle)
+            # Narrow phase: every lane tests one candidate a round, until no lane has any left.
+            while warp_ballot(wp.where(close != 0, 1, 0)) != 0:
+                if close != 0:
+                    near, nearest = weigh_wall(
+                        base + lowest_bit(close),
+                        near,
+                        nearest,
+                        mine,
+                        bubble,
+                        place,
+                        apart,
+                        depth,
+                        n,
+                        p,
+                        touch,
+                        quads,
+                        quad_segment,
+                        quad_ring,
+                        quad_place,
+                        quad_balloon,
+                        x,
+                        quad_middle,
+                        quad_area,
+                        ring_radius,
+                    )
+                    close &= close - 1
+        begin += wp.block_dim()
+    before = wp.vec2i(int_in(target, i, 0), int_in(target, i, 1))
+    # Most vertices touch nothing, and did not before.
+    if spare or (nearest[0] < 0 and before[0] < 0 and before[1] < 0):
+        return
+    enter_walls(
+        i,
+        p,
+        nearest,
+        before,
+        quads,
+        quad_segment,
+        x,
+        target,
+        contact_place,
+        contact_force,
+        slip,
+        hit_count,
+        hits,
+    )
+    for k in range(2):
+        if nearest[k] >= 0:
+            pairs[2 * world_vertex[world] + wp.atomic_add(pair_count, world, 1)] = 2 * i + k
+
+
+@wp.kernel
+def order_hits(
+    quad_world: wp.array[int],
+    world_quad: wp.array[int],
+    hit_count: wp.array[int],
+    most_hits: wp.array[int],
+    hits: wp.array2d[int],
+    pressed_count: wp.array[int],
+    pressed: wp.array[int],
+):
+    """Sort every quad's list, so that sums do not depend on the order of threads; remember the longest list,
+    and which quads have any.
+    """
+    q = wp.tid()
+    count = hit_count[q]
+    if count > 0:
+        world = quad_world[q]
+        pressed[world_quad[world] + wp.atomic_add(pressed_count, world, 1)] = q
+        wp.atomic_max(most_hits, world, count)
+        count = wp.min(count, MOST_HITS)
+        hit_count[q] = count
+        for k in range(1, count):
+            here = hits[q, k]
+            j = int(k)
+            while j > 0 and hits[q, wp.max(j - 1, 0)] > here:
+                hits[q, j] = hits[q, j - 1]
+                j -= 1
+            hits[q, j] = here
+
+
+@wp.func
+def limits_of_pair(
+    pair: int,
+    quads: wp.array[wp.vec4i],
+    mass: wp.array[float],
+    touch: Touch,
+    friction: wp.array[float],
+    vertex_balloon: wp.array[int],
+    dt: float,
+    area: wp.array[float],
+    quad_area: wp.array[wp.vec3],
+    target: wp.array2d[int],
+    hit_count: wp.array[int],
+):
+    """Return what stays constant between two searches for a vertex that touches a quad: the quad's vertices,
+    the stiffness (N/m), the damping (N s/m), the friction, and how far beside the quad it is held (m).
+    """
+    i = pair >> 1
+    q = int_in(target, i, pair & 1)
+    c = vec4i_at(quads, q)
+    lightest = wp.min(
+        float_at(mass, i),
+        wp.min(
+            wp.min(float_at(mass, c[0]), float_at(mass, c[1])),
+            wp.min(float_at(mass, c[2]), float_at(mass, c[3])),
+        ),
+    )
+    crowd = wp.max(CROWD * float(int_at(hit_count, q)), 1.0)
+    stiffness = wp.min(
+        touch.pressure * float_at(area, i) / touch.offset, STABLE * lightest / (dt * dt * crowd)
+    )
+    damping = NORMAL_DAMPING * lightest / (dt * crowd)
+    beside = 2.0 * SIDE_SLIP * wp.sqrt(wp.length(vec3_at(quad_area, q)))
+    return c, wp.vec4(stiffness, damping, float_at(friction, int_at(vertex_balloon, i)), beside)
+
+
+@wp.func
+def press_wall(
+    pair: int,
+    c: wp.vec4i,
+    limits: wp.vec4,
+    offset: float,
+    dt: float,
+    x: wp.array[wp.vec3],
+    v: wp.array[wp.vec3],
+    slip: wp.array2d[wp.vec3],
+    contact_force: wp.array2d[float],
+    contact_place: wp.array[wp.vec2],
+):
+    """Write the contact force (N) on a vertex that touches a quad, and where on the quad.
+
+    `pair`: twice the vertex, and which of its walls; `c`, `limits`: of `limits_of_pair`.
+    """
+    i = pair >> 1
+    k = pair & 1
+    p = coherent_vec3(x, i)
+    x0 = coherent_vec3(x, c[0])
+    x1 = coherent_vec3(x, c[1])
+    x2 = coherent_vec3(x, c[2])
+    x3 = coherent_vec3(x, c[3])
+    # Prefetch: loaded before the test that may not need them.
+    velocity = coherent_vec3(v, i)
+    v0 = coherent_vec3(v, c[0])
+    v1 = coherent_vec3(v, c[1])
+    v2 = coherent_vec3(v, c[2])
+    v3 = coherent_vec3(v, c[3])
+    slipped = slip[i, k]
+    # Warm start: it slides little in a substep, so one iteration is enough.
+    place = nearer_on_patch(x0, x1, x2, x3, p, vec2_at(contact_place, pair))
+    s = patch_shares(place)
+    gap = p - (s[0] * x0 + s[1] * x1 + s[2] * x2 + s[3] * x3)
+    face = wp.normalize(wp.cross(x2 - x0, x3 - x1))
+    height = wp.dot(gap, face)
+    overlap = offset - height
+    f = wp.vec3(0.0)
+    moved = wp.vec3(0.0)
+    if overlap > 0.0 and wp.length(gap - height * face) < limits[3]:
+        stiffness = limits[0]
+        going = velocity - (s[0] * v0 + s[1] * v1 + s[2] * v2 + s[3] * v3)
+        approach = wp.dot(going, face)
+        near = wp.min(overlap / offset, 1.0)
+        push = wp.max(stiffness * overlap - limits[1] * near * approach, 0.0)
+        along = going - approach * face
+        moved = slipped + along * dt
+        moved = moved - wp.dot(moved, face) * face
+        grip = STICK * stiffness
+        hold = limits[2] * push / grip
+        far = wp.length(moved)
+        if far > hold:
+            moved = moved * (hold / far)
+        f = push * face - grip * moved
+    slip[i, k] = moved
+    store_soa(contact_force, i, k, f)
+    contact_place[pair] = place
+
+
+@wp.func
+def balancing_turn(r0: wp.vec3, r1: wp.vec3, r2: wp.vec3, r3: wp.vec3, couple: wp.vec3):
+    """Return the vector whose cross products with a quad's corners balance a couple (N m): that of contacts
+    across a gap, where the vertex feels a force at one end and the quad its opposite at the other.
+    """
+    square = wp.dot(r0, r0) + wp.dot(r1, r1) + wp.dot(r2, r2) + wp.dot(r3, r3)
+    spread = wp.outer(r0, r0) + wp.outer(r1, r1) + wp.outer(r2, r2) + wp.outer(r3, r3)
+    inertia = square * wp.identity(n=3, dtype=float) - spread
+    return wp.inverse(inertia) * couple
+
+
+@wp.func
+def press_quad_back(
+    q: int,
+    quads: wp.array[wp.vec4i],
+    hit_count: wp.array[int],
+    hits: wp.array2d[int],
+    contact_force: wp.array2d[float],
+    contact_place: wp.array[wp.vec2],
+    x: wp.array[wp.vec3],
+    corner_force: wp.array2d[float],
+):
+    """Take from the corners of a quad what the vertices that touch it felt, forces and torques."""
+    count = int_at(hit_count, q)
+    c = vec4i_at(quads, q)
+    x0 = coherent_vec3(x, c[0])
+    x1 = coherent_vec3(x, c[1])
+    x2 = coherent_vec3(x, c[2])
+    x3 = coherent_vec3(x, c[3])
+    middle = 0.25 * (x0 + x1 + x2 + x3)
+    r0 = x0 - middle
+    r1 = x1 - middle
+    r2 = x2 - middle
+    r3 = x3 - middle
+    f0 = wp.vec3(0.0)
+    f1 = wp.vec3(0.0)
+    f2 = wp.vec3(0.0)
+    f3 = wp.vec3(0.0)
+    couple = wp.vec3(0.0)
+    for k in range(count):
+        hit = int_in(hits, q, k)
+        f = load_soa(contact_force, hit // 2, hit % 2)
+        share = patch_shares(coherent_vec2(contact_place, hit))
+        f0 += share[0] * f
+        f1 += share[1] * f
+        f2 += share[2] * f
+        f3 += share[3] * f
+        touched = middle + share[0] * r0 + share[1] * r1 + share[2] * r2 + share[3] * r3
+        couple += wp.cross(coherent_vec3(x, hit // 2) - touched, f)
+    turn = balancing_turn(r0, r1, r2, r3, couple)
+    store_soa(corner_force, q, 0, load_soa(corner_force, q, 0) - f0 - wp.cross(turn, r0))
+    store_soa(corner_force, q, 1, load_soa(corner_force, q, 1) - f1 - wp.cross(turn, r1))
+    store_soa(corner_force, q, 2, load_soa(corner_force, q, 2) - f2 - wp.cross(turn, r2))
+    store_soa(corner_force, q, 3, load_soa(corner_force, q, 3) - f3 - wp.cross(turn, r3))

@@ -1,0 +1,241 @@
+"""Gas: volumes of the segments between joints, the ideal gas law, the pump and the closing necks."""
+
+import warp as wp
+
+from balloon_usd.solver.kernels.device.array_access import float_at, int_at, put_float, vec3_at, vec4i_at
+from balloon_usd.solver.kernels.device.barrier import warp_barrier
+from balloon_usd.solver.kernels.device.coherent_load import coherent_float, coherent_vec3
+
+
+@wp.func
+def patch_volume(x0: wp.vec3, x1: wp.vec3, x2: wp.vec3, x3: wp.vec3):
+    """Return the volume (m3) between a bilinear patch and the origin: exact, middle . vector area / 3."""
+    middle = 0.25 * (x0 + x1 + x2 + x3)
+    return wp.dot(middle, wp.cross(x2 - x0, x3 - x1)) / 6.0
+
+
+@wp.func
+def volume_of_fans(
+    s: int,
+    start_joint: wp.array[int],
+    end_joint: wp.array[int],
+    ring_middle: wp.array[wp.vec3],
+    ring_area: wp.array[wp.vec3],
+    o: wp.vec3,
+):
+    """Return the volume (m3) between a point and the flat fans that close a segment's ends."""
+    start = int_at(start_joint, s)
+    end = int_at(end_joint, s)
+    # Branch-free: clamp the index, load, then mask; the loads need not wait for the test.
+    first = wp.max(start, 0)
+    last = wp.max(end, 0)
+    begins = wp.dot(coherent_vec3(ring_middle, first) - o, coherent_vec3(ring_area, first))
+    ends = wp.dot(coherent_vec3(ring_middle, last) - o, coherent_vec3(ring_area, last))
+    return (wp.where(end >= 0, ends, 0.0) - wp.where(start >= 0, begins, 0.0)) / 3.0
+
+
+@wp.func
+def shares_of_chunks(c: int, apart: int, end: int, chunk_share: wp.array[float]):
+    """Return the volume (m3) of four chunks at a stride `apart`, those below `end`: four loads in flight."""
+    # Branch-free, as above.
+    a = coherent_float(chunk_share, wp.min(c, end - 1))
+    b = coherent_float(chunk_share, wp.min(c + apart, end - 1))
+    d = coherent_float(chunk_share, wp.min(c + 2 * apart, end - 1))
+    e = coherent_float(chunk_share, wp.min(c + 3 * apart, end - 1))
+    total = wp.where(c < end, a, 0.0) + wp.where(c + apart < end, b, 0.0)
+    return total + (wp.where(c + 2 * apart < end, d, 0.0) + wp.where(c + 3 * apart < end, e, 0.0))
+
+
+@wp.kernel
+def segment_volumes(
+    quads: wp.array[wp.vec4i],
+    segment_quad: wp.array[int],
+    segment_quad_end: wp.array[int],
+    segment_origin: wp.array[int],
+    start_joint: wp.array[int],
+    end_joint: wp.array[int],
+    ring_middle: wp.array[wp.vec3],
+    ring_area: wp.array[wp.vec3],
+    x: wp.array[wp.vec3],
+    volume: wp.array[float],
+):
+    """Write the volume (m3) of every segment, its open ends closed by flat fans; a fixed order of
+    summation.
+    """
+    s, lane = wp.tid()
+    o = vec3_at(x, int_at(segment_origin, s))
+    total = float(0.0)
+    for q in range(int_at(segment_quad, s) + lane, int_at(segment_quad_end, s), wp.block_dim()):
+        c = vec4i_at(quads, q)
+        total += patch_volume(
+            vec3_at(x, c[0]) - o, vec3_at(x, c[1]) - o, vec3_at(x, c[2]) - o, vec3_at(x, c[3]) - o
+        )
+    sums = wp.tile_sum(wp.tile(total))
+    if lane == 0:
+        put_float(volume, s, sums[0] + volume_of_fans(s, start_joint, end_joint, ring_middle, ring_area, o))
+
+
+OPEN_PASSAGE = 1.0
+"""Passage (m2) of a joint that is not being closed: more than any neck."""
+WIDE_OPEN = 0.5 * OPEN_PASSAGE
+"""Passage (m2) from which segments on both sides of a joint form one chamber."""
+
+
+@wp.struct
+class Air:
+    """The gas around and inside."""
+
+    atmosphere: float
+    """Ambient pressure, Pa."""
+    molar_energy: wp.float64
+    """R T, J/mol."""
+    density: float
+    """Density, kg/m3."""
+    discharge: float
+    """Discharge coefficient of a neck."""
+    equalise: float
+    """Largest share of a pressure difference that a neck may even out in one substep."""
+
+
+@wp.func
+def passage_of(joint: int, fraction: float, open_from: wp.array[float], open_to: wp.array[float]):
+    """Return the open area (m2) of a joint."""
+    return float_at(open_from, joint) + fraction * (float_at(open_to, joint) - float_at(open_from, joint))
+
+
+@wp.func
+def press_chamber(
+    s: int,
+    begin: int,
+    end: int,
+    into: int,
+    air: Air,
+    dt: float,
+    pump_flow: float,
+    pump_limit: float,
+    pump_goal: wp.float64,
+    volume: wp.array[float],
+    chamber_volume: wp.array[float],
+    amount: wp.array[wp.float64],
+    pressure: wp.array[float],
+):
+    """Where a chamber of segments begins, pump gas into it and write its volume (m3) and gauge pressure (Pa):
+    ideal, isothermal, p V = n R T. A chamber without gas of its own is open to the air (the nozzle's lip)
+    and keeps its pressure.
+    """
+    space = float_at(volume, s)
+    gas = amount[s]
+    if begin == s:
+        for k in range(begin + 1, end + 1):
+            space += float_at(volume, k)
+            gas += amount[k]
+        if begin <= into and into <= end and gas < pump_goal:
+            here = float(gas * air.molar_energy) / space - air.atmosphere
+            inflow = wp.min(pump_flow, pump_flow * wp.max(pump_limit - here, 0.0) / (0.1 * pump_limit))
+            added = wp.min(wp.float64(inflow * dt), pump_goal - gas)
+            amount[into] = amount[into] + added
+            gas += added
+        if gas > wp.float64(0.0):
+            now = float(gas * air.molar_energy) / space - air.atmosphere
+            for k in range(begin, end + 1):
+                put_float(pressure, k, now)
+        put_float(chamber_volume, end, space)
+
+
+@wp.func
+def blow_through(
+    s: int,
+    end: int,
+    gap: float,
+    air: Air,
+    dt: float,
+    chamber_volume: wp.array[float],
+    pressure: wp.array[float],
+):
+    """Return the gas (mol) that flows in a substep through the neck behind segment `s`, an orifice of area
+    `gap` (m2), into the chamber that ends with segment `end`.
+    """
+    difference = float_at(pressure, s) - float_at(pressure, end)
+    speed = wp.sqrt(2.0 * wp.abs(difference) / air.density)
+    blown = air.discharge * gap * speed * dt * (float_at(pressure, end) + air.atmosphere)
+    # No more than a share of what would even out both chambers, were their walls rigid.
+    both = (
+        float_at(chamber_volume, s)
+        * float_at(chamber_volume, end)
+        / (float_at(chamber_volume, s) + float_at(chamber_volume, end))
+    )
+    most = air.equalise * wp.abs(difference) * both
+    return wp.float64(wp.sign(difference) * wp.min(blown, most)) / air.molar_energy
+
+
+@wp.func
+def advance_gas(
+    b: int,
+    lane: int,
+    lanes: int,
+    balloon_segment: wp.array[int],
+    balloon_segment_end: wp.array[int],
+    chamber_first: wp.array[int],
+    chamber_last: wp.array[int],
+    end_joint: wp.array[int],
+    inlet: wp.array[int],
+    air: Air,
+    dt: float,
+    fraction: float,
+    blowing: wp.array[int],
+    open_from: wp.array[float],
+    open_to: wp.array[float],
+    pump_flow: wp.array[float],
+    pump_limit: wp.array[float],
+    pump_goal: wp.array[wp.float64],
+    volume: wp.array[float],
+    chamber_volume: wp.array[float],
+    flow: wp.array[wp.float64],
+    amount: wp.array[wp.float64],
+    pressure: wp.array[float],
+):
+    """Advance one balloon's gas: pump, gauge pressure (Pa) of every chamber, flow through closing necks.
+
+    Segments whose common neck is fully open form one chamber; a neck that closes is an orifice.
+    `blowing`: 1 where a balloon has such a neck.
+    """
+    first = int_at(balloon_segment, b)
+    last = int_at(balloon_segment_end, b)
+    blows = int_at(blowing, b)
+    into = int_at(inlet, b)
+    inflow = float_at(pump_flow, b)
+    limit = float_at(pump_limit, b)
+    wanted = pump_goal[b]
+    for s in range(first + lane, last, lanes):
+        begin = int_at(chamber_first, s)
+        end = int_at(chamber_last, s)
+        press_chamber(
+            s, begin, end, into, air, dt, inflow, limit, wanted, volume, chamber_volume, amount, pressure
+        )
+    if blows == 0:
+        return
+    warp_barrier()
+    for s in range(first + lane, last, lanes):
+        flow[s] = wp.float64(0.0)
+        if int_at(chamber_last, s) == s and s + 1 < last:
+            gap = passage_of(int_at(end_joint, s), fraction, open_from, open_to)
+            if gap > 0.0:
+                flow[s] = blow_through(s, int_at(chamber_last, s + 1), gap, air, dt, chamber_volume, pressure)
+    warp_barrier()
+    for s in range(first + lane, last, lanes):
+        # What a neck lets through leaves one chamber's last segment for the next one's.
+        if int_at(chamber_last, s) == s:
+            before = int_at(chamber_first, s) - 1
+            if before >= first:
+                amount[s] = amount[s] + flow[before]
+            amount[s] = amount[s] - flow[s]
+
+
+@wp.func
+def fan_gradient(arm: wp.vec3, chord: wp.vec3, area: wp.vec3, share: float):
+    """Return the gradient (m2) of the volume on one side of a ring's fan by one of its vertices.
+
+    `arm`: from the ring's middle to the vertex; `chord`: between its neighbours; `area`: of the fan;
+    `share`: one over the ring's vertices.
+    """
+    return (0.5 * wp.cross(arm, chord) + share * area) / 3.0

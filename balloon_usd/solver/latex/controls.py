@@ -1,0 +1,160 @@
+"""Controls of the latex model: hands, pump, passages of necks, spins and softening."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from balloon_usd.solver.hands import Floats, Hands, fill_row
+from balloon_usd.solver.kernels.physics.gas import OPEN_PASSAGE, WIDE_OPEN
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from numpy.typing import NDArray
+
+    from balloon_usd.solver.latex.scene import LatexScene
+
+
+class LatexControls(Hands):
+    """Hands, pump, passages, spins and softening of a scene; uploaded once a frame."""
+
+    scene: LatexScene
+
+    def __init__(self, scene: LatexScene) -> None:
+        super().__init__(scene)
+        self.passage = np.where(self.closed, 0.0, OPEN_PASSAGE).astype(np.float32)
+        self.passage_goal = self.passage.copy()
+        self.beside = scene.joint_beside.numpy()
+        """Segments before and after every ring, (J, 2)."""
+        self._joint_body = np.repeat(np.arange(len(scene.bodies)), np.diff(scene.joint_start))
+        """Balloon of every ring, (J,)."""
+        self._ends = scene.end_joint.numpy()
+        """Joint that ends every segment, (S,); -1 at the tip of a balloon."""
+        self.pump_flow = np.zeros(len(scene.bodies), dtype=np.float32)
+        self.pump_limit = np.ones(len(scene.bodies), dtype=np.float32)
+        self.pump_goal = np.zeros(len(scene.bodies))
+        self.spins = scene.spin.numpy().copy()
+        self._turning: set[int] = set()
+        """Balloons of which a part turns."""
+        self.softening = scene.softening_rate.numpy().copy()
+        self.amount, self.volume = scene.amount.numpy().copy(), scene.volume.numpy().copy()
+        """Gas of every segment, mol, and its volume, m3."""
+        self._passages = b"", b""
+        """How wide all necks are at both ends of the frame, as last looked at."""
+        self._necks: dict[str, NDArray[Any]] = {}
+        """Arrays that follow from that."""
+        self._beyond: dict[tuple[int, float], slice | NDArray[np.int64]] = {}
+        """Vertices of the scene that lie beyond a place on a balloon."""
+        self.upload()
+
+    def _rarely_changed(self) -> tuple[str, ...]:
+        return (*super()._rarely_changed(), "amount")
+
+    def update(self, state: Mapping[str, NDArray[Any]]) -> None:
+        """Take over the state read back last, by the names of arrays of the scene."""
+        super().update(state)
+        self.amount, self.volume = state["amount"].copy(), state["volume"]
+
+    def squeeze(self, joint: int, radius: float, passage: float) -> None:
+        """Set the radius (m) and the open area (m2) that a neck has at the end of the frame."""
+        self.close(joint, radius)
+        self.passage_goal[joint] = passage
+
+    def free_neck(self, joint: int) -> None:
+        """Let a neck go that is as wide as its tube: the chambers beside it become one."""
+        self.radius[joint] = self.radius_goal[joint] = 0.0
+        self.passage[joint] = self.passage_goal[joint] = OPEN_PASSAGE
+
+    def set_softening(self, balloon: int, rate: float) -> None:
+        """Set which share of a new largest energy the rubber of a balloon takes note of in one substep."""
+        self.softening[balloon] = rate
+
+    def turn(self, balloon: int, point: Floats, beyond: float, rate: float) -> None:
+        """Spin the part of a balloon farther than `beyond` (m along it) about its own axis through a point
+        (3,), m, in this frame, at a rate (rad/s).
+        """
+        s = self.scene
+        if (balloon, beyond) not in self._beyond:
+            chosen = np.flatnonzero(s.bodies[balloon].along > beyond) + s.vertex_start[balloon]
+            self._beyond[balloon, beyond] = _run(chosen)
+        axis = _middle(self.places[self._beyond[balloon, beyond]]) - point
+        axis /= max(float(np.sqrt(axis.dot(axis))), 1e-12)
+        self.spin(balloon, beyond=beyond, rate=rate, axis=axis, point=point)
+
+    def spin(self, balloon: int, **fields: Any) -> None:
+        """Turn both parts of a balloon in this frame; `fields`: of a `Spin`."""
+        fill_row(self.spins, balloon, fields)
+        self._turning.add(balloon)
+
+    def stop_turning(self, balloons: Iterable[int]) -> None:
+        """End the spins of balloons."""
+        if self._turning:
+            for balloon in self._turning.intersection(balloons):
+                self._turning.remove(balloon)
+                fill_row(self.spins, balloon, {})
+
+    def split_gas(self, joint: int) -> None:
+        """Share the gas of the open chambers by volume, before a neck between them begins to close."""
+        first, last = self.chambers()
+        beside = self.beside[joint, 0]
+        run = slice(first[beside], last[beside] + 1)
+        volume = self.volume[run].astype(float)
+        self.amount[run] = self.amount[run].sum() * volume / volume.sum()
+        self._due["amount"] = self.amount
+
+    def lose_gas(self, bubbles: NDArray[np.int64], lost: NDArray[np.float64]) -> None:
+        """Take gas out of some segments, both (bubbles,), mol."""
+        self.amount[bubbles] -= lost
+        self._due["amount"] = self.amount
+
+    def chambers(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Return the first and the last segment of the chamber that every segment lies in, (S,) each."""
+        shut = np.flatnonzero((self._ends < 0) | (self.passage[self._ends] < WIDE_OPEN))
+        chamber = np.searchsorted(shut, np.arange(len(self._ends)))
+        return np.concatenate([[0], shut + 1])[chamber], shut[chamber]
+
+    def _blowing(self) -> NDArray[np.int32]:
+        """Return 1 for every balloon with a neck that is neither open nor shut, (B,)."""
+        blowing = np.zeros(len(self.scene.bodies), dtype=np.int32)
+        necks = (self.passage < WIDE_OPEN) & (np.maximum(self.passage, self.passage_goal) > 0.0)
+        blowing[self._joint_body[necks[: len(self._joint_body)]]] = 1
+        return blowing
+
+    def _goals(self) -> dict[str, NDArray[Any]]:
+        passages = self.passage.tobytes(), self.passage_goal.tobytes()
+        if passages != self._passages:
+            self._passages = passages
+            first, last = self.chambers()
+            self._necks = {"blowing": self._blowing(), "chamber_first": first, "chamber_last": last}
+        return (
+            super()._goals()
+            | self._necks
+            | {
+                "open_from": self.passage,
+                "open_to": self.passage_goal,
+                "pump_flow": self.pump_flow,
+                "pump_limit": self.pump_limit,
+                "pump_goal": self.pump_goal,
+                "softening_rate": self.softening,
+                "spin": self.spins,
+            }
+        )
+
+    def arrived(self) -> None:
+        """Make this frame's goals the next frame's starts."""
+        super().arrived()
+        self.passage[:] = self.passage_goal
+
+
+def _middle(points: Floats) -> Floats:
+    """Return the mean of points (N, 3), added up one by one: as `mean` does, in half the time."""
+    total: Floats = np.add.accumulate(points.T, axis=1)[:, -1]
+    return total / np.float32(len(points))
+
+
+def _run(chosen: NDArray[np.int64]) -> slice | NDArray[np.int64]:
+    """Return some indices as a slice, which copies nothing, if they are one run."""
+    run = len(chosen) > 0 and chosen[-1] - chosen[0] + 1 == len(chosen)
+    return slice(int(chosen[0]), int(chosen[-1]) + 1) if run else chosen

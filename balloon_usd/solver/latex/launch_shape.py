@@ -1,0 +1,92 @@
+"""Launch shape of the persistent kernel: how many blocks of how many threads advance each sculpture.
+
+On the CPU it is one thread for each sculpture.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import warp as wp
+
+from balloon_usd.solver.kernels.device.coherent_load import SINGLE_BLOCK_LANES
+from balloon_usd.solver.kernels.device.shared_memory import QUAD_BYTES, RESIDENT_LANES, VERTEX_BYTES
+from balloon_usd.solver.kernels.device.warp_reduce import HALF_WARP, WARP
+from balloon_usd.solver.kernels.physics.sculpture import advance_sculptures
+from balloon_usd.solver.latex.kernel_variants import BLOCKS_PER_SM, kernel_variant, shared_memory_bytes
+
+if TYPE_CHECKING:
+    from balloon_usd.solver.latex.scene import LatexScene
+    from balloon_usd.solver.launch import Launcher
+
+
+LANES = 160
+"""Threads of a block that shares its sculpture with others: few, so that each has much of its SM, and as many
+as let the blocks of a figure in full detail have an SM each.
+"""
+
+
+class SculptureLaunch:
+    """Advances all sculptures of a scene by several substeps in one launch."""
+
+    def __init__(self, scene: LatexScene) -> None:
+        """Share out a device; a GPU in as many blocks a sculpture as fill it and are resident at once."""
+        self.scene = scene
+        worlds = max(scene.worlds) + 1
+        scene.zeros("chunk_share", len(scene.chunk_low), float)
+        for name, starts in (
+            ("balloon", np.arange(len(scene.bodies) + 1)),
+            ("segment", scene.segment_start),
+            ("joint", scene.joint_start),
+        ):
+            scene.put({f"world_{name}": scene.by_world(starts)})
+        self._most_vertices = int(np.diff(scene.world_vertex.numpy()).max())
+        device = wp.get_device(scene.device)
+        self.blocks, self.lanes = self._shape(device) if device.is_cuda else (1, 1)
+        self._kernel = advance_sculptures
+        if device.is_cuda:
+            cores = any(body.packs for body in scene.bodies)
+            around = int(scene.joint_around.numpy().max())
+            joint = HALF_WARP if around <= HALF_WARP else WARP
+            self._kernel = kernel_variant(self.lanes, shared_memory_bytes(device), cores=cores, joint=joint)
+        scene.zeros("barrier_counts", worlds, int)
+
+    def advance(
+        self, launcher: Launcher, substeps: int, begin: int, end: int, *, contact: bool, fingers: bool
+    ) -> None:
+        """Advance from one substep of a frame of so many to another."""
+        worlds = max(self.scene.worlds) + 1
+        self.scene.barrier_counts.zero_()
+        launcher.launch_tiled(
+            self._kernel,
+            worlds * self.blocks,
+            lanes=self.lanes,
+            sculpture_blocks=self.blocks,
+            joint_blocks=self._blocks_without_vertices() or self.blocks,
+            substeps=substeps,
+            begin=begin,
+            end=end,
+            walls=int(contact),
+            pressing=int(fingers),
+        )
+
+    def _shape(self, device: wp.Device) -> tuple[int, int]:
+        """Return how many blocks of how many threads each sculpture gets of a GPU."""
+        vertices, quads, chunks = (
+            np.diff(self.scene.arrays[f"world_{name}"].numpy()) for name in ("vertex", "quad", "chunk")
+        )
+        # One warp for each chunk of quads, and one lane for each vertex for contact.
+        need = int((vertices + WARP * chunks).max())
+        at_once = device.sm_count // len(vertices)
+        if need > LANES * at_once:
+            at_once = BLOCKS_PER_SM * device.sm_count // len(vertices)
+        blocks = max(1, min(-(-need // LANES), at_once))
+        size = 2 * int((VERTEX_BYTES * vertices + QUAD_BYTES * quads).max())
+        if blocks <= BLOCKS_PER_SM and size <= shared_memory_bytes(device):
+            return 1, RESIDENT_LANES
+        return blocks, LANES if blocks > 1 else SINGLE_BLOCK_LANES
+
+    def _blocks_without_vertices(self) -> int:
+        """Return how many blocks of a sculpture need not move any vertex but those of joints."""
+        return max(0, self.blocks - -(-self._most_vertices // self.lanes))

@@ -1,0 +1,85 @@
+"""The launch shape of the persistent kernel: it changes no bit."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import warp as wp
+
+from balloon_usd.plan import plan
+from balloon_usd.recipe import Recipe
+from balloon_usd.solver.flatten import chunks_of
+from balloon_usd.solver.kernels.device.coherent_load import SINGLE_BLOCK_LANES
+from balloon_usd.solver.kernels.device.shared_memory import RESIDENT_LANES
+from balloon_usd.solver.kernels.physics.sculpture import advance_sculptures
+from balloon_usd.solver.latex.kernel_variants import kernel_variant, shared_memory_bytes
+from balloon_usd.solver.simulation import simulate_many
+
+HEAD = """
+format: 1
+name: head
+units: cm
+balloons:
+  main: {size: 260, length: 14, tail: 6, color: red}
+steps:
+  - bubbles: {nose: 3, left_ear: 4, right_ear: 4}
+  - lock: [left_ear, right_ear]
+    point: up
+  - push: {bubble: nose, depth: 0.3}
+    seconds: 0.3
+  - rest: tail
+physics: {hold: 0.1}
+"""
+DEVICES = ["cpu", *(device.alias for device in wp.get_cuda_devices())]
+"""Where simulations can run on this machine."""
+
+
+def head():
+    return plan(Recipe.parse(HEAD))
+
+
+def performed(device, *, copies=1, blocks=None, alone=None):
+    """The last frame of a head, made by so many blocks, or by a single one of so many threads."""
+    simulation = simulate_many([head()] * copies, device=device)
+    launch = simulation.model.stepper._sculptures
+    if blocks:
+        launch.blocks = blocks
+    if alone:
+        launch.blocks, launch.lanes = 1, alone
+        launch._kernel = kernel_on(wp.get_device(device), alone)
+    *_, last = simulation.frames()
+    return last[0]
+
+
+def kernel_on(device, lanes):
+    """The kernel for blocks of so many lanes; on a CPU there is but one."""
+    return (
+        kernel_variant(lanes, shared_memory_bytes(device), cores=False)
+        if device.is_cuda
+        else advance_sculptures
+    )
+
+
+def test_segments_are_cut_into_chunks_that_do_not_cross_their_borders():
+    quads, first = chunks_of(np.array([0, 40, 110], np.int32), np.array([40, 110, 120], np.int32))
+    assert quads.tolist() == [0, 32, 40, 72, 104, 110, 120]
+    assert first.tolist() == [0, 2, 5, 6]
+
+
+@pytest.mark.parametrize("device", DEVICES)
+def test_neither_the_number_of_blocks_nor_other_sculptures_change_a_bit(device):
+    alone, one, batch = performed(device), performed(device, blocks=1), performed(device, copies=3)
+    assert alone.points[0].tobytes() == one.points[0].tobytes() == batch.points[0].tobytes()
+
+
+@pytest.mark.parametrize("device", DEVICES)
+@pytest.mark.parametrize("lanes", [SINGLE_BLOCK_LANES, RESIDENT_LANES])
+def test_a_single_block_gives_the_same_bits_with_and_without_shared_memory(device, lanes):
+    assert performed(device, alone=lanes).points[0].tobytes() == performed(device).points[0].tobytes()
+
+
+@pytest.mark.parametrize("device", DEVICES)
+def test_halves_that_take_turns_have_the_bits_of_a_whole(device, monkeypatch):
+    whole = performed(device, copies=3)
+    monkeypatch.setattr("balloon_usd.solver.simulation.MANY", 2)
+    assert performed(device, copies=3).points[0].tobytes() == whole.points[0].tobytes()

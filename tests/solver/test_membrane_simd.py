@@ -1,0 +1,149 @@
+"""Quads side by side get the forces that each gets alone, however many there are."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import warp as wp
+
+from balloon_usd.balloon.detail import detail_named
+from balloon_usd.balloon.rubber import rubber_named
+from balloon_usd.balloon.sizes import size_named
+from balloon_usd.balloon.tube_mesh import tube_mesh
+from balloon_usd.solver.kernels.physics.membrane import wall_of_quad
+from balloon_usd.solver.kernels.physics.membrane_simd import SIMD_QUADS, walls_simd
+from balloon_usd.solver.kernels.physics.rubber import CurveSegment, Law
+from balloon_usd.solver.latex.body import tube_body
+from balloon_usd.solver.latex.scene import build_scene
+from balloon_usd.solver.settings import SceneSettings
+
+ROUNDING = 1e-6
+"""Largest difference, as a share of the largest value: a product and a sum may be rounded once or twice."""
+WRITTEN = ("corner_force", "volume_gradient", "peak_energy", "chunk_share")
+
+
+@wp.kernel
+def one_by_one(
+    quads: wp.array[wp.vec4i],
+    quad_law: wp.array[int],
+    chunk_quad: wp.array[int],
+    chunk_origin: wp.array[int],
+    rest_inverse: wp.array[wp.mat22],
+    hourglass: wp.array[wp.vec4],
+    rubber_volume: wp.array[float],
+    laws: wp.array[Law],
+    curves: wp.array[CurveSegment],
+    x: wp.array[wp.vec3],
+    v: wp.array[wp.vec3],
+    softening_rate: wp.array[float],
+    peak_energy: wp.array[float],
+    corner_force: wp.array2d[float],
+    volume_gradient: wp.array2d[float],
+    chunk_share: wp.array[float],
+):
+    """Write what each quad of a chunk gets alone."""
+    c = wp.tid()
+    for q in range(chunk_quad[c], chunk_quad[c + 1]):
+        chunk_share[c] = chunk_share[c] + wall_of_quad(
+            q,
+            quads,
+            quad_law,
+            rest_inverse,
+            hourglass,
+            rubber_volume,
+            laws,
+            curves,
+            x,
+            v,
+            x[chunk_origin[c]],
+            softening_rate,
+            peak_energy,
+            corner_force,
+            volume_gradient,
+        )
+
+
+@wp.kernel
+def abreast(
+    quads: wp.array[wp.vec4i],
+    quad_law: wp.array[int],
+    chunk_quad: wp.array[int],
+    chunk_origin: wp.array[int],
+    rest_inverse: wp.array[wp.mat22],
+    hourglass: wp.array[wp.vec4],
+    rubber_volume: wp.array[float],
+    laws: wp.array[Law],
+    curves: wp.array[CurveSegment],
+    x: wp.array[wp.vec3],
+    v: wp.array[wp.vec3],
+    softening_rate: wp.array[float],
+    peak_energy: wp.array[float],
+    corner_force: wp.array2d[float],
+    volume_gradient: wp.array2d[float],
+    chunk_share: wp.array[float],
+):
+    """Write what they get side by side."""
+    walls_simd(
+        0,
+        chunk_share.shape[0],
+        quads,
+        quad_law,
+        chunk_quad,
+        chunk_origin,
+        rest_inverse,
+        hourglass,
+        rubber_volume,
+        laws,
+        curves,
+        x,
+        v,
+        softening_rate,
+        peak_energy,
+        corner_force,
+        volume_gradient,
+        chunk_share,
+    )
+
+
+def scene():
+    """A tube drawn out unevenly, so that some of its wall is stretched and some is slack."""
+    size = size_named("260")
+    mesh = tube_mesh(size, detail_named("draft"), (0.03,), (0.03, size.length))
+    body = tube_body(mesh, rubber_named(), size.radius, size.thickness, (0.03,), (), 5000.0)
+    made = build_scene([body], [0], SceneSettings(dt=4e-4), "cpu", 1, 1)
+    chance = np.random.default_rng(1)
+    x = made.x.numpy()
+    made.x.assign(x * chance.uniform(0.8, 2.0, x.shape).astype(np.float32))
+    made.v.assign(chance.normal(size=x.shape).astype(np.float32))
+    made.peak_energy.assign(chance.uniform(0.0, 1e5, len(made.quads)).astype(np.float32))
+    return made
+
+
+def written(kernel, starts):
+    """What a kernel writes for chunks that begin at some quads, the last of which is the end of the last."""
+    made = scene()
+    made.put({"chunk_quad": np.int32(starts), "chunk_origin": np.zeros(len(starts) - 1, np.int32)})
+    made.zeros("chunk_share", len(starts) - 1, float)
+    inputs = [made.arrays[a.label] for a in kernel.adj.args]
+    wp.launch(kernel, dim=1 if kernel is abreast else len(starts) - 1, inputs=inputs, device="cpu")
+    return {name: made.arrays[name].numpy() for name in WRITTEN}
+
+
+@pytest.mark.parametrize("count", [1, SIMD_QUADS - 1, SIMD_QUADS, 2 * SIMD_QUADS + 3])
+def test_quads_side_by_side_get_what_each_gets_alone(count):
+    starts = [5, 5 + count, 40 + 2 * count]
+    alone, together = written(one_by_one, starts), written(abreast, starts)
+    for name, expected in alone.items():
+        apart = np.abs(together[name] - expected).max()
+        assert apart <= ROUNDING * np.abs(expected).max(), name
+
+
+def test_quads_beside_are_left_alone():
+    before, after = scene(), written(abreast, [5, 8])
+    quads = len(before.quads)
+    kept = np.delete(np.arange(quads), [5, 6, 7])
+    for name in ("corner_force", "volume_gradient", "peak_energy"):
+        # On a CPU the vectors of one quad lie together.
+        was, now = (values.reshape(quads, -1) for values in (before.arrays[name].numpy(), after[name]))
+        assert np.array_equal(now[kept], was[kept])
+        assert not np.array_equal(now, was)
