@@ -11,12 +11,12 @@ from balloon_usd.solver.corners import corner_table
 from balloon_usd.solver.kernels.device.warp_reduce import WARP
 
 if TYPE_CHECKING:
-    from balloon_usd.solver.scene import Scene
+    from balloon_usd.solver.flat_bodies import FlatBodies
 
 Arrays = dict[str, NDArray[Any]]
 
 
-def mesh_arrays(scene: Scene, host: Arrays) -> None:
+def mesh_arrays(scene: FlatBodies, host: Arrays) -> None:
     """Topology of quads and vertices."""
     bodies = scene.bodies
     index = np.arange(len(bodies), dtype=np.int32)
@@ -59,7 +59,7 @@ def _joined_corners(
     return np.concatenate([*own, *more]).astype(np.int32)
 
 
-def ring_arrays(scene: Scene, host: Arrays) -> None:
+def ring_arrays(scene: FlatBodies, host: Arrays) -> None:
     """Rings of the mesh, and the rings that can be held or closed ("joints")."""
     bodies, v = scene.bodies, scene.vertex_start
     ring_start = np.concatenate([[0], np.cumsum([len(b.mesh_rings) for b in bodies])])
@@ -101,7 +101,7 @@ def ring_arrays(scene: Scene, host: Arrays) -> None:
     )
 
 
-def segment_arrays(scene: Scene, host: Arrays) -> None:
+def segment_arrays(scene: FlatBodies, host: Arrays) -> None:
     """Segments: runs of quads between the rings that part them."""
     quad, quad_end, origin, start_joint, end_joint = [], [], [], [], []
     sides = np.full((max(1, int(scene.joint_start[-1])), 2), -1, dtype=np.int32)
@@ -129,7 +129,7 @@ def segment_arrays(scene: Scene, host: Arrays) -> None:
     host["joint_beside"] = np.where(sides < 0, np.maximum(within, 0), sides)
 
 
-def chunk_arrays(scene: Scene, host: Arrays) -> None:
+def chunk_arrays(scene: FlatBodies, host: Arrays) -> None:
     """Chunks: runs of at most 32 quads of one segment, the work of a warp."""
     host["chunk_quad"], host["segment_chunk"] = chunks_of(host["segment_quad"], host["segment_quad_end"])
     host["chunk_origin"] = np.repeat(host["segment_origin"], np.diff(host["segment_chunk"]))

@@ -3,48 +3,30 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import warp as wp
-from numpy.typing import NDArray
 
 from balloon_usd.plan.welding import MOST_WELDED
+from balloon_usd.solver.flat_bodies import FlatBodies
 from balloon_usd.solver.flatten import Arrays, chunk_arrays, mesh_arrays, ring_arrays, segment_arrays
 from balloon_usd.solver.kernels.physics.contact import HITS, TARGETS, Touch
 from balloon_usd.solver.kernels.physics.fingers import Finger
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from balloon_usd.solver.body import Body
-    from balloon_usd.solver.settings import SceneSettings
+    from numpy.typing import NDArray
 
 NO_LIMIT = 1.0e38
 """Stretch above any other: no limit."""
 SELF_DISTANCE = 1.0
 """Unstressed distance along one bubble within which its wall never meets itself, R0."""
 
-Ints = NDArray[np.int64]
-
 
 @dataclass
-class Scene:
-    """Bodies flattened into arrays on one device; indices are global over all bodies."""
+class Scene(FlatBodies):
+    """Bodies flattened into arrays on one device."""
 
-    bodies: tuple[Body, ...]
-    worlds: tuple[int, ...]
-    """Sculpture of every body."""
-    settings: SceneSettings
-    device: str
-    vertex_start: Ints
-    """First vertex of every body, (B + 1,); the same for the others."""
-    quad_start: Ints
-    """First quad of every body."""
-    segment_start: Ints
-    """First segment of every body."""
-    joint_start: Ints
-    """First ring of every body."""
     arrays: dict[str, Any] = field(default_factory=dict)
     """Device arrays by the names that the kernels give them."""
     touch: Touch = field(default_factory=Touch)
@@ -55,31 +37,6 @@ class Scene:
             return self.__dict__["arrays"][name]
         except KeyError:
             raise AttributeError(name) from None
-
-    @classmethod
-    def of(cls, bodies: Sequence[Any], worlds: Sequence[int], settings: SceneSettings, device: str) -> Self:
-        """Return an empty scene of some bodies; different `worlds` never touch."""
-        sizes = (
-            [len(b.points) for b in bodies],
-            [len(b.quads) for b in bodies],
-            [len(b.segment_ends) for b in bodies],
-            [len(b.rings) for b in bodies],
-        )
-        vertices, quads, segments, joints = (np.concatenate([[0], np.cumsum(n)]) for n in sizes)
-        return cls(tuple(bodies), tuple(worlds), settings, device, vertices, quads, segments, joints)
-
-    def bubbles_of(self, body: int) -> Ints:
-        """Segments that are the bubbles of one body: those after its spare ones."""
-        return np.arange(
-            self.segment_start[body] + self.bodies[body].spare_segments, self.segment_start[body + 1]
-        )
-
-    def by_world(self, first: NDArray[Any]) -> NDArray[np.int32]:
-        """Return the first thing of every sculpture and the end of the last, (W + 1,), given those of every
-        body, (B + 1,).
-        """
-        body = np.searchsorted(np.asarray(self.worlds), np.arange(max(self.worlds) + 2))
-        return first[body].astype(np.int32)
 
     def put(self, host: Arrays) -> None:
         """Put host arrays on the device under their names."""

@@ -13,11 +13,12 @@ from balloon_usd.solver.kernels.kosaka.drift import Drift
 from balloon_usd.solver.kernels.kosaka.neighbours import LANES
 from balloon_usd.solver.kernels.kosaka.springs import Constants
 from balloon_usd.solver.kosaka.parameters import FASTEST_AIR, MARGIN
-from balloon_usd.solver.scene import Ints, Scene, lay_meshes
+from balloon_usd.solver.scene import Scene, lay_meshes
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from balloon_usd.solver.flat_bodies import Ints
     from balloon_usd.solver.flatten import Arrays
     from balloon_usd.solver.kosaka.body import KosakaBody
     from balloon_usd.solver.settings import SceneSettings

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
     from numpy.typing import NDArray
 
     from balloon_usd.solver.flatten import Arrays
     from balloon_usd.solver.latex.body import LatexBody
-    from balloon_usd.solver.latex.scene import LatexScene
 
 
 def core_radii(body: LatexBody) -> NDArray[np.float64]:
@@ -34,12 +35,15 @@ def row_lengths(body: LatexBody) -> NDArray[np.float64]:
     return np.append(np.linalg.norm(np.diff(middle, axis=0), axis=1), 0.0)
 
 
-def core_arrays(scene: LatexScene) -> Arrays:
-    """Return the rings of all balloons that pack, in order along them, with their cores and distances."""
-    ring_start = np.concatenate([[0], np.cumsum([len(b.mesh_rings) for b in scene.bodies])])
-    counts = [len(b.mesh_rings) if b.packs else 0 for b in scene.bodies]
+def core_arrays(bodies: Sequence[LatexBody], by_world: Callable[[NDArray[Any]], NDArray[np.int32]]) -> Arrays:
+    """Return the rings of all balloons that pack, in order along them, with their cores and distances.
+
+    `by_world`: gives the first thing of every sculpture, of those of every body, see `FlatBodies`.
+    """
+    ring_start = np.concatenate([[0], np.cumsum([len(b.mesh_rings) for b in bodies])])
+    counts = [len(b.mesh_rings) if b.packs else 0 for b in bodies]
     rings = [ring_start[k] + np.arange(count) for k, count in enumerate(counts)]
-    packing = [b for b in scene.bodies if b.packs]
+    packing = [b for b in bodies if b.packs]
     rows = [row_lengths(b) for b in packing]
     # Device arrays are never empty: the last entry belongs to no balloon.
     return {
@@ -47,5 +51,5 @@ def core_arrays(scene: LatexScene) -> Arrays:
         "core_next": np.concatenate([*(row > 0.0 for row in rows), [False]]).astype(np.int32),
         "core_radius": np.concatenate([*map(core_radii, packing), [0.0]]).astype(np.float32),
         "core_row": np.concatenate([*rows, [0.0]]).astype(np.float32),
-        "world_core": scene.by_world(np.concatenate([[0], np.cumsum(counts)])),
+        "world_core": by_world(np.concatenate([[0], np.cumsum(counts)])),
     }

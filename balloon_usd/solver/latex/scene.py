@@ -86,7 +86,7 @@ def _gas_arrays(scene: LatexScene, host: Arrays) -> None:
 
 def _core_arrays(scene: LatexScene) -> None:
     """Cores of the balloons that pack, and the forces of these."""
-    scene.put(core_arrays(scene))
+    scene.put(core_arrays(scene.bodies, scene.by_world))
     pushed = int(scene.vertex_start[-1]) if any(b.packs for b in scene.bodies) else 1
     for name in ("core_order", "core_push"):
         scene.zeros(name, pushed, wp.vec3)
