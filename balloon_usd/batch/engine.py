@@ -9,7 +9,7 @@ from balloon_usd.batch import record as records
 from balloon_usd.batch.facts import Facts, Refusal
 from balloon_usd.batch.forking import prepare_fork
 from balloon_usd.batch.job import Job
-from balloon_usd.batch.journal import Journal
+from balloon_usd.batch.journal import FILE_NAME, Journal
 from balloon_usd.batch.machine import Machine, usable_cores
 from balloon_usd.batch.messages import Role, Started, Survey, Surveyed, Verified, Verify
 from balloon_usd.batch.pool import Pool
@@ -80,6 +80,9 @@ class Engine:
         _refuse_shared_names(jobs)
         accepted = [job for job in jobs if job.record is None]
         refused = [job.record for job in jobs if job.record is not None]
+        if accepted and not (self.order.folder / FILE_NAME).exists():
+            # A device that is missing is told before anything of the recipes.
+            self._wait_for_simulators()
         self.watch.surveyed([job.known for job in accepted], refused)
         if accepted:
             try:
