@@ -22,7 +22,7 @@ def remove_leftovers(folder: Path, name: str) -> None:
     with suppress(FileNotFoundError):
         sweep(name, folder)
         forms = [f".{name}.{ending}.????????.partial" for ending in PARTIAL]
-        if found := matching(folder, f".{name}.", *forms):
+        if found := matching(folder, *forms):
             with locked(folder):
                 for partial in found:
                     remove_unheld(partial)

@@ -78,7 +78,7 @@ class Workspace:
 def sweep(name: str, beside: Path) -> None:
     """Remove what killed runs of the sculpture `name` left in the folder `beside`."""
     # Mostly there is nothing: no other run is kept waiting while a large folder is looked through.
-    found = matching(beside, f".{name}.", f".{name}.????????{SUFFIX}")
+    found = matching(beside, f".{name}.????????{SUFFIX}")
     if not found:
         return
     with locked(beside):
