@@ -86,7 +86,7 @@ def describe_stage(plan: Plan, meshes: Sequence[BalloonMesh]) -> StageDescriptio
             for strip, mesh in zip(plan.strips.values(), meshes, strict=True)
         ),
         bubble_names=tuple(bubble.name for bubble in plan.bubbles),
-        provenance={**provenance_of(recipe), **_mesh_files(plan)},
+        provenance=origin_of(plan),
         twists=moves_in_time(plan),
         airs=_describe_airs(plan),
         highest_stretch=HIGHEST_STRETCH[recipe.physics.model],
@@ -103,10 +103,11 @@ def provenance_of(recipe: Recipe) -> dict[str, str]:
     }
 
 
-def _mesh_files(plan: Plan) -> dict[str, str]:
-    """Return the hashes of the files that balloons come from, in the order of the strips."""
+def origin_of(plan: Plan) -> dict[str, str]:
+    """Return where results of a plan come from: its recipe and the mesh files that balloons come from."""
     hashes = [strip.shape.file_sha256 for strip in plan.strips.values() if strip.shape is not None]
-    return {"mesh_sha256": " ".join(hashes)} if hashes else {}
+    meshes = {"mesh_sha256": " ".join(hashes)} if hashes else {}
+    return {**provenance_of(plan.recipe), **meshes}
 
 
 def _describe_airs(plan: Plan) -> tuple[AirDescription, ...]:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from balloon_usd.plan import Plan, plan
 from balloon_usd.recipe import Recipe
 from balloon_usd.recipe.recipe_file import read_recipe_file
-from balloon_usd.staging import provenance_of
+from balloon_usd.staging import origin_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -20,13 +20,6 @@ LARGEST = 2**16
 """Packed plan that the scheduler keeps, at most: those of meshes hold their vertices [B]."""
 FAST = 1
 """Level of compression: a plan of 15 kB becomes one of 5 kB in 0.2 ms."""
-
-
-def origin_of(plan: Plan) -> dict[str, str]:
-    """Return the hashes of a recipe's text and of its meshes, and the version of the solver."""
-    hashes = [strip.shape.file_sha256 for strip in plan.strips.values() if strip.shape is not None]
-    meshes = {"mesh_sha256": " ".join(hashes)} if hashes else {}
-    return {**provenance_of(plan.recipe), **meshes}
 
 
 class RecipeChanged(Exception):  # noqa: N818
@@ -46,7 +39,7 @@ def planned(file: str, origin: Mapping[str, str], known: bytes = b"") -> Plan:
 
     Args:
         file: of its recipe.
-        origin: as it was surveyed, see `origin_of`.
+        origin: as it was surveyed, see `staging.origin_of`.
         known: the plan, packed, if it is.
 
     Raises:

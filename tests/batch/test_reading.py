@@ -2,9 +2,10 @@ from __future__ import annotations
 
 import pytest
 
-from balloon_usd.batch.reading import LARGEST, RecipeChanged, origin_of, packed, planned
+from balloon_usd.batch.reading import LARGEST, RecipeChanged, packed, planned
 from balloon_usd.plan import plan
 from balloon_usd.recipe import Recipe
+from balloon_usd.staging import origin_of
 from tests.batch.runs import ROOT
 from tests.command_line import RECIPE
 
