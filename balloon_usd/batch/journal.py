@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from balloon_usd.batch.record import Record, Status
+from balloon_usd.files.hidden import matching
 from balloon_usd.files.lock import locked, remove_unheld
 from balloon_usd.files.whole_file import PARTIAL, write_whole
 
@@ -85,7 +86,7 @@ class Journal:
 
     def _sweep(self) -> None:
         """Remove what killed runs left of the file while they put it in order."""
-        for partial in self._folder.glob(f".{FILE_NAME}.????????{PARTIAL}"):
+        for partial in matching(self._folder, f".{FILE_NAME}.????????{PARTIAL}"):
             remove_unheld(partial)
 
     def _read(self) -> list[Record]:

@@ -42,7 +42,7 @@ class StepEntry:
     def makes(self) -> dict[str, Path]:
         """Bubbles that it makes, with their places."""
         return {
-            name: (*self.path, word) if word == Rest.word else (*self.path, word, name)
+            name: (*self.path, word, name) if BY_WORD[word].by_bubble else (*self.path, word)
             for word in self.words
             for name in BY_WORD[word].makes(self.entries[word])
         }

@@ -27,10 +27,14 @@ class LockJoints(Entries):
     """Joints that become one, each written bubble.start or bubble.end."""
 
 
+BUBBLES, JOINTS = "a list of bubbles", "joints of any"
+"""Tags of the forms of a lock, which never occur as keys of a recipe."""
+
+
 def _form(value: object) -> str | None:
     if isinstance(value, (dict, LockJoints)):
-        return "joints"
-    return "bubbles" if isinstance(value, (list, tuple)) else None
+        return JOINTS
+    return BUBBLES if isinstance(value, (list, tuple)) else None
 
 
 class Lock(OnBalloon, Pointed, Turned, Timed, Operation):
@@ -51,8 +55,8 @@ steps:
 """
 
     lock: Annotated[
-        Annotated[tuple[Name, ...], Tag("a list of bubbles")] | Annotated[LockJoints, Tag("joints of any")],
-        Discriminator(lambda value: _TAGS.get(_form(value))),
+        Annotated[tuple[Name, ...], Tag(BUBBLES)] | Annotated[LockJoints, Tag(JOINTS)],
+        Discriminator(_form),
     ]
     """Fold these neighbouring bubbles and twist the start of the first to the end of the last."""
 
@@ -100,9 +104,6 @@ steps:
         for first, last in pairwise(found):
             score.together(min(first, last), max(first, last), self.point, text, index)
         score.weld(tuple(found), self.turns, text, index)
-
-
-_TAGS: dict[str | None, str] = {"bubbles": "a list of bubbles", "joints": "joints of any"}
 
 
 def _names_in(value: object) -> tuple[str, ...] | None:

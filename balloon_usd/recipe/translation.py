@@ -107,7 +107,7 @@ def _unfit_key(path: Path, data: object) -> str | None:
     if path[0] != "steps" or len(path) != 3:
         return None
     step, key = data["steps"][path[1]], path[2]  # type: ignore[index]  # the key was found there
-    first = words_in(step)[0] if words_in(step) else None
+    first = next(iter(words_in(step)), None)
     if first is not None and key in WORDS:
         return f"stands beside {first}, expected one operation in a step: begin a new step"
     if first is not None and key in MODIFIERS:
