@@ -18,6 +18,16 @@ ENDINGS = frozenset(filter(None, (getattr(signal, name, None) for name in ("SIGI
 """Signals that ask a process to end."""
 
 
+class Terminated(BaseException):
+    """Ends a process that is sent SIGTERM as Ctrl-C does, so that it tidies up."""
+
+
+def terminate(*_: object) -> None:
+    """Handle SIGTERM: raise `Terminated`. A second one must not cut short what tidies up."""
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)
+    raise Terminated
+
+
 @contextmanager
 def never_dropped(*endings: type[BaseException]) -> Iterator[None]:
     """Let exceptions that signal handlers raise end the block also where Python drops exceptions.

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from balloon_usd.batch.forking import end_with
 from balloon_usd.batch.messages import Role, Start
-from balloon_usd.endings import never_dropped
+from balloon_usd.endings import Terminated, never_dropped, terminate
 from balloon_usd.loading import expect_modules
 
 if TYPE_CHECKING:
@@ -28,9 +28,9 @@ def work(connection: Connection[Any, Any]) -> None:
     worker = _worker(connection, start)
     # Until now there is nothing to tidy up, and modules must not be loaded by halves.
     if start.role is not Role.SIMULATOR:
-        signal.signal(signal.SIGTERM, _terminate)
+        signal.signal(signal.SIGTERM, terminate)
     try:
-        with never_dropped(_Terminated):
+        with never_dropped(Terminated):
             worker.run()
     finally:
         worker.close()
@@ -44,14 +44,6 @@ def _worker(connection: Connection[Any, Any], start: Start) -> Simulator | Write
     from balloon_usd.batch.writer import Writer  # noqa: PLC0415
 
     return Writer(connection, start)
-
-
-class _Terminated(BaseException):
-    """Ends a writer that must not leave half-written files behind."""
-
-
-def _terminate(*_: object) -> None:
-    raise _Terminated
 
 
 def main(_role: str, descriptor: str, parent: str) -> None:
@@ -68,7 +60,7 @@ def main(_role: str, descriptor: str, parent: str) -> None:
         # The scheduler is gone or wants no more. Devices and libraries are not taken down one by one.
         sys.stderr.flush()
         os._exit(0)
-    except _Terminated:
+    except Terminated:
         os._exit(128 + signal.SIGTERM)
 
 

@@ -14,6 +14,7 @@ import click
 
 from balloon_usd.batch.forking import end_with
 from balloon_usd.cli.child_memory import limit_memory
+from balloon_usd.endings import Terminated, terminate
 from balloon_usd.loading import expect_modules
 
 if sys.platform != "win32":
@@ -34,7 +35,7 @@ NO_FOLDER = os.devnull
 
 def serve(descriptor: int, parent: int) -> None:
     """Do what comes over a connection for the process of a number, until the other end is closed."""
-    signal.signal(signal.SIGTERM, _terminate)
+    signal.signal(signal.SIGTERM, terminate)
     # Ctrl-C reaches the whole group of processes: the parent decides what it means.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
@@ -43,7 +44,7 @@ def serve(descriptor: int, parent: int) -> None:
     expect_modules()
     _crash_without_traces()
     connection: Connection[Any, Any] = Connection(descriptor)
-    with suppress(EOFError, ConnectionError, _Terminated):
+    with suppress(EOFError, ConnectionError, Terminated):
         while True:
             memory, function, args, kwargs = connection.recv()
             limit_memory(memory)
@@ -53,15 +54,6 @@ def serve(descriptor: int, parent: int) -> None:
             _send(connection, outcome)
     # Devices and libraries are not taken down one by one.
     os._exit(0)
-
-
-class _Terminated(BaseException):
-    """Ends a call that must not leave half-written files behind."""
-
-
-def _terminate(*_: object) -> None:
-    signal.signal(signal.SIGTERM, signal.SIG_IGN)
-    raise _Terminated
 
 
 def _crash_without_traces() -> None:
@@ -77,7 +69,7 @@ def _crash_without_traces() -> None:
 def _send(connection: Connection[Any, Any], outcome: Outcome) -> None:
     try:
         connection.send(outcome)
-    except (ConnectionError, _Terminated):
+    except (ConnectionError, Terminated):
         raise
     except Exception as error:  # no pickle, or no text
         connection.send(("broken", _in_a_line(error)))

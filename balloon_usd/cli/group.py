@@ -26,7 +26,7 @@ from balloon_usd.cli.preview import preview
 from balloon_usd.cli.run import run
 from balloon_usd.cli.schema import schema
 from balloon_usd.cli.vary import vary
-from balloon_usd.endings import never_dropped
+from balloon_usd.endings import Terminated, never_dropped, terminate
 from balloon_usd.loading import expect_modules
 from balloon_usd.version import __version__
 
@@ -45,27 +45,17 @@ class Commands(click.Group):
     def invoke(self, ctx: click.Context) -> Any:
         """Run the command; Ctrl-C ends it with its own exit code."""
         try:
-            with _heard(), _terminable(), never_dropped(KeyboardInterrupt, _Terminated):
+            with _heard(), _terminable(), never_dropped(KeyboardInterrupt, Terminated):
                 return super().invoke(ctx)
         except KeyboardInterrupt as error:
             raise Failure("interrupted, nothing half-written is left", ExitCode.INTERRUPTED) from error
-        except _Terminated as error:
+        except Terminated as error:
             raise Failure("terminated, nothing half-written is left", ExitCode.TERMINATED) from error
-
-
-class _Terminated(BaseException):
-    """Ends a command as Ctrl-C does, with an exit code of its own."""
 
 
 @contextmanager
 def _terminable() -> Iterator[None]:
     """Let SIGTERM end the block as an exception does, so that nothing half-written is left."""
-
-    def terminate(*_: object) -> None:
-        # A second one must not cut short what tidies up.
-        signal.signal(signal.SIGTERM, signal.SIG_IGN)
-        raise _Terminated
-
     if threading.current_thread() is not threading.main_thread():
         yield
         return
