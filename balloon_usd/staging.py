@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from balloon_usd.balloon.detail import detail_named
 from balloon_usd.balloon.rubber import BURST_STRETCH
+from balloon_usd.origin import origin_of
 from balloon_usd.plan.meshing import mesh_of
 from balloon_usd.plan.particles import experiment_spacing, start_particles
 from balloon_usd.stage import AirDescription, MeshDescription, StageDescription
@@ -19,11 +19,8 @@ if TYPE_CHECKING:
 
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan, Strip
-    from balloon_usd.recipe import Recipe
     from balloon_usd.stage import StageFrame, WrittenStage
 
-SOLVERS = {"latex": "latex 1", "kosaka": "kosaka 1"}
-"""Models of the physics and their versions: another version may move points."""
 HIGHEST_STRETCH = {"latex": BURST_STRETCH, "kosaka": 3.0}
 """Where the colours of stretch end: latex bursts there; springs stand at twice their natural length and
 rarely reach three times."""
@@ -91,23 +88,6 @@ def describe_stage(plan: Plan, meshes: Sequence[BalloonMesh]) -> StageDescriptio
         airs=_describe_airs(plan),
         highest_stretch=HIGHEST_STRETCH[recipe.physics.model],
     )
-
-
-def provenance_of(recipe: Recipe) -> dict[str, str]:
-    """Return where results of a recipe come from: its file, the hash of its text, the solver's version."""
-    return {
-        # Stages hold text, which the name of a file need not be.
-        "recipe": Path(recipe.file).name.encode("utf-8", "surrogateescape").decode("utf-8", "replace"),
-        "recipe_sha256": recipe.sha256,
-        "solver": SOLVERS[recipe.physics.model],
-    }
-
-
-def origin_of(plan: Plan) -> dict[str, str]:
-    """Return where results of a plan come from: its recipe and the mesh files that balloons come from."""
-    hashes = [strip.shape.file_sha256 for strip in plan.strips.values() if strip.shape is not None]
-    meshes = {"mesh_sha256": " ".join(hashes)} if hashes else {}
-    return {**provenance_of(plan.recipe), **meshes}
 
 
 def _describe_airs(plan: Plan) -> tuple[AirDescription, ...]:

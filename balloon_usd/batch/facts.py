@@ -75,8 +75,8 @@ def _is_pipe_or_device(file: Path) -> bool:
 def _judge(plan: Plan, order: Order) -> Facts | Refusal:
     from balloon_usd.balloon.detail import detail_named  # noqa: PLC0415
     from balloon_usd.batch.reading import packed  # noqa: PLC0415
+    from balloon_usd.origin import origin_of  # noqa: PLC0415
     from balloon_usd.plan.meshing import mesh_of  # noqa: PLC0415
-    from balloon_usd.staging import origin_of  # noqa: PLC0415
 
     recipe = plan.recipe
     name, provenance = recipe.name, origin_of(plan)

@@ -8,10 +8,10 @@ import zlib
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from balloon_usd.origin import origin_of
 from balloon_usd.plan import Plan, plan
 from balloon_usd.recipe import Recipe
 from balloon_usd.recipe.recipe_file import read_recipe_file
-from balloon_usd.staging import origin_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -39,7 +39,7 @@ def planned(file: str, origin: Mapping[str, str], known: bytes = b"") -> Plan:
 
     Args:
         file: of its recipe.
-        origin: as it was surveyed, see `staging.origin_of`.
+        origin: as it was surveyed, see `origin.origin_of`.
         known: the plan, packed, if it is.
 
     Raises:

@@ -11,11 +11,12 @@ from balloon_usd.balloon.rubber import BURST_STRETCH
 from balloon_usd.batch.messages import Made
 from balloon_usd.endings import endings_wait
 from balloon_usd.files.hashes import hashes_of
+from balloon_usd.origin import provenance_of
 from balloon_usd.plan.meshing import mesh_of
 from balloon_usd.report import History, write_report
 from balloon_usd.solver.run_summary import RunSummary
 from balloon_usd.stage import StageWriter
-from balloon_usd.staging import describe_stage, provenance_of
+from balloon_usd.staging import describe_stage
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

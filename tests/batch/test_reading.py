@@ -3,9 +3,9 @@ from __future__ import annotations
 import pytest
 
 from balloon_usd.batch.reading import LARGEST, RecipeChanged, packed, planned
+from balloon_usd.origin import origin_of
 from balloon_usd.plan import plan
 from balloon_usd.recipe import Recipe
-from balloon_usd.staging import origin_of
 from tests.batch.runs import ROOT
 from tests.command_line import RECIPE
 
