@@ -15,7 +15,7 @@ from balloon_usd.operations.operation import Operation
 
 if TYPE_CHECKING:
     from balloon_usd.operations.score import Score
-    from balloon_usd.operations.workpiece import Place, Workpiece
+    from balloon_usd.operations.workbench import Place, Workbench
 
 BEND_SECONDS = 0.9
 """Bending one bubble, s."""
@@ -57,10 +57,10 @@ steps:
         return tuple(value) if isinstance(value, dict) else ()
 
     @classmethod
-    def check(cls, value: object, place: Place, piece: Workpiece) -> None:
+    def check(cls, value: object, place: Place, bench: Workbench) -> None:
         """Complain of bubbles that do not exist by now."""
         for name in cls.uses(value):
-            piece.find_whole(name, place, (*place.path, cls.word, name))
+            bench.find_whole(name, place, (*place.path, cls.word, name))
 
     def perform(self, score: Score, index: int) -> None:
         """Lead the start and the middle of each bubble onto an arc."""

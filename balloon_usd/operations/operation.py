@@ -6,14 +6,13 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from balloon_usd.language.joint import Joint
 from balloon_usd.language.names import Name, Text
 from balloon_usd.language.quantities import Length, length_entry
 from balloon_usd.operations.modifiers import MODIFIERS, Entries, OnBalloon, Timed
 
 if TYPE_CHECKING:
     from balloon_usd.operations.score import Score
-    from balloon_usd.operations.workpiece import Place, Workpiece
+    from balloon_usd.operations.workbench import Place, Workbench
 
 BubbleKind = Literal["bubble", "loop", "fold", "ear", "rest", "shape"]
 Lengths = Annotated[dict[Name, Length], Field(min_length=1)]
@@ -53,16 +52,6 @@ class Operation(Entries):
         return {}
 
     @property
-    def named_rest(self) -> str | None:
-        """Name that it gives to what is left of a balloon."""
-        return None
-
-    @property
-    def joined(self) -> tuple[tuple[Joint, ...], ...]:
-        """Joints that become one, in groups."""
-        return tuple((Joint(name, "start"), Joint(name, "end")) for name in self.lengths if self.closes)
-
-    @property
     def label(self) -> str:
         """The step in a few words, such as `lock: left_ear, right_ear`."""
         return f"{self.word}: {', '.join(self.names)}"
@@ -87,8 +76,8 @@ class Operation(Entries):
         return ()
 
     @classmethod
-    def check(cls, value: object, place: Place, piece: Workpiece) -> None:
-        """Complain of what makes no sense on a workpiece, and change it as far as the value can be read."""
+    def check(cls, value: object, place: Place, bench: Workbench) -> None:
+        """Complain of what makes no sense, and do the rest, as far as the value can be read."""
 
     def perform(self, score: Score, index: int) -> None:
         """Write the moves of a step of this index; raises `RecipeError` where no hand can make it."""
@@ -115,7 +104,9 @@ class TwistsOff(OnBalloon, Timed, Operation):
         return tuple(value) if isinstance(value, dict) else ()
 
     @classmethod
-    def check(cls, value: object, place: Place, piece: Workpiece) -> None:
+    def check(cls, value: object, place: Place, bench: Workbench) -> None:
         """Make its bubbles."""
         for name in cls.makes(value):
-            piece.make(name, (*place.path, cls.word, name), place.balloon, closed=cls.closes)
+            path = (*place.path, cls.word, name)
+            if bench.make(name, path, place.balloon) and cls.closes:
+                bench.close(name, path)

@@ -16,7 +16,7 @@ from balloon_usd.operations.score import SETTLE_SECONDS
 
 if TYPE_CHECKING:
     from balloon_usd.operations.score import PlacedBubble, Score
-    from balloon_usd.operations.workpiece import Place, Workpiece
+    from balloon_usd.operations.workbench import Place, Workbench
 
 PRESSING = ("depth", "force")
 """Keys that say how a finger pushes: exactly one of them."""
@@ -81,19 +81,19 @@ steps:
         return (bubble,) if isinstance(bubble, str) else ()
 
     @classmethod
-    def check(cls, value: object, place: Place, piece: Workpiece) -> None:
+    def check(cls, value: object, place: Place, bench: Workbench) -> None:
         """Complain of a bubble that does not exist by now, and unless it is told how hard or how deep."""
         path = (*place.path, cls.word)
         for bubble in cls.uses(value):
-            piece.find_whole(bubble, place, (*path, "bubble"))
+            bench.find_whole(bubble, place, (*path, "bubble"))
         if not isinstance(value, dict):
             return
         given = [key for key in PRESSING if key in value]
         if not given:
-            piece.complain(path, f"does not say how deep or how hard, expected {one_of(PRESSING)}")
+            bench.complain(path, f"does not say how deep or how hard, expected {one_of(PRESSING)}")
         elif len(given) > 1:
             what = f"stands beside {given[0]}, expected exactly {one_of(PRESSING)}"
-            piece.complain((*path, given[1]), what)
+            bench.complain((*path, given[1]), what)
 
     def perform(self, score: Score, index: int) -> None:
         """Press, while the other hand holds the ends that are far from the finger."""

@@ -9,7 +9,7 @@ from balloon_usd.operations.modifiers import OnBalloon, Timed
 from balloon_usd.operations.operation import BubbleKind, Operation
 
 if TYPE_CHECKING:
-    from balloon_usd.operations.workpiece import Place, Workpiece
+    from balloon_usd.operations.workbench import Place, Workbench
 
 
 class Rest(OnBalloon, Timed, Operation):
@@ -32,11 +32,6 @@ steps:
     """Name what is left of the balloon: nothing more is made of it."""
 
     @property
-    def named_rest(self) -> str | None:
-        """Name that it gives to what is left."""
-        return self.rest
-
-    @property
     def names(self) -> tuple[str, ...]:
         """What it names."""
         return (self.rest,)
@@ -47,9 +42,8 @@ steps:
         return (value,) if isinstance(value, str) else ()
 
     @classmethod
-    def check(cls, value: object, place: Place, piece: Workpiece) -> None:
+    def check(cls, value: object, place: Place, bench: Workbench) -> None:
         """Name the rest, and let nothing more be made of the balloon."""
         path = (*place.path, cls.word)
         for name in cls.makes(value):
-            piece.make(name, path, place.balloon)
-            piece.end(place.balloon, path)
+            bench.make(name, path, place.balloon, last=True)

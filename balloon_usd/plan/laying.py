@@ -8,9 +8,7 @@ from typing import TYPE_CHECKING
 from balloon_usd.balloon.rubber import rubber_named
 from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.language.lengths import at_least, at_most, cm
-from balloon_usd.language.names import rest_name
 from balloon_usd.language.problem import RecipeError, quoted
-from balloon_usd.operations.modifiers import OnBalloon
 from balloon_usd.plan.capsule import capsule_bubbles
 from balloon_usd.plan.laying_shapes import overlap_problems, shaped_strip
 from balloon_usd.plan.open_tube import OpenTube, inflated_tube, softened, tail_range
@@ -21,7 +19,6 @@ if TYPE_CHECKING:
     from balloon_usd.balloon.rubber import Rubber
     from balloon_usd.balloon.sizes import BalloonSize
     from balloon_usd.language.problem import Path, Problem
-    from balloon_usd.operations.operation import Operation
     from balloon_usd.recipe import Recipe
     from balloon_usd.recipe.balloons import Balloon
 
@@ -120,22 +117,20 @@ def _beyond_full(length: float, size: BalloonSize, full: float) -> str:
 
 
 def _made(recipe: Recipe, name: str) -> list[Made]:
-    """What the steps make of one balloon."""
-    return [
-        Made(index, step.bubble_kind, bubble, length)
-        for index, step in enumerate(recipe.steps)
-        if step.bubble_kind is not None and _balloon_of(recipe, step) == name
-        for bubble, length in step.lengths.items()
-    ]
+    """What the steps make of one balloon, but its rest."""
+    found = []
+    for bubble in recipe.piece.row(name)[:-1]:
+        index = recipe.piece.bubbles[bubble].step
+        step = recipe.steps[index]
+        assert step.bubble_kind is not None, "a step that makes bubbles says of which kind"
+        found.append(Made(index, step.bubble_kind, bubble, step.lengths[bubble]))
+    return found
 
 
 def _rest(recipe: Recipe, name: str) -> tuple[str, int]:
     """Name of what is left of a balloon, and the step that names it, or the number of steps."""
-    for at, step in enumerate(recipe.steps):
-        if step.named_rest is not None and _balloon_of(recipe, step) == name:
-            return step.named_rest, at
-    taken = {bubble for step in recipe.steps for bubble in (*step.lengths, step.named_rest or "")}
-    return rest_name(name, taken), len(recipe.steps)
+    bubble = recipe.piece.row(name)[-1]
+    return bubble, recipe.piece.bubbles[bubble].step
 
 
 def _rest_of_tube(
@@ -155,12 +150,6 @@ def _rest_of_tube(
         volume=tube.volume,
         step=index,
     )
-
-
-def _balloon_of(recipe: Recipe, step: Operation) -> str:
-    """The balloon that a step works on: the one it names, else the only one."""
-    named = step.balloon if isinstance(step, OnBalloon) else None
-    return named if named is not None else next(iter(recipe.balloons))
 
 
 def _misfit(recipe: Recipe, name: str, bubble: str, length: float, tube: OpenTube) -> str:

@@ -21,9 +21,10 @@ from balloon_usd.language.problem import Complaint, Path, Problem, RecipeError, 
 from balloon_usd.language.quantities import METRES, Between, Reading, Units
 from balloon_usd.language.yaml_reader import Document, read_yaml
 from balloon_usd.operations.table import Step
+from balloon_usd.operations.workpiece import Workpiece
 
 from .balloons import Balloon
-from .meaning import meaning_complaints
+from .meaning import meaning_of
 from .physics import Physics
 from .recipe_file import FilePath, read_recipe_file
 from .translation import validation_complaints
@@ -73,6 +74,7 @@ class Recipe(BaseModel):
     """How it is simulated."""
 
     _origin: _Origin = PrivateAttr(default_factory=_Origin)
+    _piece: Workpiece = PrivateAttr()
 
     @classmethod
     def load(cls, path: FilePath) -> Self:
@@ -97,20 +99,27 @@ class Recipe(BaseModel):
         except ValidationError as error:
             recipe = None
             complaints += validation_complaints(error, document.data, cls)
-        complaints += meaning_complaints(document.data)
+        meaning = meaning_of(document.data)
+        complaints += meaning.complaints
         if recipe is None or complaints:
             raise RecipeError(document.marks.problems(_without_echoes(complaints, document)))
-        recipe._origin = _Origin(document.marks, text)
+        recipe._origin, recipe._piece = _Origin(document.marks, text), meaning.piece
         return recipe
 
     @model_validator(mode="after")
     def _check_meaning(self, info: ValidationInfo) -> Self:
         if not isinstance(info.context, Reading):  # parse() reports meaning with places
-            complaints = meaning_complaints(self._entries())
+            complaints, piece = meaning_of(self._entries())
             if complaints:
                 texts = [f"{path_text(complaint.path)}: {complaint.text}" for complaint in complaints]
                 raise ValueError("; ".join(texts))
+            self._piece = piece
         return self
+
+    @property
+    def piece(self) -> Workpiece:
+        """What the steps make of the balloons, one after the other."""
+        return self._piece
 
     @property
     def file(self) -> str:

@@ -111,3 +111,17 @@ def test_bench_measures_the_experiment_of_the_thesis_up_to_a_whole_balloon(cli, 
     rows = [line.split() for line in result.stdout.splitlines()[2:]]
     assert [row[0] for row in rows] == ["20", "40", "80", "150"]
     assert rows[0][3] == "1602"
+
+
+def test_plan_shows_what_is_made_after_a_step(cli, write_recipe):
+    result = cli("plan", write_recipe(), "--step", "1")
+    assert result.exit_code == 0
+    assert "after step 1 of" in result.stdout
+    assert "left: " in result.stdout
+
+
+def test_a_step_beyond_the_last_is_refused_before_anything_is_told(cli, write_recipe):
+    result = cli("plan", write_recipe(), "--step", "99")
+    assert result.exit_code == 2
+    assert "has no step 99, expected 1 to " in result.stderr
+    assert result.stdout == ""

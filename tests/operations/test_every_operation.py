@@ -82,7 +82,15 @@ def test_what_it_names_is_the_same_in_a_file_and_in_python(operation: type[Opera
     entry = step.entry("cm")
     raw = {*operation.makes(entry), *operation.uses(entry)}
     assert {name.partition(".")[0] for name in step.names} <= raw
-    assert set(step.lengths) == set(operation.makes(entry)) - {step.named_rest}
+
+
+@each_operation
+def test_it_makes_what_it_says_and_has_a_length_for_all_but_a_rest(operation: type[Operation]) -> None:
+    recipe = Recipe.parse(operation.example)
+    for index, step in enumerate(recipe.steps):
+        made = {name: made.last for name, made in recipe.piece.bubbles.items() if made.step == index}
+        assert set(made) == set(step.makes(step.entry("cm")))
+        assert set(step.lengths) == {name for name, last in made.items() if not last}
 
 
 @each_operation

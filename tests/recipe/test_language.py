@@ -44,10 +44,11 @@ def test_a_short_recipe_has_the_documented_defaults() -> None:
 
 
 def test_bubbles_keep_their_order_and_become_metres() -> None:
-    step = recipe("  - bubbles: {nose: 10, ear: 2.5, tip: 12 mm}\n").steps[0]
+    read = recipe("  - bubbles: {nose: 10, ear: 2.5, tip: 12 mm}\n")
+    step = read.steps[0]
     assert step.word == "bubbles"
     assert list(step.lengths.items()) == [("nose", 0.1), ("ear", 0.025), ("tip", 0.012)]
-    assert step.joined == ()
+    assert read.piece.row("main")[:-1] == ["nose", "ear", "tip"]
 
 
 @pytest.mark.parametrize("kind", ["loop", "fold", "ear"])
