@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -13,6 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from balloon_usd.language.joint import Joint
+    from balloon_usd.language.problem import Problem
     from balloon_usd.plan.rings import PlannedRing, RingTable
     from balloon_usd.plan.strip import PlannedBubble, Strip
     from balloon_usd.recipe import Recipe
@@ -21,6 +23,9 @@ INFLATE_SPEED = 0.38
 """Inflated length blown up per second, m/s: a maker with a hand pump."""
 SPREAD_SECONDS = 1.5
 """Time in which the air particles of a balloon that starts blown up spread, s."""
+
+FEWEST_FRAMES = 6
+"""Frames in which a balloon can be blown up: the pump's flow changes from frame to frame."""
 
 
 def choreograph(recipe: Recipe, strips: Mapping[str, Strip], table: RingTable) -> Choreography:
@@ -55,6 +60,19 @@ def _inflate(score: Score, strips: Mapping[str, Strip]) -> None:
     score.now = longest
     score.add(Move(score.now, SETTLE_SECONDS, -1, "inflated"))
     score.add(LetGo(score.now, 0.0, -1, "let go"))
+
+
+def pace_problems(recipe: Recipe, choreography: Choreography) -> list[Problem]:
+    """Return whether balloons are blown up in too few frames."""
+    seconds = min((m.seconds for m in choreography.moves if isinstance(m, Inflate)), default=math.inf)
+    if seconds * recipe.fps >= FEWEST_FRAMES:
+        return []
+    frames = math.floor(seconds * recipe.fps)
+    text = (
+        f"{recipe.fps:g} frames/s leave {frames} for the {seconds:.1f} s in which a balloon is blown up, "
+        f"expected at least {math.ceil(FEWEST_FRAMES / seconds)} frames/s"
+    )
+    return [recipe.problem(("fps",), text)]
 
 
 @dataclass(frozen=True)

@@ -13,9 +13,10 @@ from balloon_usd.plan.capsule import capsule_bubbles
 from balloon_usd.plan.laying_shapes import overlap_problems, shaped_strip
 from balloon_usd.plan.open_tube import OpenTube, inflated_tube, softened, tail_range
 from balloon_usd.plan.strip import Made, PlannedBubble, Strip
-from balloon_usd.plan.tube_sizes import tube_sizes
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from balloon_usd.balloon.rubber import Rubber
     from balloon_usd.balloon.sizes import BalloonSize
     from balloon_usd.language.problem import Path, Problem
@@ -26,8 +27,8 @@ FULL_TOLERANCE = 0.02
 """An inflated length beyond the full one by this share means full: nominal lengths are rounded."""
 
 
-def lay_strips(recipe: Recipe) -> dict[str, Strip]:
-    """Return the strip of every balloon of a recipe, by name.
+def lay_strips(recipe: Recipe, tubes: Mapping[str, BalloonSize]) -> dict[str, Strip]:
+    """Return the strip of every balloon of a recipe, by name; `tubes`: sizes of those that are tubes.
 
     A balloon without a `rest` step ends in a bubble named after it: `main_rest`.
 
@@ -40,8 +41,11 @@ def lay_strips(recipe: Recipe) -> dict[str, Strip]:
     problems: list[Problem] = []
     for name, balloon in recipe.balloons.items():
         try:
-            lay = shaped_strip if balloon.mesh else _tube if balloon.capsule is None else _capsule
-            strips[name] = lay(recipe, name, rubber)
+            if balloon.mesh:
+                strips[name] = shaped_strip(recipe, name, rubber)
+            else:
+                lay = _tube if balloon.capsule is None else _capsule
+                strips[name] = lay(recipe, name, tubes[name], rubber)
         except RecipeError as error:
             problems.extend(error.problems)
     problems += overlap_problems(recipe, strips)
@@ -60,10 +64,10 @@ def _rubber(recipe: Recipe) -> Rubber:
     return rubber if recipe.physics.softening else rubber.without_softening()
 
 
-def _capsule(recipe: Recipe, name: str, rubber: Rubber) -> Strip:
+def _capsule(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> Strip:
     balloon = recipe.balloons[name]
     length = balloon.capsule or 0.0
-    strip = Strip(name, tube_sizes(recipe)[name], rubber, 0.0, (), capsule=True)
+    strip = Strip(name, size, rubber, 0.0, (), capsule=True)
     path: Path = ("balloons", name, "capsule")
     if length > strip.full_length * (1.0 + FULL_TOLERANCE):
         raise RecipeError([recipe.problem(path, _beyond_full(length, strip.size, strip.full_length))])
@@ -75,8 +79,7 @@ def _capsule(recipe: Recipe, name: str, rubber: Rubber) -> Strip:
     return replace(strip, bubbles=bubbles)
 
 
-def _tube(recipe: Recipe, name: str, rubber: Rubber) -> Strip:
-    size = tube_sizes(recipe)[name]
+def _tube(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> Strip:
     tail = _tail(recipe, name, size, rubber)
     tube = inflated_tube(size, rubber, tail)
     bubbles: list[PlannedBubble] = []

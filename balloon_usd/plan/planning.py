@@ -5,11 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from balloon_usd.language.problem import RecipeError
-from balloon_usd.plan.choreography import choreograph
+from balloon_usd.plan.choreography import choreograph, pace_problems
 from balloon_usd.plan.laying import lay_strips
 from balloon_usd.plan.model import Plan
 from balloon_usd.plan.rings import RingTable
-from balloon_usd.plan.settings import pace_problems, settings_problems
+from balloon_usd.plan.settings import settings_problems
+from balloon_usd.plan.tube_sizes import tube_sizes
 from balloon_usd.plan.welding import weld_problems
 
 if TYPE_CHECKING:
@@ -23,9 +24,10 @@ def plan(recipe: Recipe) -> Plan:
         RecipeError: the recipe asks for what a balloon cannot give or no run can do, with the places in its
             file.
     """
-    problems = settings_problems(recipe)
+    tubes = tube_sizes(recipe)
+    problems = settings_problems(recipe, tubes)
     try:
-        strips = lay_strips(recipe)
+        strips = lay_strips(recipe, tubes)
     except RecipeError as error:
         raise RecipeError([*problems, *error.problems]) from None
     table = RingTable(strips)
