@@ -81,7 +81,7 @@ def _judge(plan: Plan, order: Order) -> Facts | Refusal:
     recipe = plan.recipe
     name, provenance = recipe.name, origin_of(plan)
     problems = order.in_the_way(name)
-    if order.look == WITH_AIR and recipe.physics.model != "kosaka":
+    if order.look == WITH_AIR and not recipe.physics.traits.has_air_particles:
         needs = f"needs model: kosaka, take one of {', '.join(LOOKS)}"
         problems.append(f"{recipe.file}: --look {WITH_AIR} {needs}")
     try:

@@ -115,7 +115,6 @@ def _left(left: OpenPart | None) -> str:
 
 def after_step_json(after: AfterStep) -> dict[str, Any]:
     """Return what is made after a step as plain data, ready for JSON: SI units, step indices from 0."""
-    latex = after.plan.recipe.physics.model == "latex"
     return {
         **head_json(after.plan),
         "step": after.index,
@@ -127,6 +126,6 @@ def after_step_json(after: AfterStep) -> dict[str, Any]:
             }
             for strip in after.strips
         ],
-        "graph": graph_json(after.graph, latex=latex),
+        "graph": graph_json(after.graph, winds=after.plan.recipe.physics.traits.winds),
         "cautions": [asdict(caution) for caution in after.cautions],
     }

@@ -35,7 +35,7 @@ def choreograph(recipe: Recipe, strips: Mapping[str, Strip], table: RingTable) -
         RecipeError: a lock asks for the tip of a balloon, or a finger pushes beyond a bubble, with its place
             in the file.
     """
-    score = Score(_LaidOut(strips, table), recipe.problem, recipe.physics.model == "kosaka")
+    score = Score(_LaidOut(strips, table), recipe.problem, recipe.physics.traits.starts_blown_up)
     if score.blown_up:
         score.add(Move(0.0, SPREAD_SECONDS, -1, "air spreads"))
     else:

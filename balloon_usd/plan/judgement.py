@@ -53,7 +53,7 @@ def cautions_of(
     found = chain(
         _unequal_pairs(recipe),
         chain.from_iterable(_tail(budget) for budget in budgets.values()),
-        _of_latex(recipe, strips, graph, budgets) if recipe.physics.model == "latex" else (),
+        _of_latex(recipe, strips, graph, budgets) if recipe.physics.traits.winds else (),
         _loose_pieces(strips, graph),
         _bulging(strips),
     )

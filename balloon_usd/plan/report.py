@@ -20,8 +20,6 @@ if TYPE_CHECKING:
 
 PLAN_FORMAT = 1
 """Version of the layout of `plan_json`."""
-MODELS = {"latex": "hyperelastic rubber and gas", "kosaka": "springs and air particles"}
-"""The physical models in a few words."""
 
 
 def plan_text(plan: Plan) -> str:
@@ -45,7 +43,7 @@ def head_lines(plan: Plan) -> Iterator[str]:
     yield f"{recipe.title} ({recipe.name})" if recipe.title else recipe.name
     if recipe.source:
         yield f"after {recipe.source}"
-    yield f"model {recipe.physics.model}: {MODELS[recipe.physics.model]}"
+    yield f"model {recipe.physics.model}: {recipe.physics.traits.title}"
 
 
 def _strip_lines(strip: Strip) -> Iterator[str]:
@@ -98,7 +96,7 @@ def _shape_lines(strip: Strip, shape: Shaped) -> Iterator[str]:
 def _budget_lines(plan: Plan, budget: Budget) -> Iterator[str]:
     twists = len(budget.twists)
     gas = f"{budget.volume * 1e3:.2f} L"
-    if plan.recipe.physics.model == "latex":
+    if plan.recipe.physics.traits.winds:
         gas += f" at {budget.pressure / 1e3:.1f} kPa, {budget.gas_amount:.3f} mol"
     yield f"  blow up {cm(budget.inflated_length)}, leave {cm(budget.tail)} flat: {gas}"
     yield (
@@ -158,7 +156,7 @@ def plan_json(plan: Plan) -> dict[str, Any]:
     return {
         **head_json(plan),
         "balloons": [_balloon_json(strip, plan.budgets.get(name)) for name, strip in plan.strips.items()],
-        "graph": graph_json(plan.graph, latex=plan.recipe.physics.model == "latex"),
+        "graph": graph_json(plan.graph, winds=plan.recipe.physics.traits.winds),
         "cautions": [asdict(caution) for caution in plan.cautions],
     }
 
@@ -174,7 +172,7 @@ def head_json(plan: Plan) -> dict[str, Any]:
     }
 
 
-def graph_json(graph: SculptureGraph, *, latex: bool) -> dict[str, Any]:
+def graph_json(graph: SculptureGraph, *, winds: bool) -> dict[str, Any]:
     """Return a graph as plain data; joints of frozen springs never spring back."""
     return {
         "joints": [
@@ -183,7 +181,7 @@ def graph_json(graph: SculptureGraph, *, latex: bool) -> dict[str, Any]:
                 "ends": [str(end) for end in joint.ends],
                 "degree": graph.degree(joint.index),
                 "merged": joint.merged,
-                "springs_back": latex and graph.springs_back(joint.index),
+                "springs_back": winds and graph.springs_back(joint.index),
             }
             for joint in graph.joints
         ],

@@ -7,8 +7,7 @@ from pydantic import BaseModel, ConfigDict, StrictBool
 from balloon_usd.language.quantities import Between, Duration
 
 from .kosaka import Kosaka
-
-ModelName = Literal["latex", "kosaka"]
+from .models import MODELS, ModelName, ModelTraits
 
 
 class Physics(BaseModel):
@@ -39,3 +38,8 @@ class Physics(BaseModel):
     """Whether vertices that would need a smaller time step are made heavier."""
     kosaka: Kosaka = Kosaka()
     """Constants of the model kosaka."""
+
+    @property
+    def traits(self) -> ModelTraits:
+        """What is true of all figures of its model."""
+        return MODELS[self.model]
