@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from balloon_usd.plan import Plan
+    from balloon_usd.plan.strip import Strip
     from balloon_usd.solver.hands import Hands
     from balloon_usd.solver.scene import Scene
 
@@ -79,6 +80,10 @@ class Sculpture:
     def bodies(self) -> Sequence[int]:
         """Bodies of all its balloons."""
         return tuple(self.body.values())
+
+    def strip_of(self, ring: int) -> Strip:
+        """Return the balloon of a ring of the plan."""
+        return self.plan.strips[self.plan.table.rings[ring].balloon]
 
     def hanging_on(self, rings: Sequence[int]) -> list[list[int]]:
         """Return for each of some rings of the plan the joints by which hands lead what hangs on it, on all

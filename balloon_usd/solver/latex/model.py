@@ -97,7 +97,7 @@ class LatexModel:
         self._reached = 0.0
         """End of the latest frame, s."""
         self._inflated: list[int] = []
-        """Sculptures whose last balloon had just got its gas then."""
+        """Balloons that had just got their gas then."""
         self._start_readback()
 
     @staticmethod
@@ -133,7 +133,9 @@ class LatexModel:
         """
         self._state = self._readback.arrays()
         self.statuses = [performer.status for performer in self.performers]
-        self._inflated = [world for world, s in enumerate(self._sculptures) if s.inflated_at == self._reached]
+        self._inflated = [
+            b for s in self._sculptures for b, at in s.inflated_at.items() if at == self._reached
+        ]
 
     def rest(self) -> None:
         """Wait for the pending read-back, and so for all work before it."""
@@ -154,7 +156,7 @@ class LatexModel:
 
     def failures(self) -> dict[int, str]:
         """Return failures that the frames do not show, by sculpture."""
-        found = {world: cause for world in self._inflated if (cause := self._short_of_gas(world))}
+        found = {self.scene.worlds[b]: cause for b in self._inflated if (cause := self._short_of_gas(b))}
         most_hits = self._state["most_hits"]
         return found | {
             world: crowded(int(most_hits[world])) for world in np.flatnonzero(most_hits > HITS).tolist()
@@ -164,14 +166,13 @@ class LatexModel:
         """Leave a sculpture alone whose run has failed."""
         self.hands.give_up(self._bodies[world])
 
-    def _short_of_gas(self, world: int) -> str | None:
+    def _short_of_gas(self, balloon: int) -> str | None:
         """Tell when inflating has ended without the gas that the plan asks for."""
-        for b in self._bodies[world]:
-            got = float(self._state["amount"][self.scene.bubbles_of(b)].sum())
-            if got < SHORT_OF_GAS * self.hands.pump_goal[b]:
-                share = got / self.hands.pump_goal[b]
-                return f"the pump brought only {share:.0%} of the gas: give it more seconds"
-        return None
+        goal = self.hands.pump_goal[balloon]
+        got = float(self._state["amount"][self.scene.bubbles_of(balloon)].sum())
+        if got >= SHORT_OF_GAS * goal:
+            return None
+        return f"the pump brought only {got / goal:.0%} of the gas: give it more seconds"
 
 
 def _bodies(plan: Plan, meshes: Sequence[BalloonMesh]) -> list[LatexBody]:

@@ -28,8 +28,8 @@ class LatexSculpture(Sculpture):
         self.struts = struts
         self.friction = Friction(plan, self.joints)
         self.torsion = Torsion(plan, scene, hands, self.joints, self.body, self.friction)
-        self.inflated_at = -1.0
-        """Time at which the last balloon had its gas, s."""
+        self.inflated_at: dict[int, float] = {}
+        """Time at which each body had its gas, s."""
 
     @property
     def unwinding(self) -> str | None:

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.solver.motions.chains import Chain, Cheeks
 from balloon_usd.solver.motions.closing import ClosingChain
 from balloon_usd.solver.motions.motion import Motion
@@ -52,10 +51,5 @@ def _cheeks(move: moves.Gather, sculpture: Sculpture, began: Floats) -> Cheeks:
     pairs = [(sculpture.joints[ring], side) for ring, side in move.cheeks]
     joints, sides = np.array(pairs, dtype=np.int64).reshape(-1, 2).T
     straight = sculpture.frame.middle[joints].astype(np.float64) - 0.5 * (began[sides] + began[sides + 1])
-    bulge = np.array([_bulged_radius(sculpture, ring) for ring, _ in move.cheeks])[:, None]
+    bulge = np.array([sculpture.strip_of(ring).inflated_radius for ring, _ in move.cheeks])[:, None]
     return Cheeks(joints, sides, straight, bulge)
-
-
-def _bulged_radius(sculpture: Sculpture, ring: int) -> float:
-    strip = sculpture.plan.strips[sculpture.plan.table.rings[ring].balloon]
-    return strip.size.radius * maxwell_state(strip.rubber).bulged.a

@@ -76,4 +76,4 @@ class Inflate(Motion):
         if self._tail is not None:
             hands.set_drag(self._body, settings.drag)
         hands.set_softening(self._body, settings.dt / SOFTENING_SECONDS)
-        self._sculpture.inflated_at = self._sculpture.frame.end
+        self._sculpture.inflated_at[self._body] = self._sculpture.frame.end
