@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from abc import abstractmethod
+from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 
-class Bend(Motion):
+class Bend(Motion, ABC):
     """A bubble that is led onto an arc: its end stays, its start goes, and what hangs on it goes along."""
 
     def __init__(self, move: moves.Bend, sculpture: Sculpture) -> None:

@@ -25,27 +25,33 @@ def hanging_on(
         balloons: balloon of every ring, in order along the balloons.
         welds: rings that are one joint.
     """
-    joints: DisjointSets[int] = DisjointSets()
-    for weld in welds:
-        joints.merge(weld)
-    joint = [joints.root(ring) for ring in range(len(balloons))]
+    joint = _joints(len(balloons), welds)
     holder = {joint[ring]: k for k, ring in reversed(list(enumerate(held)))}
     pieces: DisjointSets[int] = DisjointSets()
-    ends: list[tuple[int, int]] = []
+    beside: list[tuple[int, int]] = []
     for before, after in pairwise(range(len(balloons))):
         if balloons[before] != balloons[after]:
             continue
-        near, far = joint[before], joint[after]
-        if near not in holder and far not in holder:
-            pieces.merge((near, far))
-        ends += [(one, other) for one, other in ((near, far), (far, near)) if one in holder]
-    holders: dict[int, set[int]] = {}
-    for at, beside in ends:
-        holders.setdefault(pieces.root(beside), set()).add(holder[at])
-    found: tuple[list[int], ...] = tuple([] for _ in held)
-    for ring in range(len(balloons)):
-        own = holder.get(joint[ring])
-        of = {own} if own is not None else holders.get(pieces.root(joint[ring]), set())
+        ends = joint[before], joint[after]
+        free = [end for end in ends if end not in holder]
+        if len(free) == 2:
+            pieces.merge(free)
+        elif free:
+            beside += [(end, holder[other]) for end, other in (ends, ends[::-1]) if other in holder]
+    holders: dict[int, set[int]] = {at: {k} for at, k in holder.items()}
+    for end, k in beside:
+        holders.setdefault(pieces.root(end), set()).add(k)
+    found: list[list[int]] = [[] for _ in held]
+    for ring, at in enumerate(joint):
+        of = holders.get(pieces.root(at), ())
         if len(of) == 1 and ring not in held:
-            found[of.copy().pop()].append(ring)
+            found[next(iter(of))].append(ring)
     return tuple(map(tuple, found))
+
+
+def _joints(rings: int, welds: Iterable[Sequence[int]]) -> list[int]:
+    """Return for every ring the one that stands for all that are one joint with it."""
+    joints: DisjointSets[int] = DisjointSets()
+    for weld in welds:
+        joints.merge(weld)
+    return [joints.root(ring) for ring in range(rings)]
