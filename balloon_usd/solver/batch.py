@@ -67,7 +67,7 @@ class Batch:
         return bool(self._made(index).any())
 
     def snapshot(self, index: int, into: FrameArrays) -> Snapshot:
-        """Return the frame of an index, written into arrays; the makers and the physics of the next have
+        """Return the frame of an index, written into arrays; the performers and the physics of the next have
         begun then.
         """
         with capture_lock():

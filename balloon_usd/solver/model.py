@@ -33,7 +33,7 @@ class Model(Protocol):
     """Where every sculpture lies in the arrays of a frame."""
 
     def advance(self, begin: float, end: float) -> None:
-        """Let the makers act and start the physics from `begin` to `end` (s)."""
+        """Let the performers act and start the physics from `begin` to `end` (s)."""
 
     def read_back(self) -> None:
         """Wait for the read-back of the latest state: what follows is of that state, until the next

@@ -10,7 +10,7 @@ from balloon_usd.balloon.bubble_shape import bubble_of_length
 from balloon_usd.operations.moves import Pinch, Push
 from balloon_usd.plan.choreography import SPREAD_SECONDS
 from balloon_usd.solver.body import NECK_RADIUS
-from balloon_usd.solver.push import RELEASING
+from balloon_usd.solver.motions.press import RELEASING
 from tests.verification.kosaka_experiments import (
     EXPERIMENTS,
     bend_recipe,

@@ -1,4 +1,4 @@
-"""The thesis's model of some plans: bodies, makers and stepper in one flat state."""
+"""The thesis's model of some plans: bodies, performers and stepper in one flat state."""
 
 from __future__ import annotations
 
@@ -14,11 +14,13 @@ from balloon_usd.solver.frame_arrays import FrameArrays
 from balloon_usd.solver.hands import Hands
 from balloon_usd.solver.kosaka.body import KosakaBody, kosaka_body
 from balloon_usd.solver.kosaka.clusters import Clusters
-from balloon_usd.solver.kosaka.maker import KosakaMaker
+from balloon_usd.solver.kosaka.motions.table import KOSAKA_MOTIONS
 from balloon_usd.solver.kosaka.parameters import RUBBER_DRAG, SUBSTEPS
 from balloon_usd.solver.kosaka.scene import KosakaScene, kosaka_scene
+from balloon_usd.solver.kosaka.sculpture import KosakaSculpture
 from balloon_usd.solver.kosaka.stepper import KosakaStepper
 from balloon_usd.solver.layout import Layout
+from balloon_usd.solver.performer import Performer
 from balloon_usd.solver.readback import Readback
 from balloon_usd.solver.settings import SceneSettings
 
@@ -98,10 +100,11 @@ class KosakaModel:
         self.stepper = KosakaStepper(self.scene, substeps, _quad_half(bodies), self._readback)
         self.hands = _hands(self.scene)
         self.clusters = Clusters(self.scene)
-        self.makers = [
-            KosakaMaker(plan, self.scene, self.hands, run.start)
+        self.performers = [
+            Performer(KosakaSculpture(plan, self.scene, self.hands, run.start), KOSAKA_MOTIONS)
             for plan, run in zip(plans, self._bodies, strict=True)
         ]
+        self._lengths = [plan.choreography.seconds for plan in plans]
         self._state: dict[str, NDArray[Any]] = {}
         starts = self.scene.air_start
         self.layout = Layout(self.scene, self._bodies, np.diff(starts).tolist())
@@ -121,13 +124,13 @@ class KosakaModel:
         return SUBSTEPS
 
     def advance(self, begin: float, end: float) -> None:
-        """Let the makers act and start the physics from `begin` to `end` (s)."""
+        """Let the performers act and start the physics from `begin` to `end` (s)."""
         middle = self._state["ring_middle"].copy()
         self.hands.update(self._state)
         self.hands.lift_fingers()
-        for maker, lost in zip(self.makers, self.layout.astray(middle), strict=True):
+        for performer, lost in zip(self.performers, self.layout.astray(middle), strict=True):
             if not lost:
-                maker.act(begin, end, middle)
+                performer.act(begin, end, middle)
         self.hands.upload()
         handled = self.hands.pressing or bool(self.hands.mode.any())
         self._frames += 1
@@ -161,7 +164,7 @@ class KosakaModel:
         """How often leaked air is searched for in this frame: what was brought back where a sculpture ends
         must not have come through another wall.
         """
-        if any(begin < m.plan.choreography.seconds < end + 0.5 * (end - begin) for m in self.makers):
+        if any(begin < seconds < end + 0.5 * (end - begin) for seconds in self._lengths):
             return LAST_PASSES
         return int(handled or self._frames % LEAK_SEARCH_EVERY == 0)
 
@@ -173,7 +176,7 @@ class KosakaModel:
             self.stepper.start_readback()
         self._state = self._readback.arrays()
         self._read_clusters = self._cluster_state()
-        self.statuses = [maker.status for maker in self.makers]
+        self.statuses = [performer.status for performer in self.performers]
 
     def _cluster_state(self) -> _ClusterState:
         return _ClusterState(self.clusters.of_segment, self.clusters.of_air)

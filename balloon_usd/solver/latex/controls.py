@@ -10,7 +10,7 @@ from balloon_usd.solver.hands import Floats, Hands, fill_row
 from balloon_usd.solver.kernels.physics.gas import OPEN_PASSAGE, WIDE_OPEN
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Mapping
 
     from numpy.typing import NDArray
 
@@ -88,12 +88,11 @@ class LatexControls(Hands):
         fill_row(self.spins, balloon, fields)
         self._turning.add(balloon)
 
-    def stop_turning(self, balloons: Iterable[int]) -> None:
-        """End the spins of balloons."""
-        if self._turning:
-            for balloon in self._turning.intersection(balloons):
-                self._turning.remove(balloon)
-                fill_row(self.spins, balloon, {})
+    def stop_turning(self) -> None:
+        """End the spins of all balloons."""
+        for balloon in self._turning:
+            fill_row(self.spins, balloon, {})
+        self._turning.clear()
 
     def split_gas(self, joint: int) -> None:
         """Share the gas of the open chambers by volume, before a neck between them begins to close."""

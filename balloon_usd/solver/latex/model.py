@@ -1,4 +1,4 @@
-"""The latex model of some plans: bodies, makers and stepper in one flat state."""
+"""The latex model of some plans: bodies, performers and stepper in one flat state."""
 
 from __future__ import annotations
 
@@ -15,12 +15,14 @@ from balloon_usd.solver.kernels.physics.contact import HITS
 from balloon_usd.solver.latex.body import LatexBody, tube_body
 from balloon_usd.solver.latex.controls import LatexControls
 from balloon_usd.solver.latex.leak import Leak
-from balloon_usd.solver.latex.maker import LatexMaker
+from balloon_usd.solver.latex.motions.table import LATEX_MOTIONS
 from balloon_usd.solver.latex.scene import build_scene
+from balloon_usd.solver.latex.sculpture import LatexSculpture
 from balloon_usd.solver.latex.shape_body import shape_body
 from balloon_usd.solver.latex.stepper import Stepper
 from balloon_usd.solver.latex.struts import StrutLaw, Struts
 from balloon_usd.solver.layout import Layout
+from balloon_usd.solver.performer import Performer
 from balloon_usd.solver.readback import Readback
 from balloon_usd.solver.settings import SceneSettings
 
@@ -81,18 +83,21 @@ class LatexModel:
         self.stepper = Stepper(self.scene, substeps)
         self.hands = LatexControls(self.scene)
         self._struts = Struts(self.scene, StrutLaw())
-        self.makers = [
-            LatexMaker(plan, self.scene, self.hands, self._struts, run.start)
+        self._sculptures = [
+            LatexSculpture(plan, self.scene, self.hands, self._struts, run.start)
             for plan, run in zip(plans, self._bodies, strict=True)
         ]
+        self.performers = [Performer(sculpture, LATEX_MOTIONS) for sculpture in self._sculptures]
         self._leak = Leak(plans, self.scene, self.hands, self._bodies)
         self._readback = Readback(self.scene, READ_BACK)
         self.layout = Layout(self.scene, self._bodies)
         self._state: dict[str, NDArray[Any]] = {}
         self.statuses: list[Status] = []
         """Status of every sculpture when the state was read back."""
+        self._reached = 0.0
+        """End of the latest frame, s."""
         self._inflated: list[int] = []
-        """Sculptures whose last balloon had just got its gas then."""
+        """Balloons that had just got their gas then."""
         self._start_readback()
 
     @staticmethod
@@ -101,14 +106,16 @@ class LatexModel:
         return detail.substeps
 
     def advance(self, begin: float, end: float) -> None:
-        """Let the makers act and start the physics from `begin` to `end` (s)."""
+        """Let the performers act and start the physics from `begin` to `end` (s)."""
         middle = self._state["ring_middle"].copy()
         self.hands.update(self._state)
         self.hands.lift_fingers()
+        self.hands.stop_turning()
+        self._reached = end
         astray = self.layout.astray(middle)
-        for maker, lost in zip(self.makers, astray, strict=True):
+        for performer, lost in zip(self.performers, astray, strict=True):
             if not lost:
-                maker.act(begin, end, middle)
+                performer.act(begin, end, middle)
         self._leak.advance(begin, end, self._state)
         self._struts.put(middle)
         self.hands.upload()
@@ -125,8 +132,10 @@ class LatexModel:
         read-back.
         """
         self._state = self._readback.arrays()
-        self.statuses = [maker.status for maker in self.makers]
-        self._inflated = [world for world, m in enumerate(self.makers) if m.just_inflated]
+        self.statuses = [performer.status for performer in self.performers]
+        self._inflated = [
+            b for s in self._sculptures for b, at in s.inflated_at.items() if at == self._reached
+        ]
 
     def rest(self) -> None:
         """Wait for the pending read-back, and so for all work before it."""
@@ -147,7 +156,7 @@ class LatexModel:
 
     def failures(self) -> dict[int, str]:
         """Return failures that the frames do not show, by sculpture."""
-        found = {world: cause for world in self._inflated if (cause := self._short_of_gas(world))}
+        found = {self.scene.worlds[b]: cause for b in self._inflated if (cause := self._short_of_gas(b))}
         most_hits = self._state["most_hits"]
         return found | {
             world: crowded(int(most_hits[world])) for world in np.flatnonzero(most_hits > HITS).tolist()
@@ -157,14 +166,13 @@ class LatexModel:
         """Leave a sculpture alone whose run has failed."""
         self.hands.give_up(self._bodies[world])
 
-    def _short_of_gas(self, world: int) -> str | None:
+    def _short_of_gas(self, balloon: int) -> str | None:
         """Tell when inflating has ended without the gas that the plan asks for."""
-        for b in self._bodies[world]:
-            got = float(self._state["amount"][self.scene.bubbles_of(b)].sum())
-            if got < SHORT_OF_GAS * self.hands.pump_goal[b]:
-                share = got / self.hands.pump_goal[b]
-                return f"the pump brought only {share:.0%} of the gas: give it more seconds"
-        return None
+        goal = self.hands.pump_goal[balloon]
+        got = float(self._state["amount"][self.scene.bubbles_of(balloon)].sum())
+        if got >= SHORT_OF_GAS * goal:
+            return None
+        return f"the pump brought only {got / goal:.0%} of the gas: give it more seconds"
 
 
 def _bodies(plan: Plan, meshes: Sequence[BalloonMesh]) -> list[LatexBody]:
