@@ -93,9 +93,10 @@ class Hands:
         """Return the names of the arrays that change in few frames only."""
         return ("fingers", "finger_share", *WELDS)
 
-    def update(self, state: Mapping[str, NDArray[Any]]) -> None:
-        """Take over the state read back last, by the names of arrays of the scene."""
+    def begin_frame(self, state: Mapping[str, NDArray[Any]]) -> None:
+        """Take over the state read back last, by the names of arrays of the scene, and lift all fingers."""
         self.places = state["x"]
+        self.lift_fingers()
 
     def grip(self, joint: int, middle: Floats) -> None:
         """Take hold of a ring where it is."""

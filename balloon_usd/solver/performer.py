@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from balloon_usd.solver.model import Status
 from balloon_usd.solver.sculpture import ComingFrame
+from balloon_usd.solver.status import Status
 
 if TYPE_CHECKING:
     from balloon_usd.operations.moves import Move

@@ -52,9 +52,10 @@ class LatexControls(Hands):
     def _rarely_changed(self) -> tuple[str, ...]:
         return (*super()._rarely_changed(), "amount")
 
-    def update(self, state: Mapping[str, NDArray[Any]]) -> None:
-        """Take over the state read back last, by the names of arrays of the scene."""
-        super().update(state)
+    def begin_frame(self, state: Mapping[str, NDArray[Any]]) -> None:
+        """Take over the state read back last, lift all fingers and stop all spins."""
+        super().begin_frame(state)
+        self.stop_turning()
         self.amount, self.volume = state["amount"].copy(), state["volume"]
 
     def squeeze(self, joint: int, radius: float, passage: float) -> None:
