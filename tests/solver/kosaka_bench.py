@@ -11,10 +11,9 @@ import warp as wp
 
 from balloon_usd.balloon.capsule_mesh import capsule_mesh
 from balloon_usd.solver.corners import corner_table
-from balloon_usd.solver.kernels.kosaka.drift import Drift
+from balloon_usd.solver.kernels.arrays.rows import Constants, Drift
 from balloon_usd.solver.kernels.kosaka.neighbours import LANES
 from balloon_usd.solver.kernels.kosaka.offset_regions import WIDER, WIDER_OUTSIDE
-from balloon_usd.solver.kernels.kosaka.springs import Constants
 from balloon_usd.solver.kosaka.net import edges_of, net_of
 from tests.solver import kosaka_reference as thesis
 

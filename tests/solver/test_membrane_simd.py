@@ -10,9 +10,9 @@ from balloon_usd.balloon.detail import detail_named
 from balloon_usd.balloon.rubber import rubber_named
 from balloon_usd.balloon.sizes import size_named
 from balloon_usd.balloon.tube_mesh import tube_mesh
+from balloon_usd.solver.kernels.arrays.rows import CurveSegment, Law
 from balloon_usd.solver.kernels.physics.membrane import wall_of_quad
 from balloon_usd.solver.kernels.physics.membrane_simd import SIMD_QUADS, walls_simd
-from balloon_usd.solver.kernels.physics.rubber import CurveSegment, Law
 from balloon_usd.solver.latex.body import tube_body
 from balloon_usd.solver.latex.scene import build_scene
 from balloon_usd.solver.settings import SceneSettings
@@ -122,8 +122,9 @@ def scene():
 def written(kernel, starts):
     """What a kernel writes for chunks that begin at some quads, the last of which is the end of the last."""
     made = scene()
-    made.put({"chunk_quad": np.int32(starts), "chunk_origin": np.zeros(len(starts) - 1, np.int32)})
-    made.zeros("chunk_share", len(starts) - 1, float)
+    made.arrays["chunk_quad"] = wp.array(starts, dtype=int, device="cpu")
+    made.arrays["chunk_origin"] = wp.zeros(len(starts) - 1, dtype=int, device="cpu")
+    made.arrays["chunk_share"] = wp.zeros(len(starts) - 1, dtype=float, device="cpu")
     inputs = [made.arrays[a.label] for a in kernel.adj.args]
     wp.launch(kernel, dim=1 if kernel is abreast else len(starts) - 1, inputs=inputs, device="cpu")
     return {name: made.arrays[name].numpy() for name in WRITTEN}

@@ -2,10 +2,10 @@
 
 import warp as wp
 
+from balloon_usd.solver.kernels.arrays.rows import Air, CurveSegment, Law
 from balloon_usd.solver.kernels.device.soa import load_soa, store_soa
-from balloon_usd.solver.kernels.physics.gas import Air, advance_gas
+from balloon_usd.solver.kernels.physics.gas import advance_gas
 from balloon_usd.solver.kernels.physics.membrane import wall_of_quad
-from balloon_usd.solver.kernels.physics.rubber import CurveSegment, Law
 
 
 @wp.kernel

@@ -33,14 +33,6 @@ class SculptureLaunch:
     def __init__(self, scene: LatexScene) -> None:
         """Share out a device; a GPU in as many blocks a sculpture as fill it and are resident at once."""
         self.scene = scene
-        worlds = max(scene.worlds) + 1
-        scene.zeros("chunk_share", len(scene.chunk_low), float)
-        for name, starts in (
-            ("balloon", np.arange(len(scene.bodies) + 1)),
-            ("segment", scene.segment_start),
-            ("joint", scene.joint_start),
-        ):
-            scene.put({f"world_{name}": scene.by_world(starts)})
         self._most_vertices = int(np.diff(scene.world_vertex.numpy()).max())
         device = wp.get_device(scene.device)
         self.blocks, self.lanes = self._shape(device) if device.is_cuda else (1, 1)
@@ -50,7 +42,6 @@ class SculptureLaunch:
             around = int(scene.joint_around.numpy().max())
             joint = HALF_WARP if around <= HALF_WARP else WARP
             self._kernel = kernel_variant(self.lanes, shared_memory_bytes(device), cores=cores, joint=joint)
-        scene.zeros("barrier_counts", worlds, int)
 
     def advance(
         self, launcher: Launcher, substeps: int, begin: int, end: int, *, contact: bool, fingers: bool

@@ -2,8 +2,8 @@
 
 import warp as wp
 
-from balloon_usd.solver.kernels.kosaka.drift import Drift, drift_at, gain_at, kept_in
-from balloon_usd.solver.kernels.kosaka.springs import Constants
+from balloon_usd.solver.kernels.arrays.rows import Constants, Drift
+from balloon_usd.solver.kernels.kosaka.drift import drift_at, gain_at, kept_in
 
 NEAREST = wp.constant(1.0e-6)
 """Distance below which two particles count as this far apart (m): the weight has a pole."""

@@ -4,31 +4,7 @@ air and wall along by its joints.
 
 import warp as wp
 
-
-@wp.struct
-class Drift:
-    """The motion of one cluster: that of its ends, and evenly from one to the other between them."""
-
-    start: wp.vec3
-    """m"""
-    end: wp.vec3
-    """m"""
-    start_speed: wp.vec3
-    """m/s"""
-    end_speed: wp.vec3
-    """m/s"""
-    start_inward: wp.vec3
-    """Unit direction from a frozen joint at its start into the bubble; 0 where there is none."""
-    end_inward: wp.vec3
-    """The same of its end."""
-    neck: float
-    """Radius of its necks, m."""
-    start_gain: wp.vec3
-    """m/s2"""
-    end_gain: wp.vec3
-    """m/s2"""
-    joints: wp.vec2i
-    """Its frozen joints; -1 for none."""
+from balloon_usd.solver.kernels.arrays.rows import Drift
 
 
 @wp.func

@@ -4,8 +4,8 @@ rubber's motion.
 
 import warp as wp
 
-from balloon_usd.solver.kernels.kosaka.drift import Drift, drift_at, gain_at
-from balloon_usd.solver.kernels.kosaka.springs import Constants
+from balloon_usd.solver.kernels.arrays.rows import Constants, Drift
+from balloon_usd.solver.kernels.kosaka.drift import drift_at, gain_at
 from balloon_usd.solver.kernels.physics.joints import LEAD, held, lead_load
 
 COINCIDENT = wp.constant(1.05)

@@ -4,8 +4,8 @@ thesis has only offset regions (Kosaka 2008, 3.4).
 
 import warp as wp
 
+from balloon_usd.solver.kernels.arrays.rows import Constants
 from balloon_usd.solver.kernels.kosaka.offset_regions import UNSEEN, plane_normal, triangle
-from balloon_usd.solver.kernels.kosaka.springs import Constants
 
 AFAR = wp.constant(9.0)
 """Squared distance, in the area of a face, from which its solid angle is that of a point's."""

@@ -7,6 +7,8 @@ block has one lane, which queries all.
 
 import warp as wp
 
+from balloon_usd.solver.kernels.arrays.rows import Constants
+from balloon_usd.solver.kernels.device.warp_reduce import WARP
 from balloon_usd.solver.kernels.kosaka.offset_regions import (
     FLAT,
     WIDER_OUTSIDE,
@@ -16,9 +18,8 @@ from balloon_usd.solver.kernels.kosaka.offset_regions import (
     shares,
     triangle,
 )
-from balloon_usd.solver.kernels.kosaka.springs import Constants
 
-LANES = 32
+LANES = WARP
 """Lanes of a block on a GPU."""
 
 

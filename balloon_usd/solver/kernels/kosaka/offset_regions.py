@@ -6,7 +6,7 @@ Every quad is two triangles: triangle 2 q has its corners 0, 1, 2, and 2 q + 1 i
 
 import warp as wp
 
-from balloon_usd.solver.kernels.kosaka.springs import Constants
+from balloon_usd.solver.kernels.arrays.rows import Constants
 
 REACHES_OVER = 0.5
 WIDER = wp.constant(REACHES_OVER)

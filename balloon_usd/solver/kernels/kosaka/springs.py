@@ -2,49 +2,11 @@
 
 import warp as wp
 
+from balloon_usd.solver.kernels.arrays.rows import Constants
 from balloon_usd.solver.kernels.physics.suspects import check_vertex
 
 SHORTEST = wp.constant(1.0e-9)
 """Length below which a spring has no direction (m)."""
-
-
-@wp.struct
-class Constants:
-    """Constants of springs and air particles of one balloon; forces are accelerations, as of unit mass."""
-
-    ks: float
-    """Stiffness of the springs, 1/s2 (eq. 3.1)."""
-    kd: float
-    """Damping of the springs, 1/s (eq. 3.1)."""
-    alpha: float
-    """Repulsion of air particles, 1/s2 (eq. 3.4)."""
-    beta: float
-    """Push of the rubber on an air particle, m/s2 (eq. 3.12)."""
-    push: float
-    """Push of an air particle on the rubber, m/s2: the unit of eq. 3.10."""
-    gamma: float
-    """How far a leaked air particle is moved back, m (eq. 3.13)."""
-    re: float
-    """Reach of the repulsion, m (eq. 3.3)."""
-    air_offset: float
-    """Thickness of the inner offset region, for air and rubber, m."""
-    contact_offset: float
-    """Thickness of the offset region for rubber and rubber, m."""
-    leak_offset: float
-    """Thickness of the outer offset region, for leaked air, m."""
-    calming: float
-    """Damping of what the two ends of a spring move across it, 1/s; not in the thesis."""
-    grading: float
-    """How far the push of eqs. 3.10 and 3.12 fades with depth: 0 not at all, as in the thesis, 1 to nothing.
-    """
-    drag: float
-    """Drag on air, 1/s; not in the thesis."""
-    force_limit: float
-    """Largest external force, m/s2."""
-    elongation_limit: float
-    """Largest elongation of a spring, in natural lengths."""
-    air_speed: float
-    """Largest speed of an air particle, m/s: it must not outrun the search."""
 
 
 @wp.func

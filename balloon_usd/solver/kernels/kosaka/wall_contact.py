@@ -2,6 +2,7 @@
 
 import warp as wp
 
+from balloon_usd.solver.kernels.arrays.rows import Constants
 from balloon_usd.solver.kernels.kosaka.offset_regions import (
     WIDER,
     least,
@@ -11,7 +12,6 @@ from balloon_usd.solver.kernels.kosaka.offset_regions import (
     shares,
     triangle,
 )
-from balloon_usd.solver.kernels.kosaka.springs import Constants
 
 
 @wp.func

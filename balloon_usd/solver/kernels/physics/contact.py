@@ -4,6 +4,7 @@ patches, penalty forces and Coulomb friction.
 
 import warp as wp
 
+from balloon_usd.solver.kernels.arrays.rows import HITS, Touch
 from balloon_usd.solver.kernels.device.array_access import (
     float_at,
     int_at,
@@ -22,10 +23,6 @@ from balloon_usd.solver.kernels.device.warp_reduce import (
     warp_sum,
 )
 
-TARGETS = 2
-"""Walls that one vertex may touch at a time."""
-HITS = 24
-"""Vertices that may press on one quad at a time."""
 MOST_HITS = wp.constant(HITS)
 
 FACING = wp.constant(-0.1)
@@ -56,20 +53,6 @@ lanes.
 """
 NORMAL_DAMPING = wp.constant(0.3)
 """Damping of the approach, as a share of what would stop the vertex in one substep."""
-
-
-@wp.struct
-class Touch:
-    """How walls press on each other."""
-
-    offset: float
-    """Distance at which walls begin to press, m."""
-    pressure: float
-    """Contact pressure where the offset is used up, Pa."""
-    margin: float
-    """Further distance within which walls are watched between two searches, m."""
-    apart: float
-    """Unstressed distance within one bubble, in R0, within which its wall never meets itself."""
 
 
 @wp.kernel

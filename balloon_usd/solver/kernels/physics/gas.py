@@ -2,6 +2,7 @@
 
 import warp as wp
 
+from balloon_usd.solver.kernels.arrays.rows import Air
 from balloon_usd.solver.kernels.device.array_access import float_at, int_at, put_float, vec3_at, vec4i_at
 from balloon_usd.solver.kernels.device.barrier import warp_barrier
 from balloon_usd.solver.kernels.device.coherent_load import coherent_float, coherent_vec3
@@ -79,22 +80,6 @@ OPEN_PASSAGE = 1.0
 """Passage (m2) of a joint that is not being closed: more than any neck."""
 WIDE_OPEN = 0.5 * OPEN_PASSAGE
 """Passage (m2) from which segments on both sides of a joint form one chamber."""
-
-
-@wp.struct
-class Air:
-    """The gas around and inside."""
-
-    atmosphere: float
-    """Ambient pressure, Pa."""
-    molar_energy: wp.float64
-    """R T, J/mol."""
-    density: float
-    """Density, kg/m3."""
-    discharge: float
-    """Discharge coefficient of a neck."""
-    equalise: float
-    """Largest share of a pressure difference that a neck may even out in one substep."""
 
 
 @wp.func

@@ -4,6 +4,7 @@ weld's pose.
 
 import warp as wp
 
+from balloon_usd.solver.kernels.arrays.rows import Axes, Spin
 from balloon_usd.solver.kernels.device.array_access import (
     float_at,
     int_at,
@@ -18,7 +19,7 @@ from balloon_usd.solver.kernels.device.barrier import warp_barrier
 from balloon_usd.solver.kernels.device.coherent_load import coherent_float, coherent_vec3
 from balloon_usd.solver.kernels.device.warp_reduce import warp_ballot, warp_sum3, warp_sum8
 from balloon_usd.solver.kernels.physics.gas import fan_gradient
-from balloon_usd.solver.kernels.physics.motion import Spin, force_on_vertex, step_of_vertex
+from balloon_usd.solver.kernels.physics.motion import force_on_vertex, step_of_vertex
 
 GRIP_MODE = 1
 LEAD_MODE = 2
@@ -50,10 +51,6 @@ def lead_load(
     if size > limit:
         load = load * (limit / size)
     return load
-
-
-Axes = wp.types.matrix(shape=(3, 2), dtype=float)
-"""The two in-plane unit axes of a ring, as columns."""
 
 
 @wp.func

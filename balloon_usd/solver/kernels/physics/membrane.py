@@ -2,6 +2,7 @@
 
 import warp as wp
 
+from balloon_usd.solver.kernels.arrays.rows import CurveSegment, Law
 from balloon_usd.solver.kernels.device.array_access import (
     float_at,
     int_at,
@@ -15,8 +16,6 @@ from balloon_usd.solver.kernels.device.coherent_load import coherent_vec3
 from balloon_usd.solver.kernels.device.soa import store_soa
 from balloon_usd.solver.kernels.physics.rubber import (
     LEAST_ENERGY,
-    CurveSegment,
-    Law,
     followed_stretches,
     membrane_law,
     softening_factor,

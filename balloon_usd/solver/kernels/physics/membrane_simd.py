@@ -6,6 +6,7 @@ All is in one function: rows handed to another would be copied.
 
 import warp as wp
 
+from balloon_usd.solver.kernels.arrays.rows import CurveSegment, Law
 from balloon_usd.solver.kernels.device.array_access import (
     float_at,
     int_at,
@@ -21,7 +22,7 @@ from balloon_usd.solver.kernels.physics.membrane import (
     stretches_of_quad,
     volume_gradients_of_quad,
 )
-from balloon_usd.solver.kernels.physics.rubber import CurveSegment, Law, followed_stretches, membrane_law
+from balloon_usd.solver.kernels.physics.rubber import followed_stretches, membrane_law
 
 SIMD_QUADS = 16
 """Quads in a row: as many floats as the widest SIMD registers hold."""

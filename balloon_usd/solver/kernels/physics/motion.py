@@ -2,33 +2,10 @@
 
 import warp as wp
 
+from balloon_usd.solver.kernels.arrays.rows import Spin
 from balloon_usd.solver.kernels.device.array_access import float_at, int_at, put_vec3, vec4i_at
 from balloon_usd.solver.kernels.device.coherent_load import coherent_float, coherent_vec3
 from balloon_usd.solver.kernels.device.soa import load_soa
-
-
-@wp.struct
-class Spin:
-    """Rigid turns of the two parts of a balloon at a joint, about one point."""
-
-    beyond: float
-    """Unstressed distance from the knot beyond which the balloon turns, m."""
-    rate: float
-    """Angular velocity of what lies beyond, rad/s; 0 for none."""
-    axis: wp.vec3
-    """Its unit axis."""
-    point: wp.vec3
-    """The point, m."""
-    back_rate: float
-    """Angular velocity of what lies before, rad/s; 0 where hands hold it. Where both parts turn freely they
-    are only displaced: their momentum stays as it is.
-    """
-    back_axis: wp.vec3
-    """Its unit axis."""
-    drift: wp.vec3
-    """Velocity of what lies beyond, besides, m/s."""
-    back_drift: wp.vec3
-    """Velocity of what lies before, besides, m/s."""
 
 
 @wp.func

@@ -7,6 +7,7 @@ anything depends on them, and idle threads take work from the far end of a loop.
 
 import warp as wp
 
+from balloon_usd.solver.kernels.arrays.rows import Air, Axes, CurveSegment, Finger, Law, Spin, Touch
 from balloon_usd.solver.kernels.device.array_access import (
     int_at,
     int_in,
@@ -36,12 +37,11 @@ from balloon_usd.solver.kernels.device.warp_reduce import (
     subwarp_sum,
     warp_sum,
 )
-from balloon_usd.solver.kernels.physics.contact import Touch, limits_of_pair, press_quad_back, press_wall
+from balloon_usd.solver.kernels.physics.contact import limits_of_pair, press_quad_back, press_wall
 from balloon_usd.solver.kernels.physics.core import cores_may_pack, press_core, yield_to_core
-from balloon_usd.solver.kernels.physics.fingers import Finger, press_finger
-from balloon_usd.solver.kernels.physics.gas import Air, advance_gas, shares_of_chunks, volume_of_fans
+from balloon_usd.solver.kernels.physics.fingers import press_finger
+from balloon_usd.solver.kernels.physics.gas import advance_gas, shares_of_chunks, volume_of_fans
 from balloon_usd.solver.kernels.physics.joints import (
-    Axes,
     block_of_joint,
     joints_of_block,
     load_strut,
@@ -52,8 +52,7 @@ from balloon_usd.solver.kernels.physics.joints import (
 )
 from balloon_usd.solver.kernels.physics.membrane import wall_of_quad
 from balloon_usd.solver.kernels.physics.membrane_simd import walls_simd
-from balloon_usd.solver.kernels.physics.motion import Spin, move_vertex
-from balloon_usd.solver.kernels.physics.rubber import CurveSegment, Law
+from balloon_usd.solver.kernels.physics.motion import move_vertex
 
 # Fused multiply-add: a tenth less time on a CPU.
 wp.set_module_options(
