@@ -81,8 +81,8 @@ class Stepper:
         stride = self._search_every if contact else self.substeps
         for begin in range(0, self.substeps, stride):
             if contact:
-                self._search.measure_quads(self.scene.x)
-                self._search.find(self.scene.x)
+                self._search.measure_quads()
+                self._search.find()
             end = min(begin + stride, self.substeps)
             self._sculptures.advance(
                 self._launcher, self.substeps, begin, end, contact=contact, fingers=fingers
