@@ -20,6 +20,9 @@ from balloon_usd.solver.kernels.arrays.table import ARRAYS, STRUCTS, array, arra
 from balloon_usd.solver.simulation import simulate_many
 from tests.solver.all_kernels import all_kernels
 
+MOST_ARGUMENTS = 16
+LONGER: dict[str, str] = {}
+"""Kernels that take more arguments, and why."""
 RECIPES = {
     "latex": "format: 1\nname: a\nunits: cm\nballoons: {main: {size: 260, length: 14, tail: 5}}\nsteps: [bubbles: {a: 8}]\n",
     "kosaka": "format: 1\nname: b\nunits: cm\nballoons: {main: {size: 260, capsule: 20}}\nsteps: [wait: 1]\nphysics: {model: kosaka}\n",
@@ -47,6 +50,11 @@ def test_every_array_that_a_kernel_takes_is_in_the_table(name):
             assert label in ARRAYS
             assert kind.dtype is ARRAYS[label].dtype
             assert kind.ndim == len(ARRAYS[label].shape)
+
+
+@pytest.mark.parametrize("name", sorted(all_kernels()))
+def test_no_kernel_takes_more_arguments_than_a_reader_can_follow(name):
+    assert len(all_kernels()[name].adj.args) <= MOST_ARGUMENTS or LONGER[name]
 
 
 def test_every_array_of_a_scene_is_as_the_table_says(scenes):

@@ -59,7 +59,7 @@ def written(kernel, starts):
     made.arrays["chunk_quad"] = wp.array(starts, dtype=int, device="cpu")
     made.arrays["chunk_origin"] = wp.zeros(len(starts) - 1, dtype=int, device="cpu")
     made.arrays["chunk_share"] = wp.zeros(len(starts) - 1, dtype=float, device="cpu")
-    inputs = [made.arrays[a.label] for a in kernel.adj.args]
+    inputs = [made.arrays.struct(a.type) for a in kernel.adj.args]
     wp.launch(kernel, dim=1 if kernel is abreast else len(starts) - 1, inputs=inputs, device="cpu")
     return {name: made.arrays[name].numpy() for name in WRITTEN}
 
