@@ -67,8 +67,12 @@ def find_leaked_air(mesh: Mesh, net: Net, particles: Particles, faces: Faces, st
     for q in range(faces.balloon_quads[balloon] + lane, faces.balloon_quads[balloon + 1], wp.block_dim()):
         if faces.quad_cluster[q] == particles.air_cluster[p]:
             c = mesh.quads[q]
-            turns += seen_half(here, state.x[c[0]], state.x[c[1]], state.x[c[2]], state.x[c[3]])
-            far = wp.length_sq(0.25 * (state.x[c[0]] + state.x[c[1]] + state.x[c[2]] + state.x[c[3]]) - here)
+            x0 = state.x[c[0]]
+            x1 = state.x[c[1]]
+            x2 = state.x[c[2]]
+            x3 = state.x[c[3]]
+            turns += seen_half(here, x0, x1, x2, x3)
+            far = wp.length_sq(0.25 * (x0 + x1 + x2 + x3) - here)
             if far < nearest:
                 nearest = far
                 face = q
@@ -79,10 +83,10 @@ def find_leaked_air(mesh: Mesh, net: Net, particles: Particles, faces: Faces, st
     chosen = wp.tile_min(wp.tile(wp.where(nearest == least_far, lane, wp.block_dim())))[0]
     if lane == chosen and wound < wp.pi and face >= 0:
         f = triangle(mesh.quads, 2 * face + (p + particles.repairs[p]) % 2)
-        normal = plane_normal(state.x[f[0]], state.x[f[1]], state.x[f[2]])
-        behind = net.constants[balloon].gamma * normal
-        particles.air[p] = (
-            spread_over(p + particles.repairs[p], state.x[f[0]], state.x[f[1]], state.x[f[2]]) - behind
-        )
+        first = state.x[f[0]]
+        second = state.x[f[1]]
+        third = state.x[f[2]]
+        behind = net.constants[balloon].gamma * plane_normal(first, second, third)
+        particles.air[p] = spread_over(p + particles.repairs[p], first, second, third) - behind
         particles.air_speed[p] = wp.vec3(0.0)
         particles.repairs[p] = particles.repairs[p] + 1

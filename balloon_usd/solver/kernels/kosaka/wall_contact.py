@@ -50,11 +50,12 @@ def part_walls(mesh: Mesh, net: Net, hands: Hands, contacts: Contacts, state: St
         if q >= 0:
             for half in range(2):
                 f = triangle(mesh.quads, 2 * q + half)
-                there = onto_wall(
-                    p, contacts.normal[i], state.x[f[0]], state.x[f[1]], state.x[f[2]], thickness
-                )
+                a = state.x[f[0]]
+                b = state.x[f[1]]
+                c = state.x[f[2]]
+                there = onto_wall(p, contacts.normal[i], a, b, c, thickness)
                 if wp.length_sq(there - p) > 0.0:
-                    face = plane_normal(state.x[f[0]], state.x[f[1]], state.x[f[2]])
+                    face = plane_normal(a, b, c)
                     u -= wp.min(wp.dot(u, face), 0.0) * face
                     p = there
     state.x_next[i] = p
