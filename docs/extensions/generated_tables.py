@@ -9,6 +9,8 @@ from sphinx.util.docutils import SphinxDirective
 from balloon_usd.operations.table import OPERATIONS
 from balloon_usd.recipe import recipe_schema
 from balloon_usd.report.document import DIGITS, UNITS
+from balloon_usd.solver.kernels.arrays import kosaka, latex, shared  # noqa: F401  # they fill the table
+from balloon_usd.solver.kernels.arrays.table import ARRAYS, STRUCTS
 from balloon_usd.stage.properties import PROPERTIES
 
 if TYPE_CHECKING:
@@ -58,6 +60,22 @@ class ReportUnits(SphinxDirective):
         return self.parse_text_to_nodes(_table(("quantity", "unit", "digits after the point"), rows))
 
 
+class DeviceArrays(SphinxDirective):
+    """`device-arrays`: every array on the device, in the structs in which kernels take them."""
+
+    def run(self) -> list[nodes.Node]:
+        """Return a table of each struct, those of all models first."""
+        return self.parse_text_to_nodes("\n\n".join(map(_struct, STRUCTS.values())))
+
+
+def _struct(struct: Any) -> str:
+    """Return what a struct holds, with the table of its arrays."""
+    specs = [ARRAYS[name] for name in struct.vars]
+    rows = ((f"`{a.name}`", a.type_name, " x ".join(map(str, a.shape)), a.unit, a.meaning) for a in specs)
+    says = f"**`{struct.key}`** (`{struct.cls.__module__.rpartition('.')[2]}`): {struct.cls.__doc__}"
+    return f"{says}\n\n{_table(('array', 'type', 'shape', 'unit', 'meaning'), rows)}"
+
+
 def _operation(operation: type[Operation]) -> str:
     """Return what an operation does, with its example."""
     says = (operation.__doc__ or "").splitlines()[0]
@@ -98,5 +116,6 @@ def setup(app: Sphinx) -> dict[str, bool]:
     app.add_directive("operations", Operations)
     app.add_directive("stage-properties", StageProperties)
     app.add_directive("report-units", ReportUnits)
+    app.add_directive("device-arrays", DeviceArrays)
     app.connect("sphinx-click-process-description", _plain)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -11,7 +11,7 @@ from balloon_usd.plan.meshing import joint_places
 from balloon_usd.solver.body import body_ranges, places_beside
 from balloon_usd.solver.checks import crowded, stretch_limits
 from balloon_usd.solver.frame_arrays import FrameArrays
-from balloon_usd.solver.kernels.physics.contact import HITS
+from balloon_usd.solver.kernels.arrays.rows import HITS
 from balloon_usd.solver.latex.body import LatexBody, tube_body
 from balloon_usd.solver.latex.controls import LatexControls
 from balloon_usd.solver.latex.leak import Leak
