@@ -161,6 +161,7 @@ def plan_json(plan: Plan) -> dict[str, Any]:
             "fewest_balloons": graph.fewest_balloons,
         },
         "cautions": [asdict(caution) for caution in plan.cautions],
+        "notices": [asdict(notice) for notice in plan.recipe.notices],
     }
 
 

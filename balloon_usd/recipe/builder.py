@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Self
+import warnings
+from typing import TYPE_CHECKING, Any, Self
 
 from balloon_usd.language.quantities import Units, length_entry
 
@@ -178,7 +179,7 @@ class RecipeBuilder:
         manner = {"point": point, "balloon": balloon, "seconds": seconds, "note": note}
         return self._step("bend", {**(angles or {}), **more}, manner)
 
-    def push(
+    def press(
         self,
         bubble: str,
         *,
@@ -190,12 +191,17 @@ class RecipeBuilder:
         seconds: float | None = None,
         note: str | None = None,
     ) -> Self:
-        """Push a finger into a bubble at a distance from its start, so deep (m) or so hard (N)."""
+        """Press a finger into a bubble at a distance from its start, so deep (m) or so hard (N)."""
         lengths = {"at": at, "depth": depth}
         what: Entries = {"bubble": bubble}
         what |= {key: self._length(value) for key, value in lengths.items() if value is not None}
         manner = {"point": point, "balloon": balloon, "seconds": seconds, "note": note}
-        return self._step("push", what | _given({"force": force}), manner)
+        return self._step("press", what | _given({"force": force}), manner)
+
+    def push(self, bubble: str, **more: Any) -> Self:
+        """Press a finger into a bubble: the older name of `press`."""
+        warnings.warn("push is called press now", DeprecationWarning, stacklevel=2)
+        return self.press(bubble, **more)
 
     def wait(self, seconds: float, *, note: str | None = None) -> Self:
         """Do nothing for some seconds."""

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from balloon_usd.balloon.tube_theory import maxwell_state
-from balloon_usd.operations.moves import Bend, Bring, Gather, LetGo, Move, Push, Weld
+from balloon_usd.operations.moves import Bend, Bring, Gather, LetGo, Move, Press, Weld
 from balloon_usd.plan.closing import ClosingChain, smooth
 from balloon_usd.solver.gathering import Gathering
 from balloon_usd.solver.model import Status
@@ -66,7 +66,7 @@ class Maker(ABC):
             Gather: self._gather,
             Bring: self._bring,
             Bend: self._bend,
-            Push: self._push,
+            Press: self._push,
             Weld: self._weld,
             LetGo: self._let_go,
         }
@@ -237,7 +237,7 @@ class Maker(ABC):
         if share >= 1.0:
             self._keep_bend(self.plan.table.rings[move.rings[1]].bubble)
 
-    def _push(self, k: int, move: Push, share: float, fresh: bool, middle: Floats) -> None:
+    def _push(self, k: int, move: Press, share: float, fresh: bool, middle: Floats) -> None:
         """Press a finger into a wall and take it back; the other hand holds the ends."""
         b = self.body[move.balloon]
         if fresh:

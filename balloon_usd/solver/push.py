@@ -12,7 +12,7 @@ from balloon_usd.plan.closing import smooth
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from balloon_usd.operations.moves import Push
+    from balloon_usd.operations.moves import Press
     from balloon_usd.solver.scene import Scene
 
 FINGER_RADIUS = 0.012
@@ -38,7 +38,7 @@ def press_profile(share: float) -> float:
     return smooth(min(1.0, share / PRESSING, max(0.0, (1.0 - share) / (1.0 - RELEASING))))
 
 
-def patch_under(scene: Scene, body: int, move: Push) -> Patch:
+def patch_under(scene: Scene, body: int, move: Press) -> Patch:
     """Return the patch that a finger meets which comes along its direction onto a place of a balloon.
 
     The finger reaches at least the nearest vertex, however coarse the mesh is.

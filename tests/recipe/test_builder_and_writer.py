@@ -14,7 +14,7 @@ from pydantic import ValidationError
 from balloon_usd.language.quantities import METRES, angle_entry, length_entry, metres, radians
 from balloon_usd.operations.bubbles import Bubbles
 from balloon_usd.operations.lock import Lock
-from balloon_usd.operations.push import PushedBubble
+from balloon_usd.operations.press import PressedBubble
 from balloon_usd.operations.rest import Rest
 from balloon_usd.operations.table import WORDS
 from balloon_usd.recipe import LATEX_COLORS, Balloon, Joint, Recipe, RecipeBuilder, RecipeError
@@ -60,8 +60,8 @@ def full() -> RecipeBuilder:
         .lock(joints=["a.start", "d.end"], seconds=2, note="cross over")
         .rest("one_end", balloon="one", seconds=1)
         .bend(a=60, b="0.3 rad", point="forward", seconds=1.5)
-        .push("b", at="1 in", depth=0.012, point="down", balloon="one", seconds=2, note="poke")
-        .push("two_rest", force="500 mN")
+        .press("b", at="1 in", depth=0.012, point="down", balloon="one", seconds=2, note="poke")
+        .press("two_rest", force="500 mN")
         .wait(2, note="look")
         .physics(rubber="gent", softening=False, gravity=9.81)
         .physics(substeps=100)
@@ -90,8 +90,8 @@ def test_the_builder_knows_every_operation_and_manner() -> None:
     assert recipe.steps[3].note == "5"
     assert recipe.steps[5].ends == (Joint("a", "start"), Joint("d", "end"))
     assert recipe.steps[7].bend == {"a": math.radians(60), "b": 0.3}
-    assert recipe.steps[8].push == PushedBubble(bubble="b", at=0.0254, depth=0.012)
-    assert recipe.steps[9].push == PushedBubble(bubble="two_rest", force=0.5)
+    assert recipe.steps[8].press == PressedBubble(bubble="b", at=0.0254, depth=0.012)
+    assert recipe.steps[9].press == PressedBubble(bubble="two_rest", force=0.5)
     assert recipe.steps[10].wait == 2.0
     assert (recipe.physics.rubber, recipe.physics.softening, recipe.physics.substeps) == ("gent", False, 100)
 
@@ -179,8 +179,8 @@ def test_a_time_is_written_in_the_largest_unit_in_which_it_is_whole(leak: float,
 @given(force=st.floats(1e-6, 100.0))
 @EXAMPLES
 def test_a_written_force_reads_back_bit_for_bit(force: float) -> None:
-    builder = RecipeBuilder("f").balloon("main", size=260, tail=0.1).push("main_rest", force=force)
-    again = Recipe.parse(builder.build().to_yaml()).steps[0].push
+    builder = RecipeBuilder("f").balloon("main", size=260, tail=0.1).press("main_rest", force=force)
+    again = Recipe.parse(builder.build().to_yaml()).steps[0].press
     assert again is not None
     assert again.force == force
 

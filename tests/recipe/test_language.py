@@ -101,7 +101,7 @@ OPERATIONS = {
     "ear": "{x: 1}",
     "rest": "x",
     "bend": "{a: 60}",
-    "push": "{bubble: a, depth: 1}",
+    "press": "{bubble: a, depth: 1}",
     "wait": "1",
 }
 

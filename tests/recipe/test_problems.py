@@ -103,7 +103,7 @@ ONE_STEP = [
     (
         "{note: x}",
         5,
-        "steps[0]: no operation, expected one of bubbles, lock, loop, fold, ear, rest, bend, push, wait",
+        "steps[0]: no operation, expected one of bubbles, lock, loop, fold, ear, rest, bend, press, wait",
     ),
 ]
 
@@ -310,7 +310,7 @@ def test_missing_keys_are_named_with_an_example() -> None:
         " tail: 10}}",
         "dog.yaml:1:1: steps: is missing, expected a list of steps, each with one of bubbles, lock,"
         " loop, fold,"
-        " ear, rest, bend, push, wait",
+        " ear, rest, bend, press, wait",
     ]
 
 
