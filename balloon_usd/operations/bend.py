@@ -14,6 +14,9 @@ from balloon_usd.operations.moves import Bend as BendMove
 from balloon_usd.operations.operation import Operation
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from balloon_usd.language.quantities import Units
     from balloon_usd.operations.score import Score
     from balloon_usd.operations.workpiece import Place, Workpiece
 
@@ -50,6 +53,13 @@ steps:
     def entry(self, units: str | None) -> object:
         """Return its value as it stands in a file."""
         return {name: angle_entry(angle) for name, angle in self.bend.items()}
+
+    @classmethod
+    def value_of(
+        cls, units: Units, angles: Mapping[str, float | str] | None = None, /, **more: float | str
+    ) -> object:
+        """Return its value as it stands in a file: angles in degrees."""
+        return {**(angles or {}), **more}
 
     @classmethod
     def uses(cls, value: object) -> tuple[str, ...]:

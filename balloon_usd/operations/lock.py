@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from balloon_usd.language.problem import Path
+    from balloon_usd.language.quantities import Units
     from balloon_usd.operations.score import Score
     from balloon_usd.operations.workpiece import Place, Workpiece
 
@@ -76,6 +77,11 @@ steps:
     def names(self) -> tuple[str, ...]:
         """Bubbles or joints that it brings together."""
         return tuple(map(str, self.ends)) if isinstance(self.lock, LockJoints) else self.lock
+
+    @classmethod
+    def value_of(cls, units: Units, /, *bubbles: str, joints: Sequence[str] | None = None) -> object:
+        """Return its value as it stands in a file: neighbouring bubbles, or joints such as "nose.end"."""
+        return list(bubbles) if joints is None else {"joints": list(joints)}
 
     @classmethod
     def uses(cls, value: object) -> tuple[str, ...]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, ClassVar
 from balloon_usd.language.choices import one_of
 from balloon_usd.language.lengths import cm
 from balloon_usd.language.names import Name
-from balloon_usd.language.quantities import Force, Length, length_entry
+from balloon_usd.language.quantities import Force, Length, length_entry, written_length
 from balloon_usd.operations.modifiers import Entries, OnBalloon, Pointed, Timed
 from balloon_usd.operations.moves import POINTS, Move
 from balloon_usd.operations.moves import Press as PressMove
@@ -15,6 +15,7 @@ from balloon_usd.operations.operation import Operation
 from balloon_usd.operations.score import SETTLE_SECONDS
 
 if TYPE_CHECKING:
+    from balloon_usd.language.quantities import LengthLike, Units
     from balloon_usd.operations.score import PlacedBubble, Score
     from balloon_usd.operations.workpiece import Place, Workpiece
 
@@ -73,6 +74,23 @@ steps:
         entries: dict[str, object] = {"bubble": press.bubble}
         entries |= {key: length_entry(length, units) for key, length in lengths.items() if length is not None}
         return entries if press.force is None else entries | {"force": press.force}
+
+    @classmethod
+    def value_of(
+        cls,
+        units: Units,
+        /,
+        bubble: str,
+        *,
+        at: LengthLike | None = None,
+        depth: LengthLike | None = None,
+        force: float | str | None = None,
+    ) -> object:
+        """Return its value as it stands in a file: at a distance from the bubble's start, a depth or N."""
+        lengths = {"at": at, "depth": depth}
+        value: dict[str, object] = {"bubble": bubble}
+        value |= {key: written_length(it, units) for key, it in lengths.items() if it is not None}
+        return value if force is None else value | {"force": force}
 
     @classmethod
     def uses(cls, value: object) -> tuple[str, ...]:

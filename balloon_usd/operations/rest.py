@@ -9,6 +9,7 @@ from balloon_usd.operations.modifiers import OnBalloon, Timed
 from balloon_usd.operations.operation import BubbleKind, Operation
 
 if TYPE_CHECKING:
+    from balloon_usd.language.quantities import Units
     from balloon_usd.operations.workpiece import Place, Workpiece
 
 
@@ -30,6 +31,11 @@ steps:
 
     rest: Name
     """Name what is left of the balloon: nothing more is made of it."""
+
+    @classmethod
+    def value_of(cls, units: Units, /, name: str) -> object:
+        """Return its value as it stands in a file."""
+        return name
 
     @property
     def named_rest(self) -> str | None:

@@ -9,6 +9,7 @@ from balloon_usd.operations.moves import Move
 from balloon_usd.operations.operation import Operation
 
 if TYPE_CHECKING:
+    from balloon_usd.language.quantities import Units
     from balloon_usd.operations.score import Score
 
 
@@ -31,6 +32,11 @@ steps:
 
     wait: Seconds
     """Do nothing for some seconds."""
+
+    @classmethod
+    def value_of(cls, units: Units, /, seconds: float) -> object:
+        """Return its value as it stands in a file."""
+        return seconds
 
     @property
     def label(self) -> str:

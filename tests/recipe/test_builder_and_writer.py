@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from inspect import signature
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +17,7 @@ from balloon_usd.operations.bubbles import Bubbles
 from balloon_usd.operations.lock import Lock
 from balloon_usd.operations.press import PressedBubble
 from balloon_usd.operations.rest import Rest
-from balloon_usd.operations.table import WORDS
+from balloon_usd.operations.table import OPERATIONS, WORDS
 from balloon_usd.recipe import LATEX_COLORS, Balloon, Joint, Recipe, RecipeBuilder, RecipeError
 
 RECIPES = sorted((Path(__file__).parents[2] / "recipes").rglob("*.yaml"))
@@ -278,3 +279,35 @@ def test_whatever_is_built_reads_back_equal(builder: RecipeBuilder) -> None:
     again = Recipe.parse(recipe.to_yaml())
     assert again == recipe
     assert again.to_yaml() == recipe.to_yaml()
+
+
+def test_every_operation_is_a_method_with_its_own_arguments_and_modifiers() -> None:
+    builder = RecipeBuilder("f")
+    for operation in OPERATIONS:
+        method = getattr(builder, operation.word)
+        takes = signature(method).parameters
+        assert set(operation.modifiers()) < set(takes)
+        assert method.__doc__ == operation.__doc__
+
+
+def test_a_step_can_be_added_by_its_word_or_as_a_whole() -> None:
+    by_word = RecipeBuilder("dog", title="Classic dog").balloon("main", size="260", color="red", tail=0.10)
+    by_word.add("bubbles", nose=0.10, left_ear=0.10, right_ear=0.10)
+    by_word.add("lock", "left_ear", "right_ear", point="up").add("rest", "tail")
+    assert by_word.to_yaml() == DOG
+    again = RecipeBuilder("dog", title="Classic dog").balloon("main", size="260", color="red", tail=0.10)
+    for step in dog().build().steps:
+        again.add(step)
+    assert again.to_yaml() == DOG
+
+
+def test_an_unknown_word_and_unknown_arguments_are_refused_at_once() -> None:
+    builder = RecipeBuilder("f")
+    with pytest.raises(ValueError, match='unknown operation "bubble", did you mean "bubbles"'):
+        builder.add("bubble", a=0.1)
+    with pytest.raises(TypeError, match="point"):
+        builder.rest("b", point="up")
+    with pytest.raises(AttributeError):
+        builder.bubble(a=0.1)
+    with pytest.raises(TypeError):
+        builder.add(dog().build().steps[0], turns=2)
