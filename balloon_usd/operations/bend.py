@@ -34,13 +34,18 @@ format: 1
 name: swan_neck
 units: cm
 balloons:
-  main: {size: 260, color: white, tail: 10}
+  main: {size: 260, color: yellow, length: 15, tail: 5}
 steps:
-  - bubbles: {head: 6, neck: 25}
+  - bubbles: {head: 6, neck: 18}
   - bend: {neck: 90}
     point: up
   - rest: body
 """
+    sources: ClassVar[tuple[str, ...]] = (
+        "Kosaka 2008, fig. 2.2: the bend",
+        "mbfloyd.com: Different twists",
+        "mossieur-ballon.com, 11: air control",
+    )
 
     bend: Annotated[dict[Name, Angle], Field(min_length=1)]
     """Bend bubbles by an angle (degrees; radians in Python), their ends towards point."""

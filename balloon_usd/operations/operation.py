@@ -29,6 +29,8 @@ class Operation(Entries):
     """Key in the recipe."""
     example: ClassVar[str]
     """A whole short recipe with it."""
+    sources: ClassVar[tuple[str, ...]]
+    """Books and pages that describe it."""
     bubble_kind: ClassVar[BubbleKind | None] = None
     """Of the bubbles that it makes."""
     closes: ClassVar[bool] = False

@@ -48,16 +48,15 @@ class Press(OnBalloon, Pointed, Timed, Operation):
     keeps_time: ClassVar[bool] = True
     example: ClassVar[str] = """\
 format: 1
-name: pressed
+name: dented
 units: cm
 balloons:
-  main: {size: 260, color: blue, tail: 10}
+  main: {size: 260, color: blue, length: 11, tail: 5}
 steps:
-  - bubbles: {a: 10}
-  - press: {bubble: a, depth: 1.5}
+  - press: {bubble: main_rest, depth: 2.5}
     point: down
-  - rest: b
 """
+    sources: ClassVar[tuple[str, ...]] = ("Kosaka 2008, 4.2.2: a force from above",)
 
     press: PressedBubble
     """Press a finger into a bubble, hold it there, and take it away."""

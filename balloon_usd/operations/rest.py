@@ -20,14 +20,15 @@ class Rest(OnBalloon, Timed, Operation):
     bubble_kind: ClassVar[BubbleKind | None] = "rest"
     example: ClassVar[str] = """\
 format: 1
-name: worm
+name: magnifier
 units: cm
 balloons:
-  main: {size: 260, color: brown, tail: 10}
+  main: {size: 260, color: red, length: 16, tail: 5}
 steps:
-  - bubbles: {head: 6}
-  - rest: body
+  - loop: {glass: 25}
+  - rest: handle
 """
+    sources: ClassVar[tuple[str, ...]] = ("Kosaka 2008, fig. 2.4: the tail of the dog is what is left",)
 
     rest: Name
     """Name what is left of the balloon: nothing more is made of it."""

@@ -20,15 +20,19 @@ class Wait(Operation):
     keeps_time: ClassVar[bool] = True
     example: ClassVar[str] = """\
 format: 1
-name: waiting
+name: held
 units: cm
 balloons:
-  main: {size: 260, color: red, tail: 10}
+  main: {size: 260, color: red, length: 13, tail: 6}
 steps:
-  - bubbles: {a: 8}
+  - bubbles: {head: 7, neck: 5}
   - wait: 1.5
-  - rest: b
+  - rest: body
 """
+    sources: ClassVar[tuple[str, ...]] = (
+        "howstuffworks.com: first and last bubbles are held until a lock closes",
+        "sharonministries.org.za: Balloons 2",
+    )
 
     wait: Seconds
     """Do nothing for some seconds."""

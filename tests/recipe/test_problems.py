@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from balloon_usd.language.problem import Problem
+from balloon_usd.operations.table import WORDS
 from balloon_usd.recipe import Recipe, RecipeError
 
 HEAD = "format: 1\nname: dog\nunits: cm\nballoons:\n  main: {size: 260, tail: 10}\nsteps:\n"
@@ -103,7 +104,7 @@ ONE_STEP = [
     (
         "{note: x}",
         5,
-        "steps[0]: no operation, expected one of bubbles, lock, loop, fold, ear, rest, bend, press, wait",
+        f"steps[0]: no operation, expected one of {', '.join(WORDS)}",
     ),
 ]
 
@@ -308,9 +309,7 @@ def test_missing_keys_are_named_with_an_example() -> None:
         "dog.yaml:1:1: name: is missing, expected a name for the file such as dog",
         "dog.yaml:1:1: balloons: is missing, expected balloons such as {main: {size: 260, color: red,"
         " tail: 10}}",
-        "dog.yaml:1:1: steps: is missing, expected a list of steps, each with one of bubbles, lock,"
-        " loop, fold,"
-        " ear, rest, bend, press, wait",
+        f"dog.yaml:1:1: steps: is missing, expected a list of steps, each with one of {', '.join(WORDS)}",
     ]
 
 
