@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import re
+import tomllib
 from pathlib import Path
 
 import pytest
+import yaml
 from click.testing import CliRunner
 
 import balloon_usd
@@ -41,6 +43,14 @@ def mouse() -> str:
 
 def test_the_readme_is_short() -> None:
     assert len(README.splitlines()) <= 200
+
+
+def test_package_readme_and_citation_name_the_same_licences() -> None:
+    licences = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["license"]
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    assert f"Licence: {licences}: " in README
+    assert f"Licence: {licences}: " in citation["abstract"]
+    assert licences.startswith(citation["license"])
 
 
 def test_the_first_recipe_fits_without_cautions() -> None:
