@@ -6,7 +6,6 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from balloon_usd.language.lengths import at_least, at_most, cm
-from balloon_usd.operations.lock import Lock
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -109,9 +108,9 @@ def _graph_lines(plan: Plan) -> Iterator[str]:
     bubbles, rings = _count(len(graph.edges), "bubble"), _count(graph.rings, "closed ring")
     yield f"{len(graph.joints)} joints, {bubbles}, {rings}; {strokes} could make it"
     for index, step in enumerate(plan.recipe.steps):
-        if isinstance(step, Lock):
-            meeting = graph.joint_of(step.ends[0])
-            yield f"  step {index + 1} locks {', '.join(map(str, step.ends))} (joint {meeting.index})"
+        for ends in () if step.closes else step.joined:
+            meeting = graph.joint_of(ends[0])
+            yield f"  step {index + 1} {step.word}s {', '.join(map(str, ends))} (joint {meeting.index})"
     for place in graph.joints:
         yield f"  joint {place.index}, {_count(graph.degree(place.index), 'bubble end')}: {place}"
 
