@@ -266,7 +266,7 @@ def test_a_ring_of_a_net_is_drawn_together_before_its_time_is_over():
 def test_two_fingers_on_two_balloons_each_press_as_far_as_their_own_time_tells():
     room = Room()
     first, second = (
-        Press(moves.Push(**DONE, balloon=name, along=0.02, depth=0.01), room.sculpture)
+        Press(moves.Press(**DONE, balloon=name, along=0.02, depth=0.01), room.sculpture)
         for name in ("red", "blue")
     )
     first.advance(0.2)

@@ -28,7 +28,7 @@ PRESSING, RELEASING = 0.35, 0.65
 class Press(Motion):
     """A finger on a wall, while the other hand holds some rings."""
 
-    def __init__(self, move: moves.Push, sculpture: Sculpture) -> None:
+    def __init__(self, move: moves.Press, sculpture: Sculpture) -> None:
         """Take hold of the rings, and find the place under the finger."""
         self._hands, self._move = sculpture.hands, move
         self._body = sculpture.body[move.balloon]
@@ -71,7 +71,7 @@ def press_profile(share: float) -> float:
     return smooth(min(1.0, share / PRESSING, max(0.0, (1.0 - share) / (1.0 - RELEASING))))
 
 
-def patch_under(scene: Scene, body: int, move: moves.Push) -> Patch:
+def patch_under(scene: Scene, body: int, move: moves.Press) -> Patch:
     """Return the patch that a finger meets which comes along its direction onto a place of a balloon.
 
     The finger reaches at least the nearest vertex, however coarse the mesh is.

@@ -26,7 +26,7 @@ KOSAKA_MOTIONS: Motions = {
     moves.Gather: Gather,
     moves.Bring: Bring,
     moves.Bend: KosakaBend,
-    moves.Push: Press,
+    moves.Press: Press,
     moves.Weld: KosakaWeld,
     moves.LetGo: LetGo,
 }

@@ -27,7 +27,7 @@ LATEX_MOTIONS: Motions = {
     moves.Gather: Gather,
     moves.Bring: Bring,
     moves.Bend: LatexBend,
-    moves.Push: Press,
+    moves.Press: Press,
     moves.Weld: Weld,
     moves.LetGo: LatexLetGo,
 }
