@@ -2,19 +2,18 @@
 
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, StrictBool
+from pydantic import StrictBool
 
 from balloon_usd.language.quantities import Between, Duration
+from balloon_usd.operations.modifiers import Entries
 
 from .kosaka import Kosaka
 
 ModelName = Literal["latex", "kosaka"]
 
 
-class Physics(BaseModel):
+class Physics(Entries):
     """How the simulation treats rubber, air and hands."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
 
     model: ModelName = "latex"
     """Physical model: latex with its gas, or springs and air particles after Kosaka 2008."""
