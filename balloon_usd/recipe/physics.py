@@ -9,6 +9,9 @@ from balloon_usd.operations.modifiers import Entries
 
 from .kosaka import Kosaka
 
+MOST_SUBSTEPS = 2000
+"""Substeps in a frame that a recipe can ask for."""
+
 ModelName = Literal["latex", "kosaka"]
 
 
@@ -25,7 +28,7 @@ class Physics(Entries):
     """Acceleration downwards, m/s2."""
     friction: Annotated[float, Between(0.0, 3.0)] = 0.8
     """Coulomb coefficient of latex on latex."""
-    substeps: Annotated[int, Between(20, 2000, whole=True)] | None = None
+    substeps: Annotated[int, Between(20, MOST_SUBSTEPS, whole=True)] | None = None
     """Time steps in a frame; chosen by the level of detail when absent."""
     burst: Literal["report", "stop"] = "report"
     """What to do when a balloon bursts."""
