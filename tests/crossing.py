@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from balloon_usd.solver.inside_walls import inside_walls
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -15,8 +17,6 @@ Floats = NDArray[np.float64]
 
 SKIN = 5.0e-5
 """Height above its own wall at which a vertex is asked whether it lies in another wall, m."""
-BLOCK = 64
-"""Vertices taken at a time: bounds the memory of the solid angles."""
 
 
 @dataclass(frozen=True)
@@ -35,9 +35,8 @@ def deepest_crossing(meshes: Sequence[tuple[NDArray[np.float32], NDArray[np.int3
     """Return how deep any wall of a sculpture lies inside another wall, its own balloon's included.
 
     `meshes`: (points (V, 3) m, quads (Q, 4)) of every balloon, closed surfaces. A vertex is inside another
-    wall when
-    the point just above it has a winding number of 1 or more; its depth is the distance to the nearest wall
-    that faces it.
+    wall when the point just above it has a winding number of 1 or more; its depth is the distance to the
+    nearest wall that faces it.
     """
     points, triangles = _triangles(meshes)
     corners = points[triangles]
@@ -46,7 +45,7 @@ def deepest_crossing(meshes: Sequence[tuple[NDArray[np.float32], NDArray[np.int3
     for k in range(3):
         np.add.at(normal, triangles[:, k], area)
     normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-30)[:, None]
-    inside = np.flatnonzero(_winding(points + SKIN * normal, corners) > 0.5)
+    inside = np.flatnonzero(inside_walls(points + SKIN * normal, points, triangles))
     worst, place = 0.0, points[0]
     for i in inside:
         # Its own faces count: where a wall is creased, as in a neck, it lies on itself and crosses nothing.
@@ -69,19 +68,6 @@ def _triangles(
         points.append(vertices.astype(np.float64))
         start += len(vertices)
     return np.concatenate(points), np.concatenate(triangles)
-
-
-def _winding(at: Floats, corners: Floats) -> Floats:
-    """Winding numbers of closed surfaces, (P,): solid angles after Van Oosterom & Strackee 1983."""
-    found = np.zeros(len(at))
-    for begin in range(0, len(at), BLOCK):
-        block = slice(begin, begin + BLOCK)
-        a, b, c = (corners[None, :, k] - at[block, None] for k in range(3))
-        la, lb, lc = (np.linalg.norm(v, axis=2) for v in (a, b, c))
-        triple = np.einsum("pti,pti->pt", a, np.cross(b, c))
-        dots = (np.einsum("pti,pti->pt", u, v) * w for u, v, w in ((a, b, lc), (b, c, la), (c, a, lb)))
-        found[block] = np.arctan2(triple, la * lb * lc + sum(dots)).sum(axis=1) / (2.0 * np.pi)
-    return found
 
 
 def _distance(p: Floats, corners: Floats) -> float:

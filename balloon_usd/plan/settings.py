@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from balloon_usd.language.quantities import duration_entry
 from balloon_usd.plan.settings_kosaka import kosaka_problems
+from balloon_usd.recipe.physics import MOST_SUBSTEPS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -27,8 +28,6 @@ wave must not cross a face of the draft mesh.
 """
 SLOWEST = 400.0
 """Time steps in a second with which scaled masses still follow the hands."""
-MOST_SUBSTEPS = 2000
-"""Substeps in a frame that a recipe can ask for."""
 LEAK_IN_A_SECOND = 86400.0
 """Time of leaking that one second of the hold may stand for, s: in a day a 260 loses half of its gas."""
 

@@ -9,9 +9,10 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from balloon_usd.balloon.capsule_mesh import EXPERIMENT_RADIUS
 from balloon_usd.balloon.rubber import rubber_named
 from balloon_usd.balloon.tube_theory import maxwell_state
-from balloon_usd.plan.particles import EXPERIMENT_RADIUS, experiment_spacing
+from balloon_usd.plan.particles import experiment_spacing
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping

@@ -5,7 +5,6 @@ from dataclasses import dataclass, field
 from typing import Annotated, Literal, Self
 
 from pydantic import (
-    BaseModel,
     BeforeValidator,
     ConfigDict,
     Field,
@@ -20,6 +19,7 @@ from balloon_usd.language.names import Name, Text
 from balloon_usd.language.problem import Complaint, Notice, Path, Problem, RecipeError, path_text, quoted
 from balloon_usd.language.quantities import METRES, Between, Reading, Units
 from balloon_usd.language.yaml_reader import Document, read_yaml
+from balloon_usd.operations.modifiers import Entries
 from balloon_usd.operations.table import Step
 from balloon_usd.operations.workpiece import Workpiece
 
@@ -49,12 +49,10 @@ def _format(value: object) -> object:
     return value
 
 
-class Recipe(BaseModel):
+class Recipe(Entries):
     """A recipe of balloon twists (format 1), complete and consistent."""
 
-    model_config = ConfigDict(
-        frozen=True, extra="forbid", use_attribute_docstrings=True, title="Balloon recipe"
-    )
+    model_config = ConfigDict(title="Balloon recipe")
 
     format: Annotated[Literal[1], BeforeValidator(_format)]
     """Version of the recipe language."""

@@ -1,4 +1,4 @@
-"""Workers as copies of this process: they are ready at once, and share the memory of all modules.
+"""Copies of this process: they are ready at once, and share the memory of all modules.
 
 Only where that is safe: on Linux, while this process has one thread and has not used a library that would not
 survive it. Twelve writers so take 0.1 s to start instead of 2 s, and a gigabyte less.
@@ -6,21 +6,18 @@ survive it. Twelve writers so take 0.1 s to start instead of 2 s, and a gigabyte
 
 from __future__ import annotations
 
-import ctypes
 import gc
 import os
 import signal
 import subprocess
 import sys
 import time
-from contextlib import contextmanager, suppress
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
+    from collections.abc import Callable
 
 THREADS = Path("/proc/self/task")
 """Where Linux lists the threads of a process, those of libraries too."""
@@ -36,8 +33,6 @@ ONE_THREAD = {
 more processor time, to no avail."""
 UNSAFE = ("pxr", "warp")
 """Libraries of which nobody knows what they have done in this process before."""
-PR_SET_PDEATHSIG = 1
-"""Of `prctl` on Linux: the signal that a process gets when the one that started it is gone."""
 POLL = 0.005
 """Time between two looks for the end of a process (s)."""
 
@@ -104,7 +99,43 @@ class ForkedProcess:
             os.kill(self.pid, number)
 
 
-def close_all_but(descriptor: int) -> None:
+def fork(work: Callable[[], object], descriptor: int, said: int | None = None) -> ForkedProcess:
+    """Do some work in a copy of this process, which ends with it.
+
+    Args:
+        work: what the copy does.
+        descriptor: all that it keeps open of what belongs to this process, beside its standard streams.
+        said: where it prints; absent where this process does.
+    """
+    sys.stdout.flush()
+    sys.stderr.flush()
+    pid = os.fork()
+    if pid:
+        return ForkedProcess(pid)
+    # Nothing of the parent's clean-up may run here.
+    code = 1
+    try:
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)
+        if said is not None:
+            _print_to(said)
+        _close_all_but(descriptor)
+        work()
+        code = 0
+    except BaseException:
+        sys.excepthook(*sys.exc_info())
+    finally:
+        sys.stderr.flush()
+        os._exit(code)
+
+
+def _print_to(said: int) -> None:
+    """Print to a descriptor from now on."""
+    os.dup2(said, 1)
+    os.dup2(said, 2)
+    sys.stdout = sys.stderr = os.fdopen(2, "w", buffering=1, errors="backslashreplace", closefd=False)
+
+
+def _close_all_but(descriptor: int) -> None:
     """Close what belongs to the parent: a connection that is open anywhere does not end with its process."""
     nothing = os.open(os.devnull, os.O_RDONLY)
     os.dup2(nothing, 0)
@@ -115,31 +146,3 @@ def close_all_but(descriptor: int) -> None:
             except OSError:
                 # The one that lists them.
                 continue
-
-
-@contextmanager
-def interrupts_blocked() -> Iterator[None]:
-    """Let no Ctrl-C reach a new process before it has said that it ignores them."""
-    if not hasattr(signal, "pthread_sigmask"):
-        yield
-        return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
-
-
-def import_paths() -> str:
-    """Return what PYTHONPATH says to a process that imports from where this one does."""
-    return os.pathsep.join(dict.fromkeys(path for path in sys.path if path))
-
-
-def end_with(parent: int, number: int) -> None:
-    """Let the system send this process a signal when its parent is gone, also within a long call."""
-    if sys.platform != "linux":
-        return
-    with suppress(AttributeError, OSError):
-        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, number)
-    if os.getppid() != parent:
-        os._exit(0)
