@@ -11,7 +11,10 @@ from balloon_usd.language.quantities import Length, length_entry
 from balloon_usd.operations.modifiers import MODIFIERS, Entries, OnBalloon, Timed
 
 if TYPE_CHECKING:
-    from balloon_usd.operations.score import Score
+    from collections.abc import Iterator
+
+    from balloon_usd.operations.caution import Caution
+    from balloon_usd.operations.score import Layout, Score
     from balloon_usd.operations.workbench import Place, Workbench
 
 BubbleKind = Literal["bubble", "loop", "fold", "ear", "rest", "shape"]
@@ -78,6 +81,10 @@ class Operation(Entries):
     @classmethod
     def check(cls, value: object, place: Place, bench: Workbench) -> None:
         """Complain of what makes no sense, and do the rest, as far as the value can be read."""
+
+    def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:
+        """Yield what a maker would warn of in a step of this index."""
+        yield from ()
 
     def perform(self, score: Score, index: int) -> None:
         """Write the moves of a step of this index; raises `RecipeError` where no hand can make it."""
