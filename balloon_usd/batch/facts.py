@@ -34,6 +34,7 @@ class Facts:
     vertices: int
     group: Hashable
     """Recipes of one group can advance in one simulation."""
+    notices: tuple[str, ...] = ()
     cautions: tuple[str, ...] = ()
     plan: bytes = b""
     """See `reading.packed`."""
@@ -99,6 +100,7 @@ def _judge(plan: Plan, order: Order) -> Facts | Refusal:
         len(codes),
         sum(len(mesh_of(strip, level).points) for strip in plan.strips.values()),
         _group(plan),
+        tuple(map(str, recipe.notices)),
         tuple(_cautions(plan)),
         packed(plan),
     )

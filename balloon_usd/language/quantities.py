@@ -14,6 +14,8 @@ from balloon_usd.language.choices import one_of
 from balloon_usd.language.problem import quoted
 
 Units = Literal["mm", "cm", "m", "in", "ft"]
+LengthLike = float | str
+"""Metres, or a text with its own unit such as "4 in"."""
 
 METRES: dict[str, Decimal] = {
     "mm": Decimal("0.001"),
@@ -117,6 +119,11 @@ def length_entry(length: float, units: str | None) -> int | float | str:
         if metres(entry, units) == length:
             return entry
     return f"{length!r} m"
+
+
+def written_length(length: LengthLike, units: str | None) -> int | float | str:
+    """Write a length (m) as it stands in a recipe with these `units`; a text stays as it is."""
+    return length if isinstance(length, str) else length_entry(float(length), units)
 
 
 def angle_entry(angle: float) -> int | float | str:

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from balloon_usd.language.problem import Path
+    from balloon_usd.language.quantities import Units
     from balloon_usd.operations.score import Layout, Score
     from balloon_usd.operations.workbench import Place, Workbench
 
@@ -48,15 +49,24 @@ class Lock(OnBalloon, Pointed, Turned, Timed, Operation):
     value_model: ClassVar[type[Entries] | None] = LockJoints
     example: ClassVar[str] = """\
 format: 1
-name: mouse_ears
+name: mouse
 units: cm
 balloons:
-  main: {size: 260, color: grey, tail: 20}
+  main: {size: 260, color: light_blue, length: 17, tail: 7}
 steps:
-  - bubbles: {nose: 5, left_ear: 4, right_ear: 4}
+  - bubbles: {nose: 5, left_ear: 7, right_ear: 7}
   - lock: [left_ear, right_ear]
-  - rest: tail
+    point: up
+  - bubbles: {neck: 3, left_paw: 6, right_paw: 6}
+  - lock: [left_paw, right_paw]
+    point: down
+  - rest: body
 """
+    sources: ClassVar[tuple[str, ...]] = (
+        "Kosaka 2008, fig. 2.2: the lock twist",
+        "balloonhq.com: Twists 101, the lock twist",
+        "mbfloyd.com: Different twists",
+    )
 
     lock: Annotated[
         Annotated[tuple[Name, ...], Tag(BUBBLES)] | Annotated[LockJoints, Tag(JOINTS)],
@@ -75,6 +85,11 @@ steps:
     def names(self) -> tuple[str, ...]:
         """Bubbles or joints that it brings together."""
         return tuple(map(str, self.ends)) if isinstance(self.lock, LockJoints) else self.lock
+
+    @classmethod
+    def value_of(cls, units: Units, /, *bubbles: str, joints: Sequence[str] | None = None) -> object:
+        """Return its value as it stands in a file: neighbouring bubbles, or joints such as "nose.end"."""
+        return list(bubbles) if joints is None else {"joints": list(joints)}
 
     @classmethod
     def uses(cls, value: object) -> tuple[str, ...]:

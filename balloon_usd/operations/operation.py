@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
 from balloon_usd.language.names import Name, Text
-from balloon_usd.language.quantities import Length, length_entry
+from balloon_usd.language.quantities import Length, length_entry, written_length
 from balloon_usd.operations.modifiers import MODIFIERS, Entries, OnBalloon, Timed
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
+    from balloon_usd.language.quantities import LengthLike, Units
     from balloon_usd.operations.caution import Caution
     from balloon_usd.operations.score import Layout, Score
     from balloon_usd.operations.workbench import Place, Workbench
@@ -28,6 +29,8 @@ class Operation(Entries):
     """Key in the recipe."""
     example: ClassVar[str]
     """A whole short recipe with it."""
+    sources: ClassVar[tuple[str, ...]]
+    """Books and pages that describe it."""
     bubble_kind: ClassVar[BubbleKind | None] = None
     """Of the bubbles that it makes."""
     closes: ClassVar[bool] = False
@@ -69,6 +72,14 @@ class Operation(Entries):
         return self.model_dump(include={self.word})[self.word]
 
     @classmethod
+    def value_of(cls, units: Units, /, *what: Any, **keys: Any) -> object:
+        """Return its value as it stands in a file with these units, from the arguments of a call in Python.
+
+        Each operation has arguments of its own; lengths among them are in m.
+        """
+        raise NotImplementedError
+
+    @classmethod
     def makes(cls, value: object) -> tuple[str, ...]:
         """Return the bubbles that it makes, as far as its value in a file can be read."""
         return ()
@@ -104,6 +115,13 @@ class TwistsOff(OnBalloon, Timed, Operation):
     def entry(self, units: str | None) -> object:
         """Return its value as it stands in a file."""
         return {name: length_entry(length, units) for name, length in self.lengths.items()}
+
+    @classmethod
+    def value_of(
+        cls, units: Units, lengths: Mapping[str, LengthLike] | None = None, /, **more: LengthLike
+    ) -> object:
+        """Return its value as it stands in a file."""
+        return {name: written_length(length, units) for name, length in {**(lengths or {}), **more}.items()}
 
     @classmethod
     def makes(cls, value: object) -> tuple[str, ...]:

@@ -9,6 +9,7 @@ from balloon_usd.operations.modifiers import OnBalloon, Timed
 from balloon_usd.operations.operation import BubbleKind, Operation
 
 if TYPE_CHECKING:
+    from balloon_usd.language.quantities import Units
     from balloon_usd.operations.workbench import Place, Workbench
 
 
@@ -19,17 +20,23 @@ class Rest(OnBalloon, Timed, Operation):
     bubble_kind: ClassVar[BubbleKind | None] = "rest"
     example: ClassVar[str] = """\
 format: 1
-name: worm
+name: magnifier
 units: cm
 balloons:
-  main: {size: 260, color: brown, tail: 10}
+  main: {size: 260, color: red, length: 16, tail: 5}
 steps:
-  - bubbles: {head: 6}
-  - rest: body
+  - loop: {glass: 25}
+  - rest: handle
 """
+    sources: ClassVar[tuple[str, ...]] = ("Kosaka 2008, fig. 2.4: the tail of the dog is what is left",)
 
     rest: Name
     """Name what is left of the balloon: nothing more is made of it."""
+
+    @classmethod
+    def value_of(cls, units: Units, /, name: str) -> object:
+        """Return its value as it stands in a file."""
+        return name
 
     @property
     def names(self) -> tuple[str, ...]:

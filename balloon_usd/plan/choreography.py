@@ -31,7 +31,7 @@ def choreograph(recipe: Recipe, strips: Mapping[str, Strip], table: RingTable) -
     """Return the timeline of hand moves that make a recipe.
 
     Raises:
-        RecipeError: a lock asks for the tip of a balloon, or a finger pushes beyond a bubble, with its place
+        RecipeError: a lock asks for the tip of a balloon, or a finger presses beyond a bubble, with its place
             in the file.
     """
     score = Score(LaidOut(strips, table), recipe.problem, recipe.physics.traits.starts_blown_up)

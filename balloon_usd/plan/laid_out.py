@@ -48,16 +48,21 @@ class LaidOut:
         self._bubbles = {b.name: _Placed(strip, b) for strip in strips.values() for b in strip.bubbles}
 
     def ring(self, index: int) -> PlannedRing:
+        """Return a ring by its number, in order along the balloons."""
         return self._table.rings[index]
 
     def bubble(self, name: str) -> _Placed:
+        """Return a bubble."""
         return self._bubbles[name]
 
     def joint(self, end: Joint) -> int | None:
+        """Return the ring of a bubble's end, None for the tip, which has none."""
         return self._table.joint(end)
 
     def ends(self, bubble: str) -> tuple[int, int | None]:
+        """Return the rings of a bubble's start and end."""
         return self._table.ends(bubble)
 
     def guides(self, bubble: str) -> tuple[int, ...]:
+        """Return the guide rings inside a bubble, from its start to its end."""
         return self._table.guides(bubble)

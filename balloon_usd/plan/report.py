@@ -6,7 +6,7 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from balloon_usd.language.lengths import at_least, at_most, cm
-from balloon_usd.operations.lock import Lock
+from balloon_usd.operations.workpiece import Joined
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -115,10 +115,10 @@ def _graph_lines(plan: Plan) -> Iterator[str]:
     graph = plan.graph
     strokes = "one balloon" if graph.one_stroke else f"{graph.fewest_balloons} balloons"
     yield f"{ring_line(graph)}; {strokes} could make it"
-    for index, step in enumerate(plan.recipe.steps):
-        if isinstance(step, Lock):
-            meeting = graph.joint_of(step.ends[0])
-            yield f"  step {index + 1} locks {', '.join(map(str, step.ends))} (joint {meeting.index})"
+    for event in plan.recipe.piece.history:
+        if isinstance(event, Joined) and not plan.recipe.steps[event.step].closes:
+            what = f"{plan.recipe.steps[event.step].word}s {', '.join(map(str, event.ends))}"
+            yield f"  step {event.step + 1} {what} (joint {graph.joint_of(event.ends[0]).index})"
     yield from joint_lines(graph)
 
 
@@ -158,6 +158,7 @@ def plan_json(plan: Plan) -> dict[str, Any]:
         "balloons": [_balloon_json(strip, plan.budgets.get(name)) for name, strip in plan.strips.items()],
         "graph": graph_json(plan.graph, winds=plan.recipe.physics.traits.winds),
         "cautions": [asdict(caution) for caution in plan.cautions],
+        "notices": [asdict(notice) for notice in plan.recipe.notices],
     }
 
 

@@ -17,7 +17,7 @@ from pydantic import (
 
 from balloon_usd.language.marks import Marks
 from balloon_usd.language.names import Name, Text
-from balloon_usd.language.problem import Complaint, Path, Problem, RecipeError, path_text, quoted
+from balloon_usd.language.problem import Complaint, Notice, Path, Problem, RecipeError, path_text, quoted
 from balloon_usd.language.quantities import METRES, Between, Reading, Units
 from balloon_usd.language.yaml_reader import Document, read_yaml
 from balloon_usd.operations.table import Step
@@ -28,6 +28,7 @@ from .meaning import meaning_of
 from .physics import Physics
 from .recipe_file import FilePath, read_recipe_file
 from .translation import validation_complaints
+from .upgrades import upgraded
 from .writer import recipe_entries, recipe_text
 
 FRAMES_PER_SECOND = 24.0
@@ -39,6 +40,7 @@ class _Origin:
 
     marks: Marks = field(default_factory=lambda: Marks("<python>"))
     text: str | None = None
+    notices: tuple[Notice, ...] = ()
 
 
 def _format(value: object) -> object:
@@ -87,12 +89,12 @@ class Recipe(BaseModel):
 
     @classmethod
     def parse(cls, text: str, file: str = "<text>") -> Self:
-        """Read a recipe from YAML text; `file` is how messages call it.
+        """Read a recipe from YAML text; `file` is how messages call it. See `notices` for older words in it.
 
         Raises:
             RecipeError: with all problems of the text.
         """
-        document = read_yaml(text, file)
+        document, notices = upgraded(read_yaml(text, file))
         complaints = list(document.complaints)
         try:
             recipe = cls.model_validate(document.data, context=Reading(_units_in(document.data)))
@@ -103,7 +105,7 @@ class Recipe(BaseModel):
         complaints += meaning.complaints
         if recipe is None or complaints:
             raise RecipeError(document.marks.problems(_without_echoes(complaints, document)))
-        recipe._origin, recipe._piece = _Origin(document.marks, text), meaning.piece
+        recipe._origin, recipe._piece = _Origin(document.marks, text, notices), meaning.piece
         return recipe
 
     @model_validator(mode="after")
@@ -125,6 +127,11 @@ class Recipe(BaseModel):
     def file(self) -> str:
         """Name of the file it was read from."""
         return self._origin.marks.file
+
+    @property
+    def notices(self) -> tuple[Notice, ...]:
+        """What its writer should know though nothing is wrong, such as words that have new names."""
+        return self._origin.notices
 
     @property
     def sha256(self) -> str:

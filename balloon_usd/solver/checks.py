@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from balloon_usd.balloon.rubber import BURST_STRETCH
-from balloon_usd.solver.kernels.physics.contact import HITS
+from balloon_usd.solver.kernels.arrays.rows import HITS
 from balloon_usd.solver.remedy import steadier
 from balloon_usd.solver.scene import NO_LIMIT
 

@@ -130,14 +130,18 @@ def segment_arrays(scene: FlatBodies, host: Arrays) -> None:
 
 
 def chunk_arrays(scene: FlatBodies, host: Arrays) -> None:
-    """Chunks: runs of at most 32 quads of one segment, the work of a warp."""
+    """Chunks: runs of at most 32 quads of one segment, the work of a warp; and where sculptures begin."""
     host["chunk_quad"], host["segment_chunk"] = chunks_of(host["segment_quad"], host["segment_quad_end"])
     host["chunk_origin"] = np.repeat(host["segment_origin"], np.diff(host["segment_chunk"]))
-    host["world_quad"], host["world_vertex"] = (
-        scene.by_world(scene.quad_start),
-        scene.by_world(scene.vertex_start),
-    )
-    host["world_chunk"] = scene.by_world(host["segment_chunk"][scene.segment_start])
+    for name, starts in (
+        ("balloon", np.arange(len(scene.bodies) + 1)),
+        ("vertex", scene.vertex_start),
+        ("quad", scene.quad_start),
+        ("chunk", host["segment_chunk"][scene.segment_start]),
+        ("segment", scene.segment_start),
+        ("joint", scene.joint_start),
+    ):
+        host[f"world_{name}"] = scene.by_world(starts)
 
 
 def chunks_of(

@@ -21,8 +21,8 @@ VOLUME_BLOCK = 64
 
 
 class Launcher:
-    """Launches kernels on a scene: each argument's name is an array or a value of the scene, or one that
-    changes from launch to launch.
+    """Launches kernels on a scene: each argument is a struct of its arrays, or by its name an array, a value,
+    or one that changes from launch to launch.
     """
 
     def __init__(self, scene: Scene, values: dict[str, Any]) -> None:
@@ -101,4 +101,7 @@ class Launcher:
 
     def _inputs(self, kernel: Any, changing: dict[str, Any]) -> list[Any]:
         values, arrays = self.values | changing, self.scene.arrays
-        return [values[a.label] if a.label in values else arrays[a.label] for a in kernel.adj.args]
+        return [
+            values[a.label] if a.label in values else arrays.argument(a.label, a.type)
+            for a in kernel.adj.args
+        ]

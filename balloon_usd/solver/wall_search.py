@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from balloon_usd.solver.kernels.device.warp_reduce import WARP
 from balloon_usd.solver.kernels.physics.contact import (
@@ -27,16 +27,16 @@ class WallSearch:
         launcher.launch(find_own_walls, len(launcher.scene.x), lanes=WARP)
         launcher.load(chunk_surface, ring_radii, find_walls, order_hits, lanes=WARP)
 
-    def measure_quads(self, x: Any) -> None:
-        """Measure the quads at positions `x` (V,)."""
+    def measure_quads(self) -> None:
+        """Measure the quads where they are."""
         chunks = len(self._launcher.scene.chunk_low)
-        self._launcher.launch_tiled(chunk_surface, chunks, lanes=WARP, x=x)
+        self._launcher.launch_tiled(chunk_surface, chunks, lanes=WARP)
 
-    def find(self, x: Any) -> None:
-        """Find the walls that face each other at positions `x` (V,), once the quads are measured."""
+    def find(self) -> None:
+        """Find the walls that face each other, once the quads are measured."""
         s, launcher = self._launcher.scene, self._launcher
         s.pair_count.zero_()
         s.pressed_count.zero_()
-        launcher.launch_tiled(ring_radii, len(s.ring_first), lanes=WARP, x=x)
-        launcher.launch_tiled(find_walls, -(-len(s.x) // launcher.lanes(WARP)), lanes=WARP, x=x)
+        launcher.launch_tiled(ring_radii, len(s.ring_first), lanes=WARP)
+        launcher.launch_tiled(find_walls, -(-len(s.x) // launcher.lanes(WARP)), lanes=WARP)
         launcher.launch(order_hits, len(s.quads), lanes=WARP)

@@ -11,10 +11,10 @@ import warp as wp
 
 from balloon_usd.balloon.capsule_mesh import capsule_mesh
 from balloon_usd.solver.corners import corner_table
-from balloon_usd.solver.kernels.kosaka.drift import Drift
+from balloon_usd.solver.kernels.arrays.rows import Constants, Drift
+from balloon_usd.solver.kernels.arrays.table import STRUCTS
 from balloon_usd.solver.kernels.kosaka.neighbours import LANES
 from balloon_usd.solver.kernels.kosaka.offset_regions import WIDER, WIDER_OUTSIDE
-from balloon_usd.solver.kernels.kosaka.springs import Constants
 from balloon_usd.solver.kosaka.net import edges_of, net_of
 from tests.solver import kosaka_reference as thesis
 
@@ -108,15 +108,25 @@ def launch(kernel: Any, device: str, dim: int, **values: Any) -> dict[str, np.nd
     Arrays that are not given are full of zeros: what the thesis does not have is switched off.
     """
     rows = max(len(value) for value in values.values() if isinstance(value, (list, np.ndarray)))
-    given, arrays = [], {}
+    given: list[Any] = []
+    arrays: dict[str, Any] = {}
+
+    def array(name: str, kind: Any) -> Any:
+        if name not in arrays:
+            given = values.get(name)
+            empty = wp.zeros((rows, 2)[: kind.ndim], dtype=kind.dtype, device=device)
+            arrays[name] = empty if given is None else wp.array(given, dtype=kind.dtype, device=device)
+        return arrays[name]
+
     for argument in kernel.adj.args:
-        value, kind = values.get(argument.label), argument.type
-        if isinstance(value, (list, np.ndarray)):
-            arrays[argument.label] = value = wp.array(value, dtype=kind.dtype, device=device)
-        elif value is None:
-            shape = (rows, 2)[: kind.ndim]
-            arrays[argument.label] = value = wp.zeros(shape, dtype=kind.dtype, device=device)
-        given.append(value)
+        name, kind = argument.label, argument.type
+        if kind in STRUCTS.values():
+            struct = kind()
+            for member, field in kind.vars.items():
+                setattr(struct, member, array(member, field.type))
+            given.append(struct)
+        else:
+            given.append(array(name, kind) if hasattr(kind, "ndim") else values[name])
     if _by_lanes(kernel):
         wp.launch_tiled(kernel, dim=[dim], inputs=given, block_dim=LANES, device=device)
     else:

@@ -2,22 +2,12 @@
 
 import warp as wp
 
+from balloon_usd.solver.kernels.arrays.shared import Balloons, Checks, Mesh, State
 from balloon_usd.solver.kernels.physics.suspects import check_vertex
 
 
 @wp.kernel
-def check_vertices(
-    vertex_balloon: wp.array[int],
-    balloon_world: wp.array[int],
-    travel_limit: float,
-    stretch_limit: wp.array[float],
-    x: wp.array[wp.vec3],
-    stretch: wp.array[float],
-    x_checked: wp.array[wp.vec3],
-    suspects: wp.array[int],
-):
+def check_vertices(travel_limit: float, mesh: Mesh, balloons: Balloons, checks: Checks, state: State):
     """Mark the sculptures in which something may be wrong."""
     i = wp.tid()
-    check_vertex(
-        i, stretch[i], vertex_balloon, balloon_world, travel_limit, stretch_limit, x, x_checked, suspects
-    )
+    check_vertex(i, checks.stretch[i], travel_limit, mesh, balloons, checks, state)

@@ -16,6 +16,7 @@ from balloon_usd.solver.checks import BatchCheck, SculptureCheck, stretch_limits
 from balloon_usd.solver.errors import SimulationFailed
 from balloon_usd.solver.frame import Frame
 from balloon_usd.solver.frame_arrays import Extent, FrameArrays, Place
+from balloon_usd.solver.kernels.arrays.shared import Balloons, Checks, Mesh, State
 from balloon_usd.solver.remedy import steadier
 from tests.solver.suspect_kernels import check_vertices
 
@@ -192,12 +193,15 @@ class Looks:
     def causes(self, frames):
         """What is wrong with each sculpture."""
         arrays, worlds = arrays_of(frames), np.arange(len(frames), dtype=np.int32)
-        suspects = wp.zeros(len(frames), dtype=int, device="cpu")
-        limits = travel_limit(1.0 / 24.0), wp.array(self.most, dtype=float, device="cpu")
-        walls = wp.array(arrays.points, dtype=wp.vec3, device="cpu"), wp.array(arrays.stretch, device="cpu")
-        given = [self.balloon, wp.array(worlds, device="cpu"), *limits, *walls, self.shown, suspects]
+        mesh, balloons, checks, state = Mesh(), Balloons(), Checks(), State()
+        mesh.vertex_balloon, balloons.balloon_world = self.balloon, wp.array(worlds, device="cpu")
+        checks.stretch, checks.x_checked = wp.array(arrays.stretch, device="cpu"), self.shown
+        checks.stretch_limit = wp.array(self.most, dtype=float, device="cpu")
+        checks.suspects = wp.zeros(len(frames), dtype=int, device="cpu")
+        state.x = wp.array(arrays.points, dtype=wp.vec3, device="cpu")
+        given = [travel_limit(1.0 / 24.0), mesh, balloons, checks, state]
         wp.launch(check_vertices, len(arrays.points), inputs=given, device="cpu")
-        found = self.checks.suspicious(arrays, suspects.numpy())
+        found = self.checks.suspicious(arrays, checks.suspects.numpy())
         return [self.checks.failure(k) if k in found else None for k in range(len(frames))]
 
 

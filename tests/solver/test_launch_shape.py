@@ -10,9 +10,9 @@ from balloon_usd.plan import plan
 from balloon_usd.recipe import Recipe
 from balloon_usd.solver.flatten import chunks_of
 from balloon_usd.solver.kernels.device.coherent_load import SINGLE_BLOCK_LANES
-from balloon_usd.solver.kernels.device.shared_memory import RESIDENT_LANES
 from balloon_usd.solver.kernels.physics.sculpture import advance_sculptures
 from balloon_usd.solver.latex.kernel_variants import kernel_variant, shared_memory_bytes
+from balloon_usd.solver.latex.launch_shape import RESIDENT_LANES
 from balloon_usd.solver.simulation import simulate_many
 
 HEAD = """
@@ -25,7 +25,7 @@ steps:
   - bubbles: {nose: 3, left_ear: 4, right_ear: 4}
   - lock: [left_ear, right_ear]
     point: up
-  - push: {bubble: nose, depth: 0.3}
+  - press: {bubble: nose, depth: 0.3}
     seconds: 0.3
   - rest: tail
 physics: {hold: 0.1}
@@ -54,7 +54,7 @@ def performed(device, *, copies=1, blocks=None, alone=None):
 def kernel_on(device, lanes):
     """The kernel for blocks of so many lanes; on a CPU there is but one."""
     return (
-        kernel_variant(lanes, shared_memory_bytes(device), cores=False)
+        kernel_variant(lanes, shared_memory_bytes(device) if lanes == RESIDENT_LANES else 0, cores=False)
         if device.is_cuda
         else advance_sculptures
     )

@@ -10,9 +10,10 @@ from balloon_usd.balloon.detail import detail_named
 from balloon_usd.balloon.rubber import rubber_named
 from balloon_usd.balloon.sizes import size_named
 from balloon_usd.balloon.tube_mesh import tube_mesh
+from balloon_usd.solver.kernels.arrays.latex import Chambers, Forces, Rubber
+from balloon_usd.solver.kernels.arrays.shared import Mesh, State
 from balloon_usd.solver.kernels.physics.membrane import wall_of_quad
 from balloon_usd.solver.kernels.physics.membrane_simd import SIMD_QUADS, walls_simd
-from balloon_usd.solver.kernels.physics.rubber import CurveSegment, Law
 from balloon_usd.solver.latex.body import tube_body
 from balloon_usd.solver.latex.scene import build_scene
 from balloon_usd.solver.settings import SceneSettings
@@ -23,86 +24,19 @@ WRITTEN = ("corner_force", "volume_gradient", "peak_energy", "chunk_share")
 
 
 @wp.kernel
-def one_by_one(
-    quads: wp.array[wp.vec4i],
-    quad_law: wp.array[int],
-    chunk_quad: wp.array[int],
-    chunk_origin: wp.array[int],
-    rest_inverse: wp.array[wp.mat22],
-    hourglass: wp.array[wp.vec4],
-    rubber_volume: wp.array[float],
-    laws: wp.array[Law],
-    curves: wp.array[CurveSegment],
-    x: wp.array[wp.vec3],
-    v: wp.array[wp.vec3],
-    softening_rate: wp.array[float],
-    peak_energy: wp.array[float],
-    corner_force: wp.array2d[float],
-    volume_gradient: wp.array2d[float],
-    chunk_share: wp.array[float],
-):
+def one_by_one(mesh: Mesh, rubber: Rubber, chambers: Chambers, forces: Forces, state: State):
     """Write what each quad of a chunk gets alone."""
     c = wp.tid()
-    for q in range(chunk_quad[c], chunk_quad[c + 1]):
-        chunk_share[c] = chunk_share[c] + wall_of_quad(
-            q,
-            quads,
-            quad_law,
-            rest_inverse,
-            hourglass,
-            rubber_volume,
-            laws,
-            curves,
-            x,
-            v,
-            x[chunk_origin[c]],
-            softening_rate,
-            peak_energy,
-            corner_force,
-            volume_gradient,
+    for q in range(mesh.chunk_quad[c], mesh.chunk_quad[c + 1]):
+        chambers.chunk_share[c] = chambers.chunk_share[c] + wall_of_quad(
+            q, state.x[mesh.chunk_origin[c]], mesh, rubber, forces, state
         )
 
 
 @wp.kernel
-def abreast(
-    quads: wp.array[wp.vec4i],
-    quad_law: wp.array[int],
-    chunk_quad: wp.array[int],
-    chunk_origin: wp.array[int],
-    rest_inverse: wp.array[wp.mat22],
-    hourglass: wp.array[wp.vec4],
-    rubber_volume: wp.array[float],
-    laws: wp.array[Law],
-    curves: wp.array[CurveSegment],
-    x: wp.array[wp.vec3],
-    v: wp.array[wp.vec3],
-    softening_rate: wp.array[float],
-    peak_energy: wp.array[float],
-    corner_force: wp.array2d[float],
-    volume_gradient: wp.array2d[float],
-    chunk_share: wp.array[float],
-):
+def abreast(mesh: Mesh, rubber: Rubber, chambers: Chambers, forces: Forces, state: State):
     """Write what they get side by side."""
-    walls_simd(
-        0,
-        chunk_share.shape[0],
-        quads,
-        quad_law,
-        chunk_quad,
-        chunk_origin,
-        rest_inverse,
-        hourglass,
-        rubber_volume,
-        laws,
-        curves,
-        x,
-        v,
-        softening_rate,
-        peak_energy,
-        corner_force,
-        volume_gradient,
-        chunk_share,
-    )
+    walls_simd(0, chambers.chunk_share.shape[0], mesh, rubber, chambers, forces, state)
 
 
 def scene():
@@ -122,9 +56,10 @@ def scene():
 def written(kernel, starts):
     """What a kernel writes for chunks that begin at some quads, the last of which is the end of the last."""
     made = scene()
-    made.put({"chunk_quad": np.int32(starts), "chunk_origin": np.zeros(len(starts) - 1, np.int32)})
-    made.zeros("chunk_share", len(starts) - 1, float)
-    inputs = [made.arrays[a.label] for a in kernel.adj.args]
+    made.arrays["chunk_quad"] = wp.array(starts, dtype=int, device="cpu")
+    made.arrays["chunk_origin"] = wp.zeros(len(starts) - 1, dtype=int, device="cpu")
+    made.arrays["chunk_share"] = wp.zeros(len(starts) - 1, dtype=float, device="cpu")
+    inputs = [made.arrays.struct(a.type) for a in kernel.adj.args]
     wp.launch(kernel, dim=1 if kernel is abreast else len(starts) - 1, inputs=inputs, device="cpu")
     return {name: made.arrays[name].numpy() for name in WRITTEN}
 

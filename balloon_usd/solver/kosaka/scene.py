@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import warp as wp
 
-from balloon_usd.solver.kernels.kosaka.drift import Drift
-from balloon_usd.solver.kernels.kosaka.neighbours import LANES
-from balloon_usd.solver.kernels.kosaka.springs import Constants
+from balloon_usd.solver.kernels.arrays.kosaka import Faces, Net, Particles
+from balloon_usd.solver.kernels.arrays.rows import Constants
 from balloon_usd.solver.kosaka.parameters import FASTEST_AIR, MARGIN
 from balloon_usd.solver.scene import Scene, lay_meshes
 
@@ -60,10 +59,11 @@ def kosaka_scene(
     host: Arrays = {}
     _net_arrays(scene, host)
     _air_arrays(scene, host)
-    scene.put(host)
+    _set_sizes(scene)
+    scene.arrays.put(host)
     constants = [_constants(b, settings.dt) for b in bodies]
     scene.arrays["constants"] = wp.array(constants, dtype=Constants, device=device)
-    _scratch_arrays(scene)
+    scene.arrays.zero_others(Faces, Net, Particles)
     return scene
 
 
@@ -118,36 +118,10 @@ def _constants(body: KosakaBody, dt: float) -> Constants:
     return constants
 
 
-def _scratch_arrays(scene: KosakaScene) -> None:
-    vertices, quads = int(scene.vertex_start[-1]), int(scene.quad_start[-1])
-    particles, worlds = int(scene.air_start[-1]), max(scene.worlds) + 1
-    for name, count in (
-        ("spring_pull", vertices),
-        ("air_pull", vertices),
-        ("face_normal", 2 * quads),
-        ("face_angles", 2 * quads),
-        ("face_push", 2 * quads),
-        ("air_speed", particles),
-        ("air_push", particles),
-        ("wall_push", particles),
-    ):
-        scene.zeros(name, count, wp.vec3)
-    scene.zeros("drifts", int(scene.segment_start[-1]), Drift)
-    scene.zeros("fastest", 1, float)
-    scene.zeros("face_hits", 2 * quads, float)
-    scene.zeros("cluster_pressure", int(scene.segment_start[-1]), float)
-    for name, shape in (
-        ("neighbour_count", (particles, LANES)),
-        ("face_air_count", (quads, LANES)),
-        ("air_face_count", (particles, LANES)),
-        ("repairs", particles),
-        ("most_near", worlds),
-    ):
-        scene.zeros(name, shape, int)
+def _set_sizes(scene: KosakaScene) -> None:
+    """Set how many particles there are and how long the lists of what may touch are."""
     kind = scene.device.partition(":")[0]
-    for name, count, capacity in (
-        ("neighbours", particles, NEIGHBOURS),
-        ("face_air", quads, FACE_AIR),
-        ("air_faces", particles, AIR_FACES),
-    ):
-        scene.zeros(name, (count, capacity[kind]), int)
+    scene.arrays.set_size("particles", int(scene.air_start[-1]))
+    scene.arrays.set_size("slots for neighbours", NEIGHBOURS[kind])
+    scene.arrays.set_size("slots for particles", FACE_AIR[kind])
+    scene.arrays.set_size("slots for faces", AIR_FACES[kind])

@@ -151,10 +151,10 @@ class KosakaStepper:
         """Rebuild the lists of particles, triangles and walls that may touch before the next search."""
         s = self.scene
         self._launch(face_surface, len(s.face_normal))
-        self._walls.measure_quads(s.x)
+        self._walls.measure_quads()
         self._grid.build(s.quad_middle, s.quad_world)
         if contact:
-            self._walls.find(s.x)
+            self._walls.find()
         self._launch_lanes(near_faces, len(s.air))
         self._grid.build(s.air, s.air_world)
         self._launch_lanes(near_air, len(s.air))

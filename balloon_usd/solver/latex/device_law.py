@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from balloon_usd.solver.kernels.physics.rubber import Law
+from balloon_usd.solver.kernels.arrays.rows import Law
 from balloon_usd.solver.latex.membrane_data import step_viscosity
 
 if TYPE_CHECKING:

@@ -11,9 +11,10 @@ import numpy as np
 import warp as wp
 
 from balloon_usd.solver.kernels.device.coherent_load import SINGLE_BLOCK_LANES
-from balloon_usd.solver.kernels.device.shared_memory import QUAD_BYTES, RESIDENT_LANES, VERTEX_BYTES
+from balloon_usd.solver.kernels.device.shared_memory import QUAD_BYTES, VERTEX_BYTES
 from balloon_usd.solver.kernels.device.warp_reduce import HALF_WARP, WARP
 from balloon_usd.solver.kernels.physics.sculpture import advance_sculptures
+from balloon_usd.solver.kernels.physics.work_sharing import Launch
 from balloon_usd.solver.latex.kernel_variants import BLOCKS_PER_SM, kernel_variant, shared_memory_bytes
 
 if TYPE_CHECKING:
@@ -25,6 +26,8 @@ LANES = 160
 """Threads of a block that shares its sculpture with others: few, so that each has much of its SM, and as many
 as let the blocks of a figure in full detail have an SM each.
 """
+RESIDENT_LANES = 512
+"""Threads of a block whose sculpture is resident in shared memory."""
 
 
 class SculptureLaunch:
@@ -33,46 +36,38 @@ class SculptureLaunch:
     def __init__(self, scene: LatexScene) -> None:
         """Share out a device; a GPU in as many blocks a sculpture as fill it and are resident at once."""
         self.scene = scene
-        worlds = max(scene.worlds) + 1
-        scene.zeros("chunk_share", len(scene.chunk_low), float)
-        for name, starts in (
-            ("balloon", np.arange(len(scene.bodies) + 1)),
-            ("segment", scene.segment_start),
-            ("joint", scene.joint_start),
-        ):
-            scene.put({f"world_{name}": scene.by_world(starts)})
         self._most_vertices = int(np.diff(scene.world_vertex.numpy()).max())
         device = wp.get_device(scene.device)
-        self.blocks, self.lanes = self._shape(device) if device.is_cuda else (1, 1)
+        self.blocks, self.lanes, resident = self._shape(device) if device.is_cuda else (1, 1, False)
         self._kernel = advance_sculptures
         if device.is_cuda:
-            cores = any(body.packs for body in scene.bodies)
             around = int(scene.joint_around.numpy().max())
-            joint = HALF_WARP if around <= HALF_WARP else WARP
-            self._kernel = kernel_variant(self.lanes, shared_memory_bytes(device), cores=cores, joint=joint)
-        scene.zeros("barrier_counts", worlds, int)
+            self._kernel = kernel_variant(
+                self.lanes,
+                shared_memory_bytes(device) if resident else 0,
+                cores=any(body.packs for body in scene.bodies),
+                joint_lanes=HALF_WARP if around <= HALF_WARP else WARP,
+            )
 
     def advance(
         self, launcher: Launcher, substeps: int, begin: int, end: int, *, contact: bool, fingers: bool
     ) -> None:
         """Advance from one substep of a frame of so many to another."""
         worlds = max(self.scene.worlds) + 1
+        launch = Launch()
+        launch.sculpture_blocks = self.blocks
+        launch.joint_blocks = self._blocks_without_vertices() or self.blocks
+        launch.substeps, launch.begin, launch.end = substeps, begin, end
+        launch.walls, launch.pressing = int(contact), int(fingers)
+        launch.dt = self.scene.settings.dt
+        launch.frame_seconds = launch.dt * substeps
         self.scene.barrier_counts.zero_()
-        launcher.launch_tiled(
-            self._kernel,
-            worlds * self.blocks,
-            lanes=self.lanes,
-            sculpture_blocks=self.blocks,
-            joint_blocks=self._blocks_without_vertices() or self.blocks,
-            substeps=substeps,
-            begin=begin,
-            end=end,
-            walls=int(contact),
-            pressing=int(fingers),
-        )
+        launcher.launch_tiled(self._kernel, worlds * self.blocks, lanes=self.lanes, launch=launch)
 
-    def _shape(self, device: wp.Device) -> tuple[int, int]:
-        """Return how many blocks of how many threads each sculpture gets of a GPU."""
+    def _shape(self, device: wp.Device) -> tuple[int, int, bool]:
+        """Return how many blocks of how many threads each sculpture gets of a GPU, and whether it is resident
+        in shared memory.
+        """
         vertices, quads, chunks = (
             np.diff(self.scene.arrays[f"world_{name}"].numpy()) for name in ("vertex", "quad", "chunk")
         )
@@ -84,8 +79,8 @@ class SculptureLaunch:
         blocks = max(1, min(-(-need // LANES), at_once))
         size = 2 * int((VERTEX_BYTES * vertices + QUAD_BYTES * quads).max())
         if blocks <= BLOCKS_PER_SM and size <= shared_memory_bytes(device):
-            return 1, RESIDENT_LANES
-        return blocks, LANES if blocks > 1 else SINGLE_BLOCK_LANES
+            return 1, RESIDENT_LANES, True
+        return blocks, LANES if blocks > 1 else SINGLE_BLOCK_LANES, False
 
     def _blocks_without_vertices(self) -> int:
         """Return how many blocks of a sculpture need not move any vertex but those of joints."""

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from balloon_usd.solver.checks import travel_limit
 from balloon_usd.solver.kernels.device.warp_reduce import WARP
 from balloon_usd.solver.kernels.physics.gas import segment_volumes
@@ -46,11 +48,12 @@ class Stepper:
         self._launcher.launch_tiled(measure_rings, len(s.joint_first), lanes=WARP)
         self._volumes()
         volume = s.volume.numpy().astype(float)
-        amount = (s.start_gauge.numpy() + s.settings.atmosphere) * volume / float(s.air.molar_energy)
+        gauge = np.concatenate([b.gauge for b in s.bodies]).astype(np.float32)
+        amount = (gauge + s.settings.atmosphere) * volume / float(s.air.molar_energy)
         for k, body in enumerate(s.bodies):
             amount[[s.segment_start[k] + i for i in body.vented]] = 0.0
         s.amount.assign(amount)
-        s.pressure.assign(s.start_gauge)
+        s.pressure.assign(gauge)
 
     def advance(self, *, contact: bool, fingers: bool = False) -> None:
         """Advance by one frame, with or without walls that can touch and fingers that press."""
@@ -78,8 +81,8 @@ class Stepper:
         stride = self._search_every if contact else self.substeps
         for begin in range(0, self.substeps, stride):
             if contact:
-                self._search.measure_quads(self.scene.x)
-                self._search.find(self.scene.x)
+                self._search.measure_quads()
+                self._search.find()
             end = min(begin + stride, self.substeps)
             self._sculptures.advance(
                 self._launcher, self.substeps, begin, end, contact=contact, fingers=fingers

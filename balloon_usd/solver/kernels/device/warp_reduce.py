@@ -158,14 +158,6 @@ def bit_of_rank(bits: int, rank: int):
     return lowest_bit(left)
 
 
-@wp.func
-def joint_lanes():
-    """Return how many lanes move a joint: a warp; a variant of the kernel for coarse meshes returns half a
-    warp.
-    """
-    return WARP_LANES
-
-
 @native("return WP_TILE_BLOCK_DIM;")
 def block_lanes() -> int:
     """Return the block size as a compile-time constant, which `wp.block_dim()` is not."""

@@ -2,8 +2,9 @@
 
 import warp as wp
 
-from balloon_usd.solver.kernels.kosaka.drift import Drift, drift_at, gain_at, kept_in
-from balloon_usd.solver.kernels.kosaka.springs import Constants
+from balloon_usd.solver.kernels.arrays.kosaka import Faces, Net, Particles
+from balloon_usd.solver.kernels.arrays.rows import Constants
+from balloon_usd.solver.kernels.kosaka.drift import drift_at, gain_at, kept_in
 
 NEAREST = wp.constant(1.0e-6)
 """Distance below which two particles count as this far apart (m): the weight has a pole."""
@@ -48,25 +49,24 @@ def repel_air(
 
 
 @wp.kernel
-def move_air(
-    air_balloon: wp.array[int],
-    constants: wp.array[Constants],
-    air_cluster: wp.array[int],
-    dt: float,
-    drifts: wp.array[Drift],
-    air_push: wp.array[wp.vec3],
-    wall_push: wp.array[wp.vec3],
-    air: wp.array[wp.vec3],
-    air_speed: wp.array[wp.vec3],
-):
+def move_air(dt: float, net: Net, particles: Particles, faces: Faces):
     """Move every particle by symplectic Euler (Kosaka 2008, eqs. 3.20 and 3.21), its speed limited."""
     a = wp.tid()
-    law = constants[air_balloon[a]]
-    drift = drifts[air_cluster[a]]
-    against = air_speed[a] - drift_at(drift, air[a])
-    u = air_speed[a] + (air_push[a] + wall_push[a] - law.drag * against + gain_at(drift, air[a])) * dt
+    law = net.constants[particles.air_balloon[a]]
+    drift = faces.drifts[particles.air_cluster[a]]
+    against = particles.air_speed[a] - drift_at(drift, particles.air[a])
+    u = (
+        particles.air_speed[a]
+        + (
+            particles.air_push[a]
+            + particles.wall_push[a]
+            - law.drag * against
+            + gain_at(drift, particles.air[a])
+        )
+        * dt
+    )
     size = wp.length(u)
     if size > law.air_speed:
         u = u * (law.air_speed / size)
-    air[a] = kept_in(air[a] + u * dt, drift)
-    air_speed[a] = u
+    particles.air[a] = kept_in(particles.air[a] + u * dt, drift)
+    particles.air_speed[a] = u

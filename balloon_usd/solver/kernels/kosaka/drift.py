@@ -4,31 +4,9 @@ air and wall along by its joints.
 
 import warp as wp
 
-
-@wp.struct
-class Drift:
-    """The motion of one cluster: that of its ends, and evenly from one to the other between them."""
-
-    start: wp.vec3
-    """m"""
-    end: wp.vec3
-    """m"""
-    start_speed: wp.vec3
-    """m/s"""
-    end_speed: wp.vec3
-    """m/s"""
-    start_inward: wp.vec3
-    """Unit direction from a frozen joint at its start into the bubble; 0 where there is none."""
-    end_inward: wp.vec3
-    """The same of its end."""
-    neck: float
-    """Radius of its necks, m."""
-    start_gain: wp.vec3
-    """m/s2"""
-    end_gain: wp.vec3
-    """m/s2"""
-    joints: wp.vec2i
-    """Its frozen joints; -1 for none."""
+from balloon_usd.solver.kernels.arrays.kosaka import Faces, Net
+from balloon_usd.solver.kernels.arrays.rows import Drift
+from balloon_usd.solver.kernels.arrays.shared import Joints, Mesh, State
 
 
 @wp.func
@@ -87,19 +65,7 @@ def ring_mean(x: wp.array[wp.vec3], first: int, around: int):
 
 
 @wp.kernel
-def cluster_drift(
-    start_joint: wp.array[int],
-    end_joint: wp.array[int],
-    joint_first: wp.array[int],
-    joint_around: wp.array[int],
-    joint_neck: wp.array[float],
-    frozen: wp.array[int],
-    ring_middle: wp.array[wp.vec3],
-    ring_velocity: wp.array[wp.vec3],
-    x: wp.array[wp.vec3],
-    interval: float,
-    drifts: wp.array[Drift],
-):
+def cluster_drift(interval: float, mesh: Mesh, net: Net, joints: Joints, faces: Faces, state: State):
     """Write how every cluster drifts: with its frozen joints, or not at all if it has none; and where these
     keep its air in.
 
@@ -107,34 +73,36 @@ def cluster_drift(
     """
     s = wp.tid()
     last = int(s)
-    while end_joint[last] >= 0 and frozen[wp.max(end_joint[last], 0)] == 0:
+    while mesh.end_joint[last] >= 0 and net.frozen[wp.max(mesh.end_joint[last], 0)] == 0:
         last += 1
-    first_joint = start_joint[s]
-    last_joint = end_joint[last]
+    first_joint = mesh.start_joint[s]
+    last_joint = mesh.end_joint[last]
     drift = Drift()
     drift.joints = wp.vec2i(-1, last_joint)
     if last_joint >= 0:
-        drift.end = ring_middle[last_joint]
-        drift.end_speed = ring_velocity[last_joint]
+        drift.end = joints.ring_middle[last_joint]
+        drift.end_speed = joints.ring_velocity[last_joint]
         drift.start_speed = drift.end_speed
-        n = joint_around[last_joint]
-        drift.end_inward = wp.normalize(ring_mean(x, joint_first[last_joint] - n, n) - drift.end)
-        drift.neck = joint_neck[last_joint]
+        n = joints.joint_around[last_joint]
+        drift.end_inward = wp.normalize(ring_mean(state.x, joints.joint_first[last_joint] - n, n) - drift.end)
+        drift.neck = net.joint_neck[last_joint]
     if first_joint >= 0:
-        if frozen[first_joint] == 1:
+        if net.frozen[first_joint] == 1:
             drift.joints[0] = first_joint
-            drift.start = ring_middle[first_joint]
-            drift.start_speed = ring_velocity[first_joint]
-            m = joint_around[first_joint]
-            drift.start_inward = wp.normalize(ring_mean(x, joint_first[first_joint] + m, m) - drift.start)
-            drift.neck = joint_neck[first_joint]
+            drift.start = joints.ring_middle[first_joint]
+            drift.start_speed = joints.ring_velocity[first_joint]
+            m = joints.joint_around[first_joint]
+            drift.start_inward = wp.normalize(
+                ring_mean(state.x, joints.joint_first[first_joint] + m, m) - drift.start
+            )
+            drift.neck = net.joint_neck[first_joint]
             if last_joint < 0:
                 drift.end_speed = drift.start_speed
-    before = drifts[s]
+    before = faces.drifts[s]
     if before.joints[0] == drift.joints[0] and before.joints[1] == drift.joints[1]:
         drift.start_gain = (drift.start_speed - before.start_speed) / interval
         drift.end_gain = (drift.end_speed - before.end_speed) / interval
-    drifts[s] = drift
+    faces.drifts[s] = drift
 
 
 @wp.kernel

@@ -7,6 +7,9 @@ block has one lane, which queries all.
 
 import warp as wp
 
+from balloon_usd.solver.kernels.arrays.kosaka import Faces, Net, Particles
+from balloon_usd.solver.kernels.arrays.shared import Balloons, Contacts, Mesh, State
+from balloon_usd.solver.kernels.device.warp_reduce import WARP
 from balloon_usd.solver.kernels.kosaka.offset_regions import (
     FLAT,
     WIDER_OUTSIDE,
@@ -16,9 +19,8 @@ from balloon_usd.solver.kernels.kosaka.offset_regions import (
     shares,
     triangle,
 )
-from balloon_usd.solver.kernels.kosaka.springs import Constants
 
-LANES = 32
+LANES = WARP
 """Lanes of a block on a GPU."""
 
 
@@ -85,122 +87,102 @@ def may_meet(
 
 
 @wp.kernel
-def near_air(
-    grid: wp.uint64,
-    air_balloon: wp.array[int],
-    balloon_world: wp.array[int],
-    constants: wp.array[Constants],
-    air_cluster: wp.array[int],
-    margin: float,
-    air: wp.array[wp.vec3],
-    neighbour_count: wp.array2d[int],
-    neighbours: wp.array2d[int],
-    most_near: wp.array[int],
-):
+def near_air(grid: wp.uint64, margin: float, balloons: Balloons, net: Net, particles: Particles):
     """List the particles of the same cluster within reach of every particle."""
     a, lane = wp.tid()
-    here = air[a]
-    world = balloon_world[air_balloon[a]]
-    reach = constants[air_balloon[a]].re + margin
+    here = particles.air[a]
+    world = balloons.balloon_world[particles.air_balloon[a]]
+    reach = net.constants[particles.air_balloon[a]].re + margin
     boxes = boxes_for(wp.block_dim())
-    capacity = neighbours.shape[1] // wp.block_dim()
+    capacity = particles.neighbours.shape[1] // wp.block_dim()
     count = int(0)
     if lane < boxes * boxes * boxes:
         middle = here + box_middle(lane, boxes, reach)
         query = wp.hash_grid_query(grid, middle, reach / float(boxes), world)
         b = int(0)
         while wp.hash_grid_query_next(query, b):
-            d = air[b] - here
-            if b != a and wp.length_sq(d) < reach * reach and air_cluster[b] == air_cluster[a]:
+            d = particles.air[b] - here
+            if (
+                b != a
+                and wp.length_sq(d) < reach * reach
+                and particles.air_cluster[b] == particles.air_cluster[a]
+            ):
                 if box_of(d, boxes, reach) == lane:
                     if count < capacity:
-                        neighbours[a, lane * capacity + count] = b
+                        particles.neighbours[a, lane * capacity + count] = b
                     count += 1
     if count > capacity:
-        wp.atomic_max(most_near, world, count * wp.block_dim())
-    neighbour_count[a, lane] = wp.min(count, capacity)
+        wp.atomic_max(particles.most_near, world, count * wp.block_dim())
+    particles.neighbour_count[a, lane] = wp.min(count, capacity)
 
 
 @wp.kernel
 def near_faces(
     grid: wp.uint64,
-    quads: wp.array[wp.vec4i],
-    quad_cluster: wp.array[int],
-    air_balloon: wp.array[int],
-    balloon_world: wp.array[int],
-    constants: wp.array[Constants],
-    air_cluster: wp.array[int],
     margin: float,
     quad_half: float,
-    x: wp.array[wp.vec3],
-    face_normal: wp.array[wp.vec3],
-    quad_middle: wp.array[wp.vec3],
-    air: wp.array[wp.vec3],
-    air_face_count: wp.array2d[int],
-    air_faces: wp.array2d[int],
-    most_near: wp.array[int],
+    mesh: Mesh,
+    balloons: Balloons,
+    net: Net,
+    contacts: Contacts,
+    particles: Particles,
+    faces: Faces,
+    state: State,
 ):
     """List the triangles of the same cluster whose offset regions every particle may enter.
 
     `quad_half`: largest distance (m) of a quad's corner from its middle.
     """
     p, lane = wp.tid()
-    here = air[p]
-    law = constants[air_balloon[p]]
-    world = balloon_world[air_balloon[p]]
+    here = particles.air[p]
+    law = net.constants[particles.air_balloon[p]]
+    world = balloons.balloon_world[particles.air_balloon[p]]
     wider = (1.0 + 3.0 * WIDER_OUTSIDE) * quad_half + margin
     deep = wp.max(law.air_offset, law.leak_offset) + margin
     reach = wp.sqrt(deep * deep + wider * wider)
     boxes = boxes_for(wp.block_dim())
-    capacity = air_faces.shape[1] // wp.block_dim()
+    capacity = particles.air_faces.shape[1] // wp.block_dim()
     count = int(0)
     if lane < boxes * boxes * boxes:
         middle = here + box_middle(lane, boxes, reach)
         query = wp.hash_grid_query(grid, middle, reach / float(boxes), world)
         q = int(0)
         while wp.hash_grid_query_next(query, q):
-            d = quad_middle[q] - here
-            if wp.length_sq(d) < reach * reach and quad_cluster[q] == air_cluster[p]:
+            d = contacts.quad_middle[q] - here
+            if wp.length_sq(d) < reach * reach and faces.quad_cluster[q] == particles.air_cluster[p]:
                 if box_of(d, boxes, reach) == lane:
                     for half in range(2):
                         t = 2 * q + half
-                        f = triangle(quads, t)
+                        f = triangle(mesh.quads, t)
                         if may_meet(
                             here,
-                            face_normal[t],
-                            x[f[0]],
-                            x[f[1]],
-                            x[f[2]],
+                            faces.face_normal[t],
+                            state.x[f[0]],
+                            state.x[f[1]],
+                            state.x[f[2]],
                             law.air_offset,
                             law.leak_offset,
                             margin,
                         ):
                             if count < capacity:
-                                air_faces[p, lane * capacity + count] = t
+                                particles.air_faces[p, lane * capacity + count] = t
                             count += 1
     if count > capacity:
-        wp.atomic_max(most_near, world, count * wp.block_dim())
-    air_face_count[p, lane] = wp.min(count, capacity)
+        wp.atomic_max(particles.most_near, world, count * wp.block_dim())
+    particles.air_face_count[p, lane] = wp.min(count, capacity)
 
 
 @wp.kernel
 def near_faces_air(
     grid: wp.uint64,
-    quads: wp.array[wp.vec4i],
-    quad_balloon: wp.array[int],
-    quad_world: wp.array[int],
-    quad_cluster: wp.array[int],
-    constants: wp.array[Constants],
-    air_cluster: wp.array[int],
     margin: float,
     quad_half: float,
-    x: wp.array[wp.vec3],
-    face_normal: wp.array[wp.vec3],
-    quad_middle: wp.array[wp.vec3],
-    air: wp.array[wp.vec3],
-    face_air_count: wp.array2d[int],
-    face_air: wp.array2d[int],
-    most_near: wp.array[int],
+    mesh: Mesh,
+    net: Net,
+    contacts: Contacts,
+    particles: Particles,
+    faces: Faces,
+    state: State,
 ):
     """List the particles of the same cluster that may enter the inner offset regions of every quad's
     triangles.
@@ -208,35 +190,49 @@ def near_faces_air(
     `quad_half`: largest distance (m) of a quad's corner from its middle.
     """
     q, lane = wp.tid()
-    c = quads[q]
-    law = constants[quad_balloon[q]]
+    c = mesh.quads[q]
+    law = net.constants[mesh.quad_balloon[q]]
     wider = (1.0 + 3.0 * WIDER_OUTSIDE) * quad_half + margin
     # Bounding ball of the inner region.
     half = 0.5 * law.air_offset + margin
-    normal = wp.normalize(wp.cross(x[c[2]] - x[c[0]], x[c[3]] - x[c[1]]))
-    here = quad_middle[q] - (0.5 * law.air_offset) * normal
+    normal = wp.normalize(wp.cross(state.x[c[2]] - state.x[c[0]], state.x[c[3]] - state.x[c[1]]))
+    here = contacts.quad_middle[q] - (0.5 * law.air_offset) * normal
     reach = wp.sqrt(half * half + wider * wider)
     boxes = boxes_for(wp.block_dim())
-    capacity = face_air.shape[1] // wp.block_dim()
+    capacity = faces.face_air.shape[1] // wp.block_dim()
     count = int(0)
     if lane < boxes * boxes * boxes:
         middle = here + box_middle(lane, boxes, reach)
-        query = wp.hash_grid_query(grid, middle, reach / float(boxes), quad_world[q])
+        query = wp.hash_grid_query(grid, middle, reach / float(boxes), mesh.quad_world[q])
         p = int(0)
         while wp.hash_grid_query_next(query, p):
-            d = air[p] - here
-            if wp.length_sq(d) < reach * reach and air_cluster[p] == quad_cluster[q]:
+            d = particles.air[p] - here
+            if wp.length_sq(d) < reach * reach and particles.air_cluster[p] == faces.quad_cluster[q]:
                 if box_of(d, boxes, reach) == lane:
                     first = may_meet(
-                        air[p], face_normal[2 * q], x[c[0]], x[c[1]], x[c[2]], law.air_offset, 0.0, margin
+                        particles.air[p],
+                        faces.face_normal[2 * q],
+                        state.x[c[0]],
+                        state.x[c[1]],
+                        state.x[c[2]],
+                        law.air_offset,
+                        0.0,
+                        margin,
                     )
                     second = may_meet(
-                        air[p], face_normal[2 * q + 1], x[c[0]], x[c[2]], x[c[3]], law.air_offset, 0.0, margin
+                        particles.air[p],
+                        faces.face_normal[2 * q + 1],
+                        state.x[c[0]],
+                        state.x[c[2]],
+                        state.x[c[3]],
+                        law.air_offset,
+                        0.0,
+                        margin,
                     )
                     if first or second:
                         if count < capacity:
-                            face_air[q, lane * capacity + count] = p
+                            faces.face_air[q, lane * capacity + count] = p
                         count += 1
     if count > capacity:
-        wp.atomic_max(most_near, quad_world[q], count * wp.block_dim())
-    face_air_count[q, lane] = wp.min(count, capacity)
+        wp.atomic_max(particles.most_near, mesh.quad_world[q], count * wp.block_dim())
+    faces.face_air_count[q, lane] = wp.min(count, capacity)

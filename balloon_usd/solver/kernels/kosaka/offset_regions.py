@@ -6,7 +6,9 @@ Every quad is two triangles: triangle 2 q has its corners 0, 1, 2, and 2 q + 1 i
 
 import warp as wp
 
-from balloon_usd.solver.kernels.kosaka.springs import Constants
+from balloon_usd.solver.kernels.arrays.kosaka import Faces, Net, Particles
+from balloon_usd.solver.kernels.arrays.rows import Constants
+from balloon_usd.solver.kernels.arrays.shared import Mesh, State
 
 REACHES_OVER = 0.5
 WIDER = wp.constant(REACHES_OVER)
@@ -125,45 +127,32 @@ def push_shares(p: wp.vec3, normal: wp.vec3, a: wp.vec3, b: wp.vec3, c: wp.vec3,
 
 
 @wp.kernel
-def press_faces(
-    quads: wp.array[wp.vec4i],
-    quad_balloon: wp.array[int],
-    quad_cluster: wp.array[int],
-    constants: wp.array[Constants],
-    face_air_count: wp.array2d[int],
-    face_air: wp.array2d[int],
-    air_cluster: wp.array[int],
-    x: wp.array[wp.vec3],
-    face_normal: wp.array[wp.vec3],
-    air: wp.array[wp.vec3],
-    face_push: wp.array[wp.vec3],
-    face_hits: wp.array[float],
-):
+def press_faces(mesh: Mesh, net: Net, particles: Particles, faces: Faces, state: State):
     """Write how much all air pushes on the three vertices of every triangle along its normal, in units of the
     push (Kosaka 2008, eqs. 3.7 to 3.10), and add up how many particles do.
     """
     q, lane = wp.tid()
-    c = quads[q]
-    x0 = x[c[0]]
-    x1 = x[c[1]]
-    x2 = x[c[2]]
-    x3 = x[c[3]]
-    law = constants[quad_balloon[q]]
+    c = mesh.quads[q]
+    x0 = state.x[c[0]]
+    x1 = state.x[c[1]]
+    x2 = state.x[c[2]]
+    x3 = state.x[c[3]]
+    law = net.constants[mesh.quad_balloon[q]]
     first = wp.vec4(0.0)
     second = wp.vec4(0.0)
-    begin = lane * (face_air.shape[1] // wp.block_dim())
-    for k in range(begin, begin + face_air_count[q, lane]):
-        p = face_air[q, k]
-        if air_cluster[p] == quad_cluster[q]:
-            first += push_shares(air[p], face_normal[2 * q], x0, x1, x2, law)
-            second += push_shares(air[p], face_normal[2 * q + 1], x0, x2, x3, law)
+    begin = lane * (faces.face_air.shape[1] // wp.block_dim())
+    for k in range(begin, begin + faces.face_air_count[q, lane]):
+        p = faces.face_air[q, k]
+        if particles.air_cluster[p] == faces.quad_cluster[q]:
+            first += push_shares(particles.air[p], faces.face_normal[2 * q], x0, x1, x2, law)
+            second += push_shares(particles.air[p], faces.face_normal[2 * q + 1], x0, x2, x3, law)
     f = wp.tile_sum(wp.tile(first, preserve_type=True))[0]
     s = wp.tile_sum(wp.tile(second, preserve_type=True))[0]
     if lane == 0:
-        face_push[2 * q] = wp.vec3(f[0], f[1], f[2])
-        face_push[2 * q + 1] = wp.vec3(s[0], s[1], s[2])
-        face_hits[2 * q] = face_hits[2 * q] + f[3]
-        face_hits[2 * q + 1] = face_hits[2 * q + 1] + s[3]
+        faces.face_push[2 * q] = wp.vec3(f[0], f[1], f[2])
+        faces.face_push[2 * q + 1] = wp.vec3(s[0], s[1], s[2])
+        faces.face_hits[2 * q] = faces.face_hits[2 * q] + f[3]
+        faces.face_hits[2 * q + 1] = faces.face_hits[2 * q + 1] + s[3]
 
 
 @wp.func
@@ -209,42 +198,28 @@ def press_vertices(
 
 
 @wp.kernel
-def press_air(
-    quads: wp.array[wp.vec4i],
-    quad_cluster: wp.array[int],
-    air_balloon: wp.array[int],
-    constants: wp.array[Constants],
-    air_face_count: wp.array2d[int],
-    air_faces: wp.array2d[int],
-    air_cluster: wp.array[int],
-    x: wp.array[wp.vec3],
-    face_normal: wp.array[wp.vec3],
-    air: wp.array[wp.vec3],
-    air_speed: wp.array[wp.vec3],
-    wall_push: wp.array[wp.vec3],
-    repairs: wp.array[int],
-):
+def press_air(mesh: Mesh, net: Net, particles: Particles, faces: Faces, state: State):
     """Write the push D_a (m/s2) of the rubber on every particle (Kosaka 2008, eqs. 3.12 and 3.17) and bring
     leaked ones back, their velocity reset (eqs. 3.13 and 3.18).
 
     A particle has leaked when of all triangles in whose regions it is the nearest is in its back.
     """
     p, lane = wp.tid()
-    law = constants[air_balloon[p]]
-    here = air[p]
+    law = net.constants[particles.air_balloon[p]]
+    here = particles.air[p]
     total = wp.vec3(0.0)
     nearest = float(UNSEEN)
     face = int(-1)
-    begin = lane * (air_faces.shape[1] // wp.block_dim())
-    for k in range(begin, begin + air_face_count[p, lane]):
-        t = air_faces[p, k]
-        if quad_cluster[t // 2] == air_cluster[p]:
-            f = triangle(quads, t)
-            normal = face_normal[t]
-            a = x[f[0]]
+    begin = lane * (particles.air_faces.shape[1] // wp.block_dim())
+    for k in range(begin, begin + particles.air_face_count[p, lane]):
+        t = particles.air_faces[p, k]
+        if faces.quad_cluster[t // 2] == particles.air_cluster[p]:
+            f = triangle(mesh.quads, t)
+            normal = faces.face_normal[t]
+            a = state.x[f[0]]
             d = plane_distance(here, a, normal)
             if d > -law.air_offset and d < law.leak_offset:
-                beside = least(shares(onto_plane(here, a, normal), a, x[f[1]], x[f[2]]))
+                beside = least(shares(onto_plane(here, a, normal), a, state.x[f[1]], state.x[f[2]]))
                 if beside > wp.where(d < 0.0, -WIDER, -WIDER_OUTSIDE):
                     if d < 0.0:
                         total -= (law.beta * grade(-d / law.air_offset, beside, law.grading)) * normal
@@ -257,24 +232,15 @@ def press_air(
     # Ties go to the lowest lane.
     chosen = wp.tile_min(wp.tile(wp.where(nearest == least_far, lane, wp.block_dim())))[0]
     if lane == chosen:
-        wall_push[p] = push
+        particles.wall_push[p] = push
         if face >= 0:
-            air[p] = here - law.gamma * face_normal[face]
-            air_speed[p] = wp.vec3(0.0)
-            repairs[p] = repairs[p] + 1
+            particles.air[p] = here - law.gamma * faces.face_normal[face]
+            particles.air_speed[p] = wp.vec3(0.0)
+            particles.repairs[p] = particles.repairs[p] + 1
 
 
 @wp.kernel
-def cluster_pressures(
-    quads: wp.array[wp.vec4i],
-    quad_balloon: wp.array[int],
-    quad_cluster: wp.array[int],
-    pressure_per_hit: wp.array[float],
-    substeps: float,
-    x: wp.array[wp.vec3],
-    face_hits: wp.array[float],
-    cluster_pressure: wp.array[float],
-):
+def cluster_pressures(substeps: float, mesh: Mesh, faces: Faces, state: State):
     """Write the gauge pressure (Pa) of every cluster from what pushed on its wall during a frame.
 
     `pressure_per_hit`: Pa that one particle per wall area (1/m2) stands for, of every balloon.
@@ -283,14 +249,14 @@ def cluster_pressures(
     hits = float(0.0)
     area = float(0.0)
     unit = float(0.0)
-    for q in range(lane, quads.shape[0], wp.block_dim()):
-        if quad_cluster[q] == s:
-            c = quads[q]
-            hits += face_hits[2 * q] + face_hits[2 * q + 1]
-            area += 0.5 * wp.length(wp.cross(x[c[2]] - x[c[0]], x[c[3]] - x[c[1]]))
-            unit = wp.max(unit, pressure_per_hit[quad_balloon[q]])
+    for q in range(lane, mesh.quads.shape[0], wp.block_dim()):
+        if faces.quad_cluster[q] == s:
+            c = mesh.quads[q]
+            hits += faces.face_hits[2 * q] + faces.face_hits[2 * q + 1]
+            area += 0.5 * wp.length(wp.cross(state.x[c[2]] - state.x[c[0]], state.x[c[3]] - state.x[c[1]]))
+            unit = wp.max(unit, faces.pressure_per_hit[mesh.quad_balloon[q]])
     all_hits = wp.tile_sum(wp.tile(hits))[0]
     all_area = wp.tile_sum(wp.tile(area))[0]
     pressure = wp.tile_max(wp.tile(unit))[0]
     if lane == 0:
-        cluster_pressure[s] = pressure * all_hits / (substeps * wp.max(all_area, FLAT))
+        faces.cluster_pressure[s] = pressure * all_hits / (substeps * wp.max(all_area, FLAT))

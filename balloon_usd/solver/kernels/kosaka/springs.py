@@ -2,49 +2,12 @@
 
 import warp as wp
 
+from balloon_usd.solver.kernels.arrays.kosaka import Net
+from balloon_usd.solver.kernels.arrays.shared import Balloons, Checks, Hands, Mesh, State
 from balloon_usd.solver.kernels.physics.suspects import check_vertex
 
 SHORTEST = wp.constant(1.0e-9)
 """Length below which a spring has no direction (m)."""
-
-
-@wp.struct
-class Constants:
-    """Constants of springs and air particles of one balloon; forces are accelerations, as of unit mass."""
-
-    ks: float
-    """Stiffness of the springs, 1/s2 (eq. 3.1)."""
-    kd: float
-    """Damping of the springs, 1/s (eq. 3.1)."""
-    alpha: float
-    """Repulsion of air particles, 1/s2 (eq. 3.4)."""
-    beta: float
-    """Push of the rubber on an air particle, m/s2 (eq. 3.12)."""
-    push: float
-    """Push of an air particle on the rubber, m/s2: the unit of eq. 3.10."""
-    gamma: float
-    """How far a leaked air particle is moved back, m (eq. 3.13)."""
-    re: float
-    """Reach of the repulsion, m (eq. 3.3)."""
-    air_offset: float
-    """Thickness of the inner offset region, for air and rubber, m."""
-    contact_offset: float
-    """Thickness of the offset region for rubber and rubber, m."""
-    leak_offset: float
-    """Thickness of the outer offset region, for leaked air, m."""
-    calming: float
-    """Damping of what the two ends of a spring move across it, 1/s; not in the thesis."""
-    grading: float
-    """How far the push of eqs. 3.10 and 3.12 fades with depth: 0 not at all, as in the thesis, 1 to nothing.
-    """
-    drag: float
-    """Drag on air, 1/s; not in the thesis."""
-    force_limit: float
-    """Largest external force, m/s2."""
-    elongation_limit: float
-    """Largest elongation of a spring, in natural lengths."""
-    air_speed: float
-    """Largest speed of an air particle, m/s: it must not outrun the search."""
 
 
 @wp.func
@@ -70,26 +33,20 @@ def calming_force(x1: wp.vec3, x2: wp.vec3, v1: wp.vec3, v2: wp.vec3, calming: f
 
 
 @wp.kernel
-def pull_springs(
-    spring_ends: wp.array[wp.vec4i],
-    vertex_balloon: wp.array[int],
-    constants: wp.array[Constants],
-    natural: wp.array[wp.vec4],
-    x: wp.array[wp.vec3],
-    v: wp.array[wp.vec3],
-    spring_pull: wp.array[wp.vec3],
-):
+def pull_springs(mesh: Mesh, net: Net, state: State):
     """Write the force (m/s2) of all springs on every vertex (Kosaka 2008, eq. 3.19)."""
     i = wp.tid()
-    law = constants[vertex_balloon[i]]
-    ends = spring_ends[i]
-    lengths = natural[i]
+    law = net.constants[mesh.vertex_balloon[i]]
+    ends = net.spring_ends[i]
+    lengths = net.natural[i]
     total = wp.vec3(0.0)
     for k in range(4):
         if ends[k] >= 0:
-            total += spring_force(x[ends[k]], x[i], v[ends[k]], v[i], lengths[k], law.ks, law.kd)
-            total += calming_force(x[ends[k]], x[i], v[ends[k]], v[i], law.calming)
-    spring_pull[i] = total
+            total += spring_force(
+                state.x[ends[k]], state.x[i], state.v[ends[k]], state.v[i], lengths[k], law.ks, law.kd
+            )
+            total += calming_force(state.x[ends[k]], state.x[i], state.v[ends[k]], state.v[i], law.calming)
+    net.spring_pull[i] = total
 
 
 HALF_EACH = wp.constant(0.4)
@@ -98,30 +55,27 @@ HALF_EACH = wp.constant(0.4)
 
 @wp.kernel
 def limit_elongation(
-    spring_ends: wp.array[wp.vec4i],
-    vertex_joint: wp.array[int],
-    vertex_balloon: wp.array[int],
-    constants: wp.array[Constants],
-    natural: wp.array[wp.vec4],
     dt: float,
-    radius_to: wp.array[float],
     x: wp.array[wp.vec3],
-    v: wp.array[wp.vec3],
     x_next: wp.array[wp.vec3],
+    mesh: Mesh,
+    net: Net,
+    hands: Hands,
+    state: State,
 ):
     """Draw together the ends of springs that are longer than allowed, so that a sudden force cannot tear
     the net (Kosaka 2008, 3.1); both ends move alike, but for those that a hand closes or that are frozen.
     """
     i = wp.tid()
     p = x[i]
-    j = vertex_joint[i]
+    j = mesh.vertex_joint[i]
     if j >= 0:
-        if radius_to[j] > 0.0:
+        if hands.radius_to[j] > 0.0:
             x_next[i] = p
             return
-    most = 1.0 + constants[vertex_balloon[i]].elongation_limit
-    ends = spring_ends[i]
-    lengths = natural[i]
+    most = 1.0 + net.constants[mesh.vertex_balloon[i]].elongation_limit
+    ends = net.spring_ends[i]
+    lengths = net.natural[i]
     shift = wp.vec3(0.0)
     for k in range(4):
         if ends[k] >= 0:
@@ -130,35 +84,26 @@ def limit_elongation(
             excess = size - most * lengths[k]
             if excess > 0.0:
                 share = HALF_EACH
-                other = vertex_joint[ends[k]]
+                other = mesh.vertex_joint[ends[k]]
                 if other >= 0:
                     # The other end does not give way.
-                    share = wp.where(radius_to[other] > 0.0, 1.0, HALF_EACH)
+                    share = wp.where(hands.radius_to[other] > 0.0, 1.0, HALF_EACH)
                 shift += (share * excess / wp.max(size, SHORTEST)) * d
     x_next[i] = p + shift
-    v[i] = v[i] + shift / dt
+    state.v[i] = state.v[i] + shift / dt
 
 
 @wp.kernel
 def spring_stretch(
-    spring_ends: wp.array[wp.vec4i],
-    natural: wp.array[wp.vec4],
-    vertex_balloon: wp.array[int],
-    balloon_world: wp.array[int],
-    travel_limit: float,
-    stretch_limit: wp.array[float],
-    x: wp.array[wp.vec3],
-    stretch: wp.array[float],
-    x_checked: wp.array[wp.vec3],
-    suspects: wp.array[int],
+    travel_limit: float, mesh: Mesh, balloons: Balloons, net: Net, checks: Checks, state: State
 ):
     """Write the largest stretch of the springs at every vertex; mark where something may be wrong."""
     i = wp.tid()
-    ends = spring_ends[i]
-    lengths = natural[i]
+    ends = net.spring_ends[i]
+    lengths = net.natural[i]
     most = float(0.0)
     for k in range(4):
         if ends[k] >= 0:
-            most = wp.max(most, wp.length(x[ends[k]] - x[i]) / lengths[k])
-    stretch[i] = most
-    check_vertex(i, most, vertex_balloon, balloon_world, travel_limit, stretch_limit, x, x_checked, suspects)
+            most = wp.max(most, wp.length(state.x[ends[k]] - state.x[i]) / lengths[k])
+    checks.stretch[i] = most
+    check_vertex(i, most, travel_limit, mesh, balloons, checks, state)

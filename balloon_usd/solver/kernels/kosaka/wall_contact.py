@@ -2,6 +2,8 @@
 
 import warp as wp
 
+from balloon_usd.solver.kernels.arrays.kosaka import Net
+from balloon_usd.solver.kernels.arrays.shared import Contacts, Hands, Mesh, State
 from balloon_usd.solver.kernels.kosaka.offset_regions import (
     WIDER,
     least,
@@ -11,7 +13,6 @@ from balloon_usd.solver.kernels.kosaka.offset_regions import (
     shares,
     triangle,
 )
-from balloon_usd.solver.kernels.kosaka.springs import Constants
 
 
 @wp.func
@@ -30,40 +31,32 @@ def onto_wall(r: wp.vec3, normal_r: wp.vec3, a: wp.vec3, b: wp.vec3, c: wp.vec3,
 
 
 @wp.kernel
-def part_walls(
-    quads: wp.array[wp.vec4i],
-    vertex_joint: wp.array[int],
-    vertex_balloon: wp.array[int],
-    constants: wp.array[Constants],
-    radius_to: wp.array[float],
-    target: wp.array2d[int],
-    normal: wp.array[wp.vec3],
-    x: wp.array[wp.vec3],
-    v: wp.array[wp.vec3],
-    x_next: wp.array[wp.vec3],
-):
+def part_walls(mesh: Mesh, net: Net, hands: Hands, contacts: Contacts, state: State):
     """Move every vertex that lies inside a wall onto it (Kosaka 2008, eq. 3.15), and take from its velocity
     what would carry it in again; only the vertex's own velocity is changed. Necks stay where hands closed
     them.
     """
     i = wp.tid()
-    j = vertex_joint[i]
+    j = mesh.vertex_joint[i]
     if j >= 0:
-        if radius_to[j] > 0.0:
-            x_next[i] = x[i]
+        if hands.radius_to[j] > 0.0:
+            state.x_next[i] = state.x[i]
             return
-    thickness = constants[vertex_balloon[i]].contact_offset
-    p = x[i]
-    u = v[i]
+    thickness = net.constants[mesh.vertex_balloon[i]].contact_offset
+    p = state.x[i]
+    u = state.v[i]
     for k in range(2):
-        q = target[i, k]
+        q = contacts.target[i, k]
         if q >= 0:
             for half in range(2):
-                f = triangle(quads, 2 * q + half)
-                there = onto_wall(p, normal[i], x[f[0]], x[f[1]], x[f[2]], thickness)
+                f = triangle(mesh.quads, 2 * q + half)
+                a = state.x[f[0]]
+                b = state.x[f[1]]
+                c = state.x[f[2]]
+                there = onto_wall(p, contacts.normal[i], a, b, c, thickness)
                 if wp.length_sq(there - p) > 0.0:
-                    face = plane_normal(x[f[0]], x[f[1]], x[f[2]])
+                    face = plane_normal(a, b, c)
                     u -= wp.min(wp.dot(u, face), 0.0) * face
                     p = there
-    x_next[i] = p
-    v[i] = u
+    state.x_next[i] = p
+    state.v[i] = u

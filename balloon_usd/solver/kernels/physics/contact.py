@@ -4,6 +4,9 @@ patches, penalty forces and Coulomb friction.
 
 import warp as wp
 
+from balloon_usd.solver.kernels.arrays.latex import Forces
+from balloon_usd.solver.kernels.arrays.rows import HITS, Touch
+from balloon_usd.solver.kernels.arrays.shared import Balloons, Contacts, Mesh, Sculptures, State
 from balloon_usd.solver.kernels.device.array_access import (
     float_at,
     int_at,
@@ -22,10 +25,6 @@ from balloon_usd.solver.kernels.device.warp_reduce import (
     warp_sum,
 )
 
-TARGETS = 2
-"""Walls that one vertex may touch at a time."""
-HITS = 24
-"""Vertices that may press on one quad at a time."""
 MOST_HITS = wp.constant(HITS)
 
 FACING = wp.constant(-0.1)
@@ -56,20 +55,6 @@ lanes.
 """
 NORMAL_DAMPING = wp.constant(0.3)
 """Damping of the approach, as a share of what would stop the vertex in one substep."""
-
-
-@wp.struct
-class Touch:
-    """How walls press on each other."""
-
-    offset: float
-    """Distance at which walls begin to press, m."""
-    pressure: float
-    """Contact pressure where the offset is used up, Pa."""
-    margin: float
-    """Further distance within which walls are watched between two searches, m."""
-    apart: float
-    """Unstressed distance within one bubble, in R0, within which its wall never meets itself."""
 
 
 @wp.kernel
@@ -219,39 +204,34 @@ def may_meet(
 
 
 @wp.kernel
-def find_own_walls(
-    quads: wp.array[wp.vec4i],
-    corners: wp.array[wp.vec4i],
-    quad_segment: wp.array[int],
-    quad_place: wp.array[wp.vec3],
-    quad_balloon: wp.array[int],
-    vertex_place: wp.array[wp.vec3],
-    vertex_balloon: wp.array[int],
-    vertex_segment: wp.array[int],
-    balloon_radius: wp.array[float],
-    touch: Touch,
-    vertex_own: wp.array[wp.vec2i],
-):
+def find_own_walls(touch: Touch, mesh: Mesh, balloons: Balloons, contacts: Contacts):
     """Write for every vertex the first and the end of a run of quads about it that it never touches."""
     i = wp.tid()
-    mine = vertex_balloon[i]
-    bubble = vertex_segment[i]
-    place = vertex_place[i]
-    apart = touch.apart * balloon_radius[mine]
-    middle = wp.max(corners[i][0], 0) // 4
+    mine = mesh.vertex_balloon[i]
+    bubble = mesh.vertex_segment[i]
+    place = mesh.vertex_place[i]
+    apart = touch.apart * balloons.balloon_radius[mine]
+    middle = wp.max(mesh.corners[i][0], 0) // 4
     first = wp.max(middle - OWN, 0)
     begin = int(middle)
     while begin > first and not may_meet(
-        wp.max(begin - 1, first), mine, bubble, place, apart, quad_segment, quad_place, quad_balloon
+        wp.max(begin - 1, first),
+        mine,
+        bubble,
+        place,
+        apart,
+        mesh.quad_segment,
+        mesh.quad_place,
+        mesh.quad_balloon,
     ):
         begin -= 1
-    last = wp.min(middle + OWN, quads.shape[0]) - 1
+    last = wp.min(middle + OWN, mesh.quads.shape[0]) - 1
     end = int(middle)
     while end <= last and not may_meet(
-        wp.min(end, last), mine, bubble, place, apart, quad_segment, quad_place, quad_balloon
+        wp.min(end, last), mine, bubble, place, apart, mesh.quad_segment, mesh.quad_place, mesh.quad_balloon
     ):
         end += 1
-    vertex_own[i] = wp.vec2i(begin, end)
+    contacts.vertex_own[i] = wp.vec2i(begin, end)
 
 
 @wp.func
@@ -266,28 +246,23 @@ def distance_of_wall(
     n: wp.vec3,
     p: wp.vec3,
     touch: Touch,
-    quads: wp.array[wp.vec4i],
-    quad_segment: wp.array[int],
-    quad_ring: wp.array[int],
-    quad_place: wp.array[wp.vec3],
-    quad_balloon: wp.array[int],
-    x: wp.array[wp.vec3],
-    quad_area: wp.array[wp.vec3],
-    ring_radius: wp.array[float],
+    mesh: Mesh,
+    contacts: Contacts,
+    state: State,
 ):
     """Return the distance (m) of a vertex from a quad that faces it, or FAR where the two never touch.
 
     `d`: from the quad's middle to the vertex, m; `mine`, `bubble`, `place`: its balloon, bubble and place.
     """
     distance = float(FAR)
-    if may_meet(q, mine, bubble, place, apart, quad_segment, quad_place, quad_balloon):
-        a = vec3_at(quad_area, q)
+    if may_meet(q, mine, bubble, place, apart, mesh.quad_segment, mesh.quad_place, mesh.quad_balloon):
+        a = vec3_at(contacts.quad_area, q)
         size = wp.length(a)
         face = a / wp.max(size, 1.0e-12)
         height = wp.dot(d, face)
-        limit = wp.min(depth, DEPTH_LIMIT * float_at(ring_radius, int_at(quad_ring, q)))
+        limit = wp.min(depth, DEPTH_LIMIT * float_at(contacts.ring_radius, int_at(mesh.quad_ring, q)))
         if wp.dot(face, n) < FACING and height > -limit and height < touch.offset + touch.margin:
-            distance = distance_beside(q, face, SIDE_SLIP * wp.sqrt(size), p, quads, x)
+            distance = distance_beside(q, face, SIDE_SLIP * wp.sqrt(size), p, mesh.quads, state.x)
     return distance
 
 
@@ -304,39 +279,16 @@ def weigh_wall(
     n: wp.vec3,
     p: wp.vec3,
     touch: Touch,
-    quads: wp.array[wp.vec4i],
-    quad_segment: wp.array[int],
-    quad_ring: wp.array[int],
-    quad_place: wp.array[wp.vec3],
-    quad_balloon: wp.array[int],
-    x: wp.array[wp.vec3],
-    quad_middle: wp.array[wp.vec3],
-    quad_area: wp.array[wp.vec3],
-    ring_radius: wp.array[float],
+    mesh: Mesh,
+    contacts: Contacts,
+    state: State,
 ):
     """Return the distances (m) of the two nearest quads of different bubbles, and these, after one more."""
-    d = p - vec3_at(quad_middle, q)
-    distance = distance_of_wall(
-        q,
-        d,
-        mine,
-        bubble,
-        place,
-        apart,
-        depth,
-        n,
-        p,
-        touch,
-        quads,
-        quad_segment,
-        quad_ring,
-        quad_place,
-        quad_balloon,
-        x,
-        quad_area,
-        ring_radius,
+    d = p - vec3_at(contacts.quad_middle, q)
+    distance = distance_of_wall(q, d, mine, bubble, place, apart, depth, n, p, touch, mesh, contacts, state)
+    other = nearest[0] >= 0 and int_at(mesh.quad_segment, wp.max(nearest[0], 0)) != int_at(
+        mesh.quad_segment, q
     )
-    other = nearest[0] >= 0 and int_at(quad_segment, wp.max(nearest[0], 0)) != int_at(quad_segment, q)
     if distance < near[0]:
         if other:
             near = wp.vec2(distance, near[0])
@@ -365,79 +317,36 @@ def close_quads(base: int, first: int, end: int, p: wp.vec3, reach: float, quad_
 
 @wp.func
 def enter_walls(
-    i: int,
-    p: wp.vec3,
-    found: wp.vec2i,
-    before: wp.vec2i,
-    quads: wp.array[wp.vec4i],
-    quad_segment: wp.array[int],
-    x: wp.array[wp.vec3],
-    target: wp.array2d[int],
-    contact_place: wp.array[wp.vec2],
-    contact_force: wp.array2d[float],
-    slip: wp.array2d[wp.vec3],
-    hit_count: wp.array[int],
-    hits: wp.array2d[int],
+    i: int, p: wp.vec3, found: wp.vec2i, before: wp.vec2i, mesh: Mesh, contacts: Contacts, state: State
 ):
     """Enter the walls that a vertex was found to touch in their lists, with what it has slipped on those that
     it touched before.
     """
-    slip0 = slip[i, 0]
-    slip1 = slip[i, 1]
+    slip0 = contacts.slip[i, 0]
+    slip1 = contacts.slip[i, 1]
     for k in range(2):
         kept = wp.vec3(0.0)
         if found[k] >= 0:
-            if before[0] >= 0 and quad_segment[before[0]] == quad_segment[found[k]]:
+            if before[0] >= 0 and mesh.quad_segment[before[0]] == mesh.quad_segment[found[k]]:
                 kept = slip0
-            elif before[1] >= 0 and quad_segment[before[1]] == quad_segment[found[k]]:
+            elif before[1] >= 0 and mesh.quad_segment[before[1]] == mesh.quad_segment[found[k]]:
                 kept = slip1
-            c = quads[found[k]]
-            contact_place[2 * i + k] = nearest_on_patch(x[c[0]], x[c[1]], x[c[2]], x[c[3]], p)
-            slot = wp.atomic_add(hit_count, found[k], 1)
+            c = mesh.quads[found[k]]
+            contacts.contact_place[2 * i + k] = nearest_on_patch(
+                state.x[c[0]], state.x[c[1]], state.x[c[2]], state.x[c[3]], p
+            )
+            slot = wp.atomic_add(contacts.hit_count, found[k], 1)
             if slot < MOST_HITS:
-                hits[found[k], slot] = 2 * i + k
+                contacts.hits[found[k], slot] = 2 * i + k
         else:
-            store_soa(contact_force, i, k, wp.vec3(0.0))
-        target[i, k] = found[k]
-        slip[i, k] = kept
+            store_soa(contacts.contact_force, i, k, wp.vec3(0.0))
+        contacts.target[i, k] = found[k]
+        contacts.slip[i, k] = kept
 
 
 @wp.kernel
 def find_walls(
-    world_chunk: wp.array[int],
-    world_vertex: wp.array[int],
-    chunk_quad: wp.array[int],
-    quads: wp.array[wp.vec4i],
-    corners: wp.array[wp.vec4i],
-    quad_segment: wp.array[int],
-    quad_ring: wp.array[int],
-    quad_place: wp.array[wp.vec3],
-    quad_balloon: wp.array[int],
-    vertex_ring: wp.array[int],
-    vertex_place: wp.array[wp.vec3],
-    vertex_balloon: wp.array[int],
-    vertex_segment: wp.array[int],
-    vertex_own: wp.array[wp.vec2i],
-    balloon_world: wp.array[int],
-    balloon_radius: wp.array[float],
-    touching: wp.array[int],
-    touch: Touch,
-    x: wp.array[wp.vec3],
-    quad_middle: wp.array[wp.vec3],
-    quad_area: wp.array[wp.vec3],
-    chunk_low: wp.array[wp.vec3],
-    chunk_high: wp.array[wp.vec3],
-    ring_radius: wp.array[float],
-    normal: wp.array[wp.vec3],
-    area: wp.array[float],
-    target: wp.array2d[int],
-    contact_place: wp.array[wp.vec2],
-    contact_force: wp.array2d[float],
-    slip: wp.array2d[wp.vec3],
-    hit_count: wp.array[int],
-    hits: wp.array2d[int],
-    pair_count: wp.array[int],
-    pairs: wp.array[int],
+    touch: Touch, sculptures: Sculptures, mesh: Mesh, balloons: Balloons, contacts: Contacts, state: State
 ):
     """Choose for every vertex the nearest facing quads, of different bubbles, and enter it in their lists;
     write its outward unit normal and its share of the wall's area (m2).
@@ -447,31 +356,31 @@ def find_walls(
     """
     group, lane = wp.tid()
     i = group * wp.block_dim() + lane
-    spare = i >= x.shape[0]
-    i = wp.min(i, x.shape[0] - 1)
-    p = x[i]
-    mine = vertex_balloon[i]
+    spare = i >= state.x.shape[0]
+    i = wp.min(i, state.x.shape[0] - 1)
+    p = state.x[i]
+    mine = mesh.vertex_balloon[i]
     # The bubble of a vertex; a ring between two bubbles belongs to neither.
-    bubble = vertex_segment[i]
-    place = vertex_place[i]
-    own = vertex_own[i]
-    apart = touch.apart * balloon_radius[mine]
-    depth = DEPTH_LIMIT * ring_radius[vertex_ring[i]]
-    world = balloon_world[mine]
-    outward, size = surface_of_vertex(i, corners, quad_area)
+    bubble = mesh.vertex_segment[i]
+    place = mesh.vertex_place[i]
+    own = contacts.vertex_own[i]
+    apart = touch.apart * balloons.balloon_radius[mine]
+    depth = DEPTH_LIMIT * contacts.ring_radius[mesh.vertex_ring[i]]
+    world = balloons.balloon_world[mine]
+    outward, size = surface_of_vertex(i, mesh.corners, contacts.quad_area)
     n = wp.normalize(outward)
-    normal[i] = n
-    area[i] = size
+    contacts.normal[i] = n
+    contacts.area[i] = size
     reach = REACH * wp.sqrt(size) + touch.offset + touch.margin
     near = wp.vec2(reach, reach)
     nearest = wp.vec2i(-1, -1)
-    first = world_chunk[world]
-    last = world_chunk[world + 1]
+    first = sculptures.world_chunk[world]
+    last = sculptures.world_chunk[world + 1]
     # Bounding box of the warp: what is within reach of any of its lanes.
     low = p - wp.vec3(ROUNDED * reach)
     high = p + wp.vec3(ROUNDED * reach)
     own_of_all = own
-    if spare or touching[mine] == 0:
+    if spare or balloons.touching[mine] == 0:
         first = NONE
         last = -NONE
         low = wp.vec3(FAR)
@@ -485,8 +394,8 @@ def find_walls(
     while begin < end:
         some = int(0)
         if begin + lane < end:
-            chunk_l = vec3_at(chunk_low, begin + lane)
-            chunk_h = vec3_at(chunk_high, begin + lane)
+            chunk_l = vec3_at(contacts.chunk_low, begin + lane)
+            chunk_h = vec3_at(contacts.chunk_high, begin + lane)
             # Broad phase: the first axis already culls most chunks.
             if chunk_l[0] < high[0] and chunk_h[0] > low[0]:
                 if (
@@ -495,26 +404,29 @@ def find_walls(
                     and chunk_l[2] < high[2]
                     and chunk_h[2] > low[2]
                 ):
-                    if own_of_all[0] > int_at(chunk_quad, begin + lane) or own_of_all[1] < int_at(
-                        chunk_quad, begin + lane + 1
+                    if own_of_all[0] > int_at(mesh.chunk_quad, begin + lane) or own_of_all[1] < int_at(
+                        mesh.chunk_quad, begin + lane + 1
                     ):
                         some = 1
         chunks = warp_ballot(some)
         while chunks != 0:
             chunk = begin + lowest_bit(chunks)
             chunks &= chunks - 1
-            base = int_at(chunk_quad, chunk)
+            base = int_at(mesh.chunk_quad, chunk)
             first_quad = int(base)
-            end_quad = int_at(chunk_quad, chunk + 1)
+            end_quad = int_at(mesh.chunk_quad, chunk + 1)
             # Trim the vertex's own neighbourhood from either end of the chunk.
             if own[0] <= base:
                 first_quad = wp.max(first_quad, own[1])
             if own[1] >= end_quad:
                 end_quad = wp.min(end_quad, own[0])
-            off = wp.max(wp.max(vec3_at(chunk_low, chunk) - p, p - vec3_at(chunk_high, chunk)), wp.vec3(0.0))
+            off = wp.max(
+                wp.max(vec3_at(contacts.chunk_low, chunk) - p, p - vec3_at(contacts.chunk_high, chunk)),
+                wp.vec3(0.0),
+            )
             close = int(0)
             if chunk >= first and chunk < last and wp.dot(off, off) < reach * reach:
-                close = close_quads(base, first_quad, end_quad, p, reach, quad_middle)
+                close = close_quads(base, first_quad, end_quad, p, reach, contacts.quad_middle)
             # Narrow phase: every lane tests one candidate a round, until no lane has any left.
             while warp_ballot(wp.where(close != 0, 1, 0)) != 0:
                 if close != 0:
@@ -530,40 +442,22 @@ def find_walls(
                         n,
                         p,
                         touch,
-                        quads,
-                        quad_segment,
-                        quad_ring,
-                        quad_place,
-                        quad_balloon,
-                        x,
-                        quad_middle,
-                        quad_area,
-                        ring_radius,
+                        mesh,
+                        contacts,
+                        state,
                     )
                     close &= close - 1
         begin += wp.block_dim()
-    before = wp.vec2i(int_in(target, i, 0), int_in(target, i, 1))
+    before = wp.vec2i(int_in(contacts.target, i, 0), int_in(contacts.target, i, 1))
     # Most vertices touch nothing, and did not before.
     if spare or (nearest[0] < 0 and before[0] < 0 and before[1] < 0):
         return
-    enter_walls(
-        i,
-        p,
-        nearest,
-        before,
-        quads,
-        quad_segment,
-        x,
-        target,
-        contact_place,
-        contact_force,
-        slip,
-        hit_count,
-        hits,
-    )
+    enter_walls(i, p, nearest, before, mesh, contacts, state)
     for k in range(2):
         if nearest[k] >= 0:
-            pairs[2 * world_vertex[world] + wp.atomic_add(pair_count, world, 1)] = 2 * i + k
+            contacts.pairs[
+                2 * sculptures.world_vertex[world] + wp.atomic_add(contacts.pair_count, world, 1)
+            ] = 2 * i + k
 
 
 @wp.kernel
@@ -597,53 +491,32 @@ def order_hits(
 
 
 @wp.func
-def limits_of_pair(
-    pair: int,
-    quads: wp.array[wp.vec4i],
-    mass: wp.array[float],
-    touch: Touch,
-    friction: wp.array[float],
-    vertex_balloon: wp.array[int],
-    dt: float,
-    area: wp.array[float],
-    quad_area: wp.array[wp.vec3],
-    target: wp.array2d[int],
-    hit_count: wp.array[int],
-):
+def limits_of_pair(pair: int, touch: Touch, dt: float, mesh: Mesh, balloons: Balloons, contacts: Contacts):
     """Return what stays constant between two searches for a vertex that touches a quad: the quad's vertices,
     the stiffness (N/m), the damping (N s/m), the friction, and how far beside the quad it is held (m).
     """
     i = pair >> 1
-    q = int_in(target, i, pair & 1)
-    c = vec4i_at(quads, q)
+    q = int_in(contacts.target, i, pair & 1)
+    c = vec4i_at(mesh.quads, q)
     lightest = wp.min(
-        float_at(mass, i),
+        float_at(mesh.mass, i),
         wp.min(
-            wp.min(float_at(mass, c[0]), float_at(mass, c[1])),
-            wp.min(float_at(mass, c[2]), float_at(mass, c[3])),
+            wp.min(float_at(mesh.mass, c[0]), float_at(mesh.mass, c[1])),
+            wp.min(float_at(mesh.mass, c[2]), float_at(mesh.mass, c[3])),
         ),
     )
-    crowd = wp.max(CROWD * float(int_at(hit_count, q)), 1.0)
+    crowd = wp.max(CROWD * float(int_at(contacts.hit_count, q)), 1.0)
     stiffness = wp.min(
-        touch.pressure * float_at(area, i) / touch.offset, STABLE * lightest / (dt * dt * crowd)
+        touch.pressure * float_at(contacts.area, i) / touch.offset, STABLE * lightest / (dt * dt * crowd)
     )
     damping = NORMAL_DAMPING * lightest / (dt * crowd)
-    beside = 2.0 * SIDE_SLIP * wp.sqrt(wp.length(vec3_at(quad_area, q)))
-    return c, wp.vec4(stiffness, damping, float_at(friction, int_at(vertex_balloon, i)), beside)
+    beside = 2.0 * SIDE_SLIP * wp.sqrt(wp.length(vec3_at(contacts.quad_area, q)))
+    return c, wp.vec4(stiffness, damping, float_at(balloons.friction, int_at(mesh.vertex_balloon, i)), beside)
 
 
 @wp.func
 def press_wall(
-    pair: int,
-    c: wp.vec4i,
-    limits: wp.vec4,
-    offset: float,
-    dt: float,
-    x: wp.array[wp.vec3],
-    v: wp.array[wp.vec3],
-    slip: wp.array2d[wp.vec3],
-    contact_force: wp.array2d[float],
-    contact_place: wp.array[wp.vec2],
+    pair: int, c: wp.vec4i, limits: wp.vec4, offset: float, dt: float, contacts: Contacts, state: State
 ):
     """Write the contact force (N) on a vertex that touches a quad, and where on the quad.
 
@@ -651,20 +524,20 @@ def press_wall(
     """
     i = pair >> 1
     k = pair & 1
-    p = coherent_vec3(x, i)
-    x0 = coherent_vec3(x, c[0])
-    x1 = coherent_vec3(x, c[1])
-    x2 = coherent_vec3(x, c[2])
-    x3 = coherent_vec3(x, c[3])
+    p = coherent_vec3(state.x, i)
+    x0 = coherent_vec3(state.x, c[0])
+    x1 = coherent_vec3(state.x, c[1])
+    x2 = coherent_vec3(state.x, c[2])
+    x3 = coherent_vec3(state.x, c[3])
     # Prefetch: loaded before the test that may not need them.
-    velocity = coherent_vec3(v, i)
-    v0 = coherent_vec3(v, c[0])
-    v1 = coherent_vec3(v, c[1])
-    v2 = coherent_vec3(v, c[2])
-    v3 = coherent_vec3(v, c[3])
-    slipped = slip[i, k]
+    velocity = coherent_vec3(state.v, i)
+    v0 = coherent_vec3(state.v, c[0])
+    v1 = coherent_vec3(state.v, c[1])
+    v2 = coherent_vec3(state.v, c[2])
+    v3 = coherent_vec3(state.v, c[3])
+    slipped = contacts.slip[i, k]
     # Warm start: it slides little in a substep, so one iteration is enough.
-    place = nearer_on_patch(x0, x1, x2, x3, p, vec2_at(contact_place, pair))
+    place = nearer_on_patch(x0, x1, x2, x3, p, vec2_at(contacts.contact_place, pair))
     s = patch_shares(place)
     gap = p - (s[0] * x0 + s[1] * x1 + s[2] * x2 + s[3] * x3)
     face = wp.normalize(wp.cross(x2 - x0, x3 - x1))
@@ -687,9 +560,9 @@ def press_wall(
         if far > hold:
             moved = moved * (hold / far)
         f = push * face - grip * moved
-    slip[i, k] = moved
-    store_soa(contact_force, i, k, f)
-    contact_place[pair] = place
+    contacts.slip[i, k] = moved
+    store_soa(contacts.contact_force, i, k, f)
+    contacts.contact_place[pair] = place
 
 
 @wp.func
@@ -704,23 +577,14 @@ def balancing_turn(r0: wp.vec3, r1: wp.vec3, r2: wp.vec3, r3: wp.vec3, couple: w
 
 
 @wp.func
-def press_quad_back(
-    q: int,
-    quads: wp.array[wp.vec4i],
-    hit_count: wp.array[int],
-    hits: wp.array2d[int],
-    contact_force: wp.array2d[float],
-    contact_place: wp.array[wp.vec2],
-    x: wp.array[wp.vec3],
-    corner_force: wp.array2d[float],
-):
+def press_quad_back(q: int, mesh: Mesh, contacts: Contacts, forces: Forces, state: State):
     """Take from the corners of a quad what the vertices that touch it felt, forces and torques."""
-    count = int_at(hit_count, q)
-    c = vec4i_at(quads, q)
-    x0 = coherent_vec3(x, c[0])
-    x1 = coherent_vec3(x, c[1])
-    x2 = coherent_vec3(x, c[2])
-    x3 = coherent_vec3(x, c[3])
+    count = int_at(contacts.hit_count, q)
+    c = vec4i_at(mesh.quads, q)
+    x0 = coherent_vec3(state.x, c[0])
+    x1 = coherent_vec3(state.x, c[1])
+    x2 = coherent_vec3(state.x, c[2])
+    x3 = coherent_vec3(state.x, c[3])
     middle = 0.25 * (x0 + x1 + x2 + x3)
     r0 = x0 - middle
     r1 = x1 - middle
@@ -732,17 +596,17 @@ def press_quad_back(
     f3 = wp.vec3(0.0)
     couple = wp.vec3(0.0)
     for k in range(count):
-        hit = int_in(hits, q, k)
-        f = load_soa(contact_force, hit // 2, hit % 2)
-        share = patch_shares(coherent_vec2(contact_place, hit))
+        hit = int_in(contacts.hits, q, k)
+        f = load_soa(contacts.contact_force, hit // 2, hit % 2)
+        share = patch_shares(coherent_vec2(contacts.contact_place, hit))
         f0 += share[0] * f
         f1 += share[1] * f
         f2 += share[2] * f
         f3 += share[3] * f
         touched = middle + share[0] * r0 + share[1] * r1 + share[2] * r2 + share[3] * r3
-        couple += wp.cross(coherent_vec3(x, hit // 2) - touched, f)
+        couple += wp.cross(coherent_vec3(state.x, hit // 2) - touched, f)
     turn = balancing_turn(r0, r1, r2, r3, couple)
-    store_soa(corner_force, q, 0, load_soa(corner_force, q, 0) - f0 - wp.cross(turn, r0))
-    store_soa(corner_force, q, 1, load_soa(corner_force, q, 1) - f1 - wp.cross(turn, r1))
-    store_soa(corner_force, q, 2, load_soa(corner_force, q, 2) - f2 - wp.cross(turn, r2))
-    store_soa(corner_force, q, 3, load_soa(corner_force, q, 3) - f3 - wp.cross(turn, r3))
+    store_soa(forces.corner_force, q, 0, load_soa(forces.corner_force, q, 0) - f0 - wp.cross(turn, r0))
+    store_soa(forces.corner_force, q, 1, load_soa(forces.corner_force, q, 1) - f1 - wp.cross(turn, r1))
+    store_soa(forces.corner_force, q, 2, load_soa(forces.corner_force, q, 2) - f2 - wp.cross(turn, r2))
+    store_soa(forces.corner_force, q, 3, load_soa(forces.corner_force, q, 3) - f3 - wp.cross(turn, r3))

@@ -4,6 +4,8 @@ nor shorter than its rubber.
 
 import warp as wp
 
+from balloon_usd.solver.kernels.arrays.latex import Cores
+from balloon_usd.solver.kernels.arrays.shared import Contacts, Mesh, State
 from balloon_usd.solver.kernels.device.array_access import float_at, int_at, put_vec3, vec2_at
 from balloon_usd.solver.kernels.device.coherent_load import coherent_vec3
 from balloon_usd.solver.kernels.device.warp_reduce import warp_sum, warp_sum3
@@ -22,12 +24,6 @@ LOOSE = wp.constant(2.0)
 
 
 @wp.func
-def cores_may_pack():
-    """Return 1; a kernel for figures without cores has a function in its place that returns 0."""
-    return 1
-
-
-@wp.func
 def thin(m: int, core_ring: wp.array[int], core_radius: wp.array[float], ring_radius: wp.array[float]):
     """Return 1 where a ring is so thin that its inside may soon meet itself."""
     if float_at(ring_radius, int_at(core_ring, m)) < THIN * float_at(core_radius, m):
@@ -36,20 +32,15 @@ def thin(m: int, core_ring: wp.array[int], core_radius: wp.array[float], ring_ra
 
 
 @wp.func
-def thin_between(
-    m: int,
-    core_ring: wp.array[int],
-    core_next: wp.array[int],
-    core_radius: wp.array[float],
-    ring_radius: wp.array[float],
-):
+def thin_between(m: int, cores: Cores, contacts: Contacts):
     """Return 1 where a ring or the next of its balloon is thin; there is no ring before the first."""
     if m < 0:
         return 0
-    if int_at(core_next, m) == 0:
+    if int_at(cores.core_next, m) == 0:
         return 0
     return wp.max(
-        thin(m, core_ring, core_radius, ring_radius), thin(m + 1, core_ring, core_radius, ring_radius)
+        thin(m, cores.core_ring, cores.core_radius, contacts.ring_radius),
+        thin(m + 1, cores.core_ring, cores.core_radius, contacts.ring_radius),
     )
 
 
@@ -107,23 +98,7 @@ def keep_order(
 
 @wp.func
 def press_core(
-    m: int,
-    lane: int,
-    lanes: int,
-    ring_first: wp.array[int],
-    ring_around: wp.array[int],
-    ring_cos_sin: wp.array[wp.vec2],
-    core_ring: wp.array[int],
-    core_next: wp.array[int],
-    core_radius: wp.array[float],
-    core_row: wp.array[float],
-    mass: wp.array[float],
-    dt: float,
-    ring_radius: wp.array[float],
-    x: wp.array[wp.vec3],
-    core_order: wp.array[wp.vec3],
-    core_push: wp.array[wp.vec3],
-    core_thrust: wp.array[wp.vec3],
+    m: int, lane: int, lanes: int, dt: float, mesh: Mesh, cores: Cores, contacts: Contacts, state: State
 ):
     """Write the forces (N) that keep the order of a ring, those of the core between it and the next ring on
     the middles between their vertices, and the force (N) on every vertex of the next that keeps them apart.
@@ -131,35 +106,46 @@ def press_core(
     The nearer two rings are, the thicker a core the rubber between them fills. Turned against each other they
     are thinnest halfway, where their wall would pass through itself after half a turn.
     """
-    mine = thin(m, core_ring, core_radius, ring_radius)
-    between = thin_between(m, core_ring, core_next, core_radius, ring_radius)
+    mine = thin(m, cores.core_ring, cores.core_radius, contacts.ring_radius)
+    between = thin_between(m, cores, contacts)
     if wp.max(mine, between) == 0:
         return
-    ring = int_at(core_ring, m)
-    n = int_at(ring_around, ring)
-    first = int_at(ring_first, ring)
-    c = ring_mean(first, n, lane, lanes, x)
-    stiffness = STIFF * float_at(mass, first) / (dt * dt)
+    ring = int_at(cores.core_ring, m)
+    n = int_at(mesh.ring_around, ring)
+    first = int_at(mesh.ring_first, ring)
+    c = ring_mean(first, n, lane, lanes, state.x)
+    stiffness = STIFF * float_at(mesh.mass, first) / (dt * dt)
     if mine == 1:
-        keep_order(first, n, c, float_at(core_radius, m), stiffness, lane, lanes, ring_cos_sin, x, core_order)
+        keep_order(
+            first,
+            n,
+            c,
+            float_at(cores.core_radius, m),
+            stiffness,
+            lane,
+            lanes,
+            mesh.ring_cos_sin,
+            state.x,
+            cores.core_order,
+        )
     if between == 1:
-        beyond = int_at(ring_first, int_at(core_ring, m + 1))
-        row = float_at(core_row, m)
-        stiffness = wp.min(stiffness, STIFF * float_at(mass, beyond) / (dt * dt))
-        d = ring_mean(beyond, n, lane, lanes, x)
+        beyond = int_at(mesh.ring_first, int_at(cores.core_ring, m + 1))
+        row = float_at(cores.core_row, m)
+        stiffness = wp.min(stiffness, STIFF * float_at(mesh.mass, beyond) / (dt * dt))
+        d = ring_mean(beyond, n, lane, lanes, state.x)
         gap = wp.max(wp.length(d - c), LEAST * row)
-        radius = float_at(core_radius, m) * wp.sqrt(row / gap)
+        radius = float_at(cores.core_radius, m) * wp.sqrt(row / gap)
         pressed = float(0.0)
         for k in range(lane, n, lanes):
-            arm = 0.5 * ((coherent_vec3(x, first + k) - c) + (coherent_vec3(x, beyond + k) - d))
+            arm = 0.5 * ((coherent_vec3(state.x, first + k) - c) + (coherent_vec3(state.x, beyond + k) - d))
             far = wp.max(wp.length(arm), 1.0e-9)
             push = stiffness * wp.max(radius - far, 0.0)
-            put_vec3(core_push, first + k, arm * (push / far))
+            put_vec3(cores.core_push, first + k, arm * (push / far))
             pressed += push
         # By the work of a core that keeps its volume: a hundredth shorter is half a hundredth thicker.
         thrust = 0.5 * radius / gap * warp_sum(pressed) / float(n)
         if lane == 0:
-            put_vec3(core_thrust, m, (thrust / gap) * (d - c))
+            put_vec3(cores.core_thrust, m, (thrust / gap) * (d - c))
 
 
 @wp.func
@@ -187,47 +173,35 @@ def force_of_cores(
 
 @wp.func
 def yield_to_core(
-    m: int,
-    lane: int,
-    lanes: int,
-    ring_first: wp.array[int],
-    ring_around: wp.array[int],
-    core_ring: wp.array[int],
-    core_next: wp.array[int],
-    core_radius: wp.array[float],
-    mass: wp.array[float],
-    dt: float,
-    ring_radius: wp.array[float],
-    core_order: wp.array[wp.vec3],
-    core_push: wp.array[wp.vec3],
-    core_thrust: wp.array[wp.vec3],
-    v: wp.array[wp.vec3],
+    m: int, lane: int, lanes: int, dt: float, mesh: Mesh, cores: Cores, contacts: Contacts, state: State
 ):
     """Add to the velocity (m/s) of a ring's vertices what the cores in it and on both sides give them.
 
     All add up to nothing and have no torque: those on a ring are along arms from its middle, less their mean,
     and the thrust of a core is along the line between two middles.
     """
-    keeps = thin(m, core_ring, core_radius, ring_radius)
-    off_next = thin_between(m, core_ring, core_next, core_radius, ring_radius)
-    off_last = thin_between(m - 1, core_ring, core_next, core_radius, ring_radius)
+    keeps = thin(m, cores.core_ring, cores.core_radius, contacts.ring_radius)
+    off_next = thin_between(m, cores, contacts)
+    off_last = thin_between(m - 1, cores, contacts)
     if keeps + off_next + off_last == 0:
         return
-    ring = int_at(core_ring, m)
-    n = int_at(ring_around, ring)
-    first = int_at(ring_first, ring)
+    ring = int_at(cores.core_ring, m)
+    n = int_at(mesh.ring_around, ring)
+    first = int_at(mesh.ring_first, ring)
     last = first
     thrust = wp.vec3(0.0)
     if off_next == 1:
-        thrust -= coherent_vec3(core_thrust, m)
+        thrust -= coherent_vec3(cores.core_thrust, m)
     if off_last == 1:
-        thrust += coherent_vec3(core_thrust, m - 1)
-        last = int_at(ring_first, int_at(core_ring, m - 1))
+        thrust += coherent_vec3(cores.core_thrust, m - 1)
+        last = int_at(mesh.ring_first, int_at(cores.core_ring, m - 1))
     total = wp.vec3(0.0)
     for k in range(lane, n, lanes):
-        total += force_of_cores(first + k, last + k, keeps, off_next, off_last, core_order, core_push)
+        total += force_of_cores(
+            first + k, last + k, keeps, off_next, off_last, cores.core_order, cores.core_push
+        )
     thrust -= warp_sum3(total, lanes) / float(n)
     for k in range(lane, n, lanes):
         i = first + k
-        f = force_of_cores(i, last + k, keeps, off_next, off_last, core_order, core_push)
-        put_vec3(v, i, coherent_vec3(v, i) + (f + thrust) * (dt / float_at(mass, i)))
+        f = force_of_cores(i, last + k, keeps, off_next, off_last, cores.core_order, cores.core_push)
+        put_vec3(state.v, i, coherent_vec3(state.v, i) + (f + thrust) * (dt / float_at(mesh.mass, i)))

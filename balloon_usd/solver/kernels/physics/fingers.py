@@ -2,27 +2,9 @@
 
 import warp as wp
 
+from balloon_usd.solver.kernels.arrays.rows import Finger
 from balloon_usd.solver.kernels.device.array_access import float_at, int_at, put_vec3
 from balloon_usd.solver.kernels.device.coherent_load import coherent_vec3
-
-
-@wp.struct
-class Finger:
-    """One finger on one balloon; `start` and `end` are where its tip is at both ends of the frame."""
-
-    start: wp.vec3
-    """m"""
-    end: wp.vec3
-    """m"""
-    along: wp.vec3
-    """Unit direction in which it presses."""
-    load_start: float
-    """Force at the start of the frame besides what depth asks for, N."""
-    load_end: float
-    """The same at its end, N."""
-    stiff: float
-    """Stiffness per touched vertex behind the tip, in vertex masses per squared time step; 0 for force alone.
-    """
 
 
 @wp.func

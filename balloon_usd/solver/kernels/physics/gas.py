@@ -2,6 +2,9 @@
 
 import warp as wp
 
+from balloon_usd.solver.kernels.arrays.latex import Chambers
+from balloon_usd.solver.kernels.arrays.rows import Air
+from balloon_usd.solver.kernels.arrays.shared import Joints, Mesh, State
 from balloon_usd.solver.kernels.device.array_access import float_at, int_at, put_float, vec3_at, vec4i_at
 from balloon_usd.solver.kernels.device.barrier import warp_barrier
 from balloon_usd.solver.kernels.device.coherent_load import coherent_float, coherent_vec3
@@ -47,54 +50,35 @@ def shares_of_chunks(c: int, apart: int, end: int, chunk_share: wp.array[float])
 
 
 @wp.kernel
-def segment_volumes(
-    quads: wp.array[wp.vec4i],
-    segment_quad: wp.array[int],
-    segment_quad_end: wp.array[int],
-    segment_origin: wp.array[int],
-    start_joint: wp.array[int],
-    end_joint: wp.array[int],
-    ring_middle: wp.array[wp.vec3],
-    ring_area: wp.array[wp.vec3],
-    x: wp.array[wp.vec3],
-    volume: wp.array[float],
-):
+def segment_volumes(mesh: Mesh, joints: Joints, state: State):
     """Write the volume (m3) of every segment, its open ends closed by flat fans; a fixed order of
     summation.
     """
     s, lane = wp.tid()
-    o = vec3_at(x, int_at(segment_origin, s))
+    o = vec3_at(state.x, int_at(mesh.segment_origin, s))
     total = float(0.0)
-    for q in range(int_at(segment_quad, s) + lane, int_at(segment_quad_end, s), wp.block_dim()):
-        c = vec4i_at(quads, q)
+    for q in range(int_at(mesh.segment_quad, s) + lane, int_at(mesh.segment_quad_end, s), wp.block_dim()):
+        c = vec4i_at(mesh.quads, q)
         total += patch_volume(
-            vec3_at(x, c[0]) - o, vec3_at(x, c[1]) - o, vec3_at(x, c[2]) - o, vec3_at(x, c[3]) - o
+            vec3_at(state.x, c[0]) - o,
+            vec3_at(state.x, c[1]) - o,
+            vec3_at(state.x, c[2]) - o,
+            vec3_at(state.x, c[3]) - o,
         )
     sums = wp.tile_sum(wp.tile(total))
     if lane == 0:
-        put_float(volume, s, sums[0] + volume_of_fans(s, start_joint, end_joint, ring_middle, ring_area, o))
+        put_float(
+            state.volume,
+            s,
+            sums[0]
+            + volume_of_fans(s, mesh.start_joint, mesh.end_joint, joints.ring_middle, joints.ring_area, o),
+        )
 
 
 OPEN_PASSAGE = 1.0
 """Passage (m2) of a joint that is not being closed: more than any neck."""
 WIDE_OPEN = 0.5 * OPEN_PASSAGE
 """Passage (m2) from which segments on both sides of a joint form one chamber."""
-
-
-@wp.struct
-class Air:
-    """The gas around and inside."""
-
-    atmosphere: float
-    """Ambient pressure, Pa."""
-    molar_energy: wp.float64
-    """R T, J/mol."""
-    density: float
-    """Density, kg/m3."""
-    discharge: float
-    """Discharge coefficient of a neck."""
-    equalise: float
-    """Largest share of a pressure difference that a neck may even out in one substep."""
 
 
 @wp.func
@@ -114,32 +98,30 @@ def press_chamber(
     pump_flow: float,
     pump_limit: float,
     pump_goal: wp.float64,
-    volume: wp.array[float],
-    chamber_volume: wp.array[float],
-    amount: wp.array[wp.float64],
-    pressure: wp.array[float],
+    chambers: Chambers,
+    state: State,
 ):
     """Where a chamber of segments begins, pump gas into it and write its volume (m3) and gauge pressure (Pa):
     ideal, isothermal, p V = n R T. A chamber without gas of its own is open to the air (the nozzle's lip)
     and keeps its pressure.
     """
-    space = float_at(volume, s)
-    gas = amount[s]
+    space = float_at(state.volume, s)
+    gas = chambers.amount[s]
     if begin == s:
         for k in range(begin + 1, end + 1):
-            space += float_at(volume, k)
-            gas += amount[k]
+            space += float_at(state.volume, k)
+            gas += chambers.amount[k]
         if begin <= into and into <= end and gas < pump_goal:
             here = float(gas * air.molar_energy) / space - air.atmosphere
             inflow = wp.min(pump_flow, pump_flow * wp.max(pump_limit - here, 0.0) / (0.1 * pump_limit))
             added = wp.min(wp.float64(inflow * dt), pump_goal - gas)
-            amount[into] = amount[into] + added
+            chambers.amount[into] = chambers.amount[into] + added
             gas += added
         if gas > wp.float64(0.0):
             now = float(gas * air.molar_energy) / space - air.atmosphere
             for k in range(begin, end + 1):
-                put_float(pressure, k, now)
-        put_float(chamber_volume, end, space)
+                put_float(chambers.pressure, k, now)
+        put_float(chambers.chamber_volume, end, space)
 
 
 @wp.func
@@ -173,62 +155,54 @@ def advance_gas(
     b: int,
     lane: int,
     lanes: int,
-    balloon_segment: wp.array[int],
-    balloon_segment_end: wp.array[int],
-    chamber_first: wp.array[int],
-    chamber_last: wp.array[int],
-    end_joint: wp.array[int],
-    inlet: wp.array[int],
     air: Air,
     dt: float,
     fraction: float,
-    blowing: wp.array[int],
-    open_from: wp.array[float],
-    open_to: wp.array[float],
-    pump_flow: wp.array[float],
-    pump_limit: wp.array[float],
-    pump_goal: wp.array[wp.float64],
-    volume: wp.array[float],
-    chamber_volume: wp.array[float],
-    flow: wp.array[wp.float64],
-    amount: wp.array[wp.float64],
-    pressure: wp.array[float],
+    mesh: Mesh,
+    chambers: Chambers,
+    state: State,
 ):
     """Advance one balloon's gas: pump, gauge pressure (Pa) of every chamber, flow through closing necks.
 
     Segments whose common neck is fully open form one chamber; a neck that closes is an orifice.
     `blowing`: 1 where a balloon has such a neck.
     """
-    first = int_at(balloon_segment, b)
-    last = int_at(balloon_segment_end, b)
-    blows = int_at(blowing, b)
-    into = int_at(inlet, b)
-    inflow = float_at(pump_flow, b)
-    limit = float_at(pump_limit, b)
-    wanted = pump_goal[b]
+    first = int_at(chambers.balloon_segment, b)
+    last = int_at(chambers.balloon_segment_end, b)
+    blows = int_at(chambers.blowing, b)
+    into = int_at(chambers.inlet, b)
+    inflow = float_at(chambers.pump_flow, b)
+    limit = float_at(chambers.pump_limit, b)
+    wanted = chambers.pump_goal[b]
     for s in range(first + lane, last, lanes):
-        begin = int_at(chamber_first, s)
-        end = int_at(chamber_last, s)
-        press_chamber(
-            s, begin, end, into, air, dt, inflow, limit, wanted, volume, chamber_volume, amount, pressure
-        )
+        begin = int_at(chambers.chamber_first, s)
+        end = int_at(chambers.chamber_last, s)
+        press_chamber(s, begin, end, into, air, dt, inflow, limit, wanted, chambers, state)
     if blows == 0:
         return
     warp_barrier()
     for s in range(first + lane, last, lanes):
-        flow[s] = wp.float64(0.0)
-        if int_at(chamber_last, s) == s and s + 1 < last:
-            gap = passage_of(int_at(end_joint, s), fraction, open_from, open_to)
+        chambers.flow[s] = wp.float64(0.0)
+        if int_at(chambers.chamber_last, s) == s and s + 1 < last:
+            gap = passage_of(int_at(mesh.end_joint, s), fraction, chambers.open_from, chambers.open_to)
             if gap > 0.0:
-                flow[s] = blow_through(s, int_at(chamber_last, s + 1), gap, air, dt, chamber_volume, pressure)
+                chambers.flow[s] = blow_through(
+                    s,
+                    int_at(chambers.chamber_last, s + 1),
+                    gap,
+                    air,
+                    dt,
+                    chambers.chamber_volume,
+                    chambers.pressure,
+                )
     warp_barrier()
     for s in range(first + lane, last, lanes):
         # What a neck lets through leaves one chamber's last segment for the next one's.
-        if int_at(chamber_last, s) == s:
-            before = int_at(chamber_first, s) - 1
+        if int_at(chambers.chamber_last, s) == s:
+            before = int_at(chambers.chamber_first, s) - 1
             if before >= first:
-                amount[s] = amount[s] + flow[before]
-            amount[s] = amount[s] - flow[s]
+                chambers.amount[s] = chambers.amount[s] + chambers.flow[before]
+            chambers.amount[s] = chambers.amount[s] - chambers.flow[s]
 
 
 @wp.func

@@ -4,6 +4,9 @@ weld's pose.
 
 import warp as wp
 
+from balloon_usd.solver.kernels.arrays.latex import Chambers, Forces, Rubber, Struts
+from balloon_usd.solver.kernels.arrays.rows import Axes
+from balloon_usd.solver.kernels.arrays.shared import Balloons, Contacts, Hands, Joints, Mesh, State, Welds
 from balloon_usd.solver.kernels.device.array_access import (
     float_at,
     int_at,
@@ -18,7 +21,7 @@ from balloon_usd.solver.kernels.device.barrier import warp_barrier
 from balloon_usd.solver.kernels.device.coherent_load import coherent_float, coherent_vec3
 from balloon_usd.solver.kernels.device.warp_reduce import warp_ballot, warp_sum3, warp_sum8
 from balloon_usd.solver.kernels.physics.gas import fan_gradient
-from balloon_usd.solver.kernels.physics.motion import Spin, force_on_vertex, step_of_vertex
+from balloon_usd.solver.kernels.physics.motion import force_on_vertex, step_of_vertex
 
 GRIP_MODE = 1
 LEAD_MODE = 2
@@ -50,10 +53,6 @@ def lead_load(
     if size > limit:
         load = load * (limit / size)
     return load
-
-
-Axes = wp.types.matrix(shape=(3, 2), dtype=float)
-"""The two in-plane unit axes of a ring, as columns."""
 
 
 @wp.func
@@ -126,25 +125,16 @@ def joints_of_block(
 
 
 @wp.func
-def measure_open_ring(
-    j: int,
-    lane: int,
-    lanes: int,
-    joint_first: wp.array[int],
-    joint_around: wp.array[int],
-    joint_parts: wp.array[int],
-    radius_to: wp.array[float],
-    x: wp.array[wp.vec3],
-    ring_middle: wp.array[wp.vec3],
-    ring_area: wp.array[wp.vec3],
-):
+def measure_open_ring(j: int, lane: int, lanes: int, joints: Joints, hands: Hands, state: State):
     """Write the vector area (m2) of a ring that parts two chambers and is not being closed."""
-    if int_at(joint_parts, j) == 1 and float_at(radius_to, j) == 0.0:
-        first = int_at(joint_first, j)
-        n = int_at(joint_around, j)
-        area = warp_sum3(ring_fan(first, n, coherent_vec3(ring_middle, j), lane, lanes, x), lanes)
+    if int_at(joints.joint_parts, j) == 1 and float_at(hands.radius_to, j) == 0.0:
+        first = int_at(joints.joint_first, j)
+        n = int_at(joints.joint_around, j)
+        area = warp_sum3(
+            ring_fan(first, n, coherent_vec3(joints.ring_middle, j), lane, lanes, state.x), lanes
+        )
         if lane == 0:
-            put_vec3(ring_area, j, area)
+            put_vec3(joints.ring_area, j, area)
 
 
 @wp.func
@@ -161,46 +151,19 @@ def move_joint(
     idle: bool,
     lane: int,
     lanes: int,
-    corners: wp.array[wp.vec4i],
-    vertex_balloon: wp.array[int],
-    quad_segment: wp.array[int],
-    vertex_along: wp.array[float],
-    joint_first: wp.array[int],
-    joint_around: wp.array[int],
-    joint_parts: wp.array[int],
-    joint_beside: wp.array[wp.vec2i],
-    joint_struts: wp.array2d[int],
-    ring_cos_sin: wp.array[wp.vec2],
-    mass: wp.array[float],
-    true_mass: wp.array[float],
-    joint_mass: wp.array[float],
-    gravity: wp.array[float],
-    drag: wp.array[float],
     dt: float,
     frame_seconds: float,
     fraction: float,
-    spin: wp.array[Spin],
-    hand: wp.array[int],
-    hand_from: wp.array[wp.vec3],
-    hand_to: wp.array[wp.vec3],
-    hand_free: wp.array[wp.vec3],
-    hand_force: wp.array[float],
-    hand_stiffness: wp.array[float],
-    radius_from: wp.array[float],
-    radius_to: wp.array[float],
-    contact_force: wp.array2d[float],
-    corner_force: wp.array2d[float],
-    volume_gradient: wp.array2d[float],
-    pressure: wp.array[float],
-    strut_force: wp.array[wp.vec3],
-    x_next: wp.array[wp.vec3],
-    x: wp.array[wp.vec3],
-    v: wp.array[wp.vec3],
-    ring_middle: wp.array[wp.vec3],
-    ring_area: wp.array[wp.vec3],
-    ring_axes: wp.array[Axes],
-    ring_velocity: wp.array[wp.vec3],
-    hand_load: wp.array[wp.vec3],
+    mesh: Mesh,
+    balloons: Balloons,
+    rubber: Rubber,
+    chambers: Chambers,
+    joints: Joints,
+    struts: Struts,
+    hands: Hands,
+    contacts: Contacts,
+    forces: Forces,
+    state: State,
 ):
     """Move the ring of a joint by the forces on it, hold, lead and close it, and write where it is and what
     the hand feels.
@@ -209,35 +172,37 @@ def move_joint(
     `x_next` keeps them where it has several. `idle`: take part in the shuffles and barriers of the warp,
     write nothing.
     """
-    first = int_at(joint_first, j)
-    n = int_at(joint_around, j)
+    first = int_at(joints.joint_first, j)
+    n = int_at(joints.joint_around, j)
     mine = wp.where(idle, 0, n)
-    parts = int_at(joint_parts, j)
-    mode = int_at(hand, j)
+    parts = int_at(joints.joint_parts, j)
+    mode = int_at(hands.hand, j)
     closed = float(0.0)
-    if parts == 1 and float_at(radius_to, j) > 0.0:
-        closed = float_at(radius_from, j) + fraction * (float_at(radius_to, j) - float_at(radius_from, j))
-    start = vec3_at(hand_from, j)
-    goal = start + fraction * (vec3_at(hand_to, j) - start)
-    wanted = (vec3_at(hand_to, j) - start) / frame_seconds
+    if parts == 1 and float_at(hands.radius_to, j) > 0.0:
+        closed = float_at(hands.radius_from, j) + fraction * (
+            float_at(hands.radius_to, j) - float_at(hands.radius_from, j)
+        )
+    start = vec3_at(hands.hand_from, j)
+    goal = start + fraction * (vec3_at(hands.hand_to, j) - start)
+    wanted = (vec3_at(hands.hand_to, j) - start) / frame_seconds
     # Positions relative to the old middle: sums of small numbers keep their digits.
-    old_middle = vec3_at(ring_middle, j)
-    area = coherent_vec3(ring_area, j)
-    axes = ring_axes[j]
-    beside = vec2i_at(joint_beside, j)
+    old_middle = vec3_at(joints.ring_middle, j)
+    area = coherent_vec3(joints.ring_area, j)
+    axes = joints.ring_axes[j]
+    beside = vec2i_at(joints.joint_beside, j)
     side = beside[0]
-    inside = coherent_float(pressure, side)
-    outside = coherent_float(pressure, beside[1])
-    heavy = float_at(joint_mass, j)
-    grip = float_at(hand_force, j)
-    stiffness = float_at(hand_stiffness, j)
-    free = vec3_at(hand_free, j)
+    inside = coherent_float(chambers.pressure, side)
+    outside = coherent_float(chambers.pressure, beside[1])
+    heavy = float_at(joints.joint_mass, j)
+    grip = float_at(hands.hand_force, j)
+    stiffness = float_at(hands.hand_stiffness, j)
+    free = vec3_at(hands.hand_free, j)
     # The sine of the angle between two corners.
-    sine = vec2_at(ring_cos_sin, first + 1)[1]
+    sine = vec2_at(mesh.ring_cos_sin, first + 1)[1]
     # Prefetch: issued early to hide its latency.
-    slots = joint_struts.shape[1]
-    strut = wp.where(lane < slots, int_in(joint_struts, j, wp.min(lane, slots - 1)), 0)
-    pull = coherent_vec3(strut_force, wp.max(wp.abs(strut) - 1, 0))
+    slots = struts.joint_struts.shape[1]
+    strut = wp.where(lane < slots, int_in(struts.joint_struts, j, wp.min(lane, slots - 1)), 0)
+    pull = coherent_vec3(struts.strut_force, wp.max(wp.abs(strut) - 1, 0))
     # Position and velocity of a vertex; then sums over the ring: of positions and velocities (c, w), of the
     # same times cosines and sines (a, b, va, vb), and angular momentum (own).
     p = wp.vec3(0.0)
@@ -251,19 +216,17 @@ def move_joint(
     own = wp.vec3(0.0)
     for k in range(lane, mine, lanes):
         i = first + k
-        f = force_on_vertex(
-            i, side, inside, outside, corners, quad_segment, contact_force, corner_force, volume_gradient
-        )
+        f = force_on_vertex(i, side, inside, outside, mesh, contacts, forces)
         if parts == 1:
-            chord = vec3_at(x, first + (k + 1) % n) - vec3_at(x, first + (k + n - 1) % n)
-            f += (inside - outside) * fan_gradient(vec3_at(x, i) - old_middle, chord, area, 1.0 / float(n))
-        p, s = step_of_vertex(
-            i, f, vertex_balloon, vertex_along, mass, true_mass, gravity, drag, dt, spin, x, v
-        )
-        put_vec3(x_next, i, p)
-        put_vec3(v, i, s)
+            chord = vec3_at(state.x, first + (k + 1) % n) - vec3_at(state.x, first + (k + n - 1) % n)
+            f += (inside - outside) * fan_gradient(
+                vec3_at(state.x, i) - old_middle, chord, area, 1.0 / float(n)
+            )
+        p, s = step_of_vertex(i, f, dt, mesh, balloons, rubber, hands, state)
+        put_vec3(state.x_next, i, p)
+        put_vec3(state.v, i, s)
         d = p - old_middle
-        at = vec2_at(ring_cos_sin, i)
+        at = vec2_at(mesh.ring_cos_sin, i)
         c += d
         w += s
         a += at[0] * d
@@ -273,8 +236,8 @@ def move_joint(
         own += wp.cross(d, s)
     force = pull_on_end(strut, pull)
     for k in range(lane + lanes, slots, lanes):
-        strut = int_in(joint_struts, j, k)
-        pull = coherent_vec3(strut_force, wp.max(wp.abs(strut) - 1, 0))
+        strut = int_in(struts.joint_struts, j, k)
+        pull = coherent_vec3(struts.strut_force, wp.max(wp.abs(strut) - 1, 0))
         force += pull_on_end(strut, pull)
     sums = warp_sum8(force, c, w, a, b, va, vb, own, lanes)
     force = sums[0]
@@ -306,22 +269,22 @@ def move_joint(
     for k in range(lane, mine, lanes):
         i = first + k
         if lanes < n:
-            p = vec3_at(x_next, i)
-            s = vec3_at(v, i)
+            p = vec3_at(state.x_next, i)
+            s = vec3_at(state.v, i)
         d = p - old_middle
         s += kick
         if closed > 0.0:
-            arm = axes * (closed * vec2_at(ring_cos_sin, i))
+            arm = axes * (closed * vec2_at(mesh.ring_cos_sin, i))
             s += (c + arm - d) / dt - wp.cross(turn, arm)
             d = c + arm
-        put_vec3(x, i, old_middle + (d + shift))
-        put_vec3(v, i, s)
+        put_vec3(state.x, i, old_middle + (d + shift))
+        put_vec3(state.v, i, s)
     if lane == 0 and not idle:
-        put_vec3(ring_middle, j, old_middle + (c + shift))
-        put_vec3(ring_velocity, j, w + kick)
-        put_vec3(hand_load, j, load)
-        ring_axes[j] = axes
-        put_vec3(ring_area, j, area)
+        put_vec3(joints.ring_middle, j, old_middle + (c + shift))
+        put_vec3(joints.ring_velocity, j, w + kick)
+        put_vec3(hands.hand_load, j, load)
+        joints.ring_axes[j] = axes
+        put_vec3(joints.ring_area, j, area)
 
 
 @wp.kernel
@@ -376,47 +339,40 @@ def weld_joint_to_others(
     idle: bool,
     lane: int,
     lanes: int,
-    joint_weld: wp.array[int],
-    weld_joint: wp.array2d[int],
-    weld_size: wp.array[int],
-    weld_reach: wp.array[float],
-    weld_gap: wp.array[float],
-    joint_first: wp.array[int],
-    joint_around: wp.array[int],
-    joint_mass: wp.array[float],
-    hand: wp.array[int],
     dt: float,
-    ring_middle: wp.array[wp.vec3],
-    x: wp.array[wp.vec3],
-    v: wp.array[wp.vec3],
-    weld_shift: wp.array[wp.vec3],
+    joints: Joints,
+    welds: Welds,
+    hands: Hands,
+    state: State,
 ):
     """Keep the neck of a joint beside the others of its weld, each pair at least its gap (m) and at most its
     reach (m) apart; write how far it moves (m). `idle`: take part in the shuffles of the warp, write nothing.
     """
-    g = int_at(joint_weld, j) - 1
-    first = int_at(joint_first, j)
-    n = int_at(joint_around, j)
-    mine = float_at(joint_mass, j)
-    here = vec3_at(ring_middle, j)
-    free = g >= 0 and held(int_at(hand, j)) == 0 and not idle
+    g = int_at(welds.joint_weld, j) - 1
+    first = int_at(joints.joint_first, j)
+    n = int_at(joints.joint_around, j)
+    mine = float_at(joints.joint_mass, j)
+    here = vec3_at(joints.ring_middle, j)
+    free = g >= 0 and held(int_at(hands.hand, j)) == 0 and not idle
     g = wp.max(g, 0)
-    size = wp.where(free, int_at(weld_size, g), 0)
-    gap = float_at(weld_gap, g)
-    reach = float_at(weld_reach, g)
+    size = wp.where(free, int_at(welds.weld_size, g), 0)
+    gap = float_at(welds.weld_gap, g)
+    reach = float_at(welds.weld_reach, g)
     shift = wp.vec3(0.0)
     for m in range(lane, size, lanes):
-        other = int_in(weld_joint, g, m)
-        mass = float_at(joint_mass, other)
-        share = wp.where(held(int_at(hand, other)) == 1, 1.0, mass / (mine + mass))
-        shift += pair_shift(here, vec3_at(ring_middle, other), wp.where(other == j, 0.0, share), gap, reach)
+        other = int_in(welds.weld_joint, g, m)
+        mass = float_at(joints.joint_mass, other)
+        share = wp.where(held(int_at(hands.hand, other)) == 1, 1.0, mass / (mine + mass))
+        shift += pair_shift(
+            here, vec3_at(joints.ring_middle, other), wp.where(other == j, 0.0, share), gap, reach
+        )
     shift = warp_sum3(shift, lanes) / wp.max(float(size - 1), 1.0)
     if free:
         for m in range(lane, n, lanes):
-            put_vec3(x, first + m, vec3_at(x, first + m) + shift)
-            put_vec3(v, first + m, vec3_at(v, first + m) + shift / dt)
+            put_vec3(state.x, first + m, vec3_at(state.x, first + m) + shift)
+            put_vec3(state.v, first + m, vec3_at(state.v, first + m) + shift / dt)
         if lane == 0:
-            put_vec3(weld_shift, j, shift)
+            put_vec3(welds.weld_shift, j, shift)
 
 
 @wp.func
@@ -427,33 +383,31 @@ def shift_middle(j: int, weld_shift: wp.array[wp.vec3], ring_middle: wp.array[wp
 
 
 @wp.func
-def load_strut(
-    s: int,
-    strut_joint: wp.array[wp.vec2i],
-    strut_stiffness: wp.array[float],
-    strut_damping: wp.array[float],
-    strut_yield: wp.array[float],
-    ring_middle: wp.array[wp.vec3],
-    ring_velocity: wp.array[wp.vec3],
-    strut_length: wp.array[float],
-    strut_force: wp.array[wp.vec3],
-):
+def load_strut(s: int, joints: Joints, struts: Struts):
     """Write the force (N) on the first end of a strut; beyond its yield force it gives way for good."""
-    ends = vec2i_at(strut_joint, s)
+    ends = vec2i_at(struts.strut_joint, s)
     pull = wp.vec3(0.0)
     if ends[0] >= 0:
-        d = coherent_vec3(ring_middle, ends[1]) - coherent_vec3(ring_middle, ends[0])
+        d = coherent_vec3(joints.ring_middle, ends[1]) - coherent_vec3(joints.ring_middle, ends[0])
         now = wp.length(d)
         along = d / wp.max(now, 1.0e-6)
-        tension = float_at(strut_stiffness, s) * (now - float_at(strut_length, s))
-        if tension > float_at(strut_yield, s):
-            put_float(strut_length, s, now - float_at(strut_yield, s) / float_at(strut_stiffness, s))
-            tension = float_at(strut_yield, s)
-        elif tension < -float_at(strut_yield, s):
-            put_float(strut_length, s, now + float_at(strut_yield, s) / float_at(strut_stiffness, s))
-            tension = -float_at(strut_yield, s)
-        tension += float_at(strut_damping, s) * wp.dot(
-            coherent_vec3(ring_velocity, ends[1]) - coherent_vec3(ring_velocity, ends[0]), along
+        tension = float_at(struts.strut_stiffness, s) * (now - float_at(struts.strut_length, s))
+        if tension > float_at(struts.strut_yield, s):
+            put_float(
+                struts.strut_length,
+                s,
+                now - float_at(struts.strut_yield, s) / float_at(struts.strut_stiffness, s),
+            )
+            tension = float_at(struts.strut_yield, s)
+        elif tension < -float_at(struts.strut_yield, s):
+            put_float(
+                struts.strut_length,
+                s,
+                now + float_at(struts.strut_yield, s) / float_at(struts.strut_stiffness, s),
+            )
+            tension = -float_at(struts.strut_yield, s)
+        tension += float_at(struts.strut_damping, s) * wp.dot(
+            coherent_vec3(joints.ring_velocity, ends[1]) - coherent_vec3(joints.ring_velocity, ends[0]), along
         )
         pull = tension * along
-    put_vec3(strut_force, s, pull)
+    put_vec3(struts.strut_force, s, pull)

@@ -2,6 +2,9 @@
 
 import warp as wp
 
+from balloon_usd.solver.kernels.arrays.latex import Forces, Rubber
+from balloon_usd.solver.kernels.arrays.rows import Law
+from balloon_usd.solver.kernels.arrays.shared import Balloons, Checks, Mesh, State
 from balloon_usd.solver.kernels.device.array_access import (
     float_at,
     int_at,
@@ -15,8 +18,6 @@ from balloon_usd.solver.kernels.device.coherent_load import coherent_vec3
 from balloon_usd.solver.kernels.device.soa import store_soa
 from balloon_usd.solver.kernels.physics.rubber import (
     LEAST_ENERGY,
-    CurveSegment,
-    Law,
     followed_stretches,
     membrane_law,
     softening_factor,
@@ -201,50 +202,34 @@ def volume_gradients_of_quad(x0: wp.vec3, x1: wp.vec3, x2: wp.vec3, x3: wp.vec3,
 
 
 @wp.func
-def wall_of_quad(
-    q: int,
-    quads: wp.array[wp.vec4i],
-    quad_law: wp.array[int],
-    rest_inverse: wp.array[wp.mat22],
-    hourglass: wp.array[wp.vec4],
-    rubber_volume: wp.array[float],
-    laws: wp.array[Law],
-    curves: wp.array[CurveSegment],
-    x: wp.array[wp.vec3],
-    v: wp.array[wp.vec3],
-    origin: wp.vec3,
-    softening_rate: wp.array[float],
-    peak_energy: wp.array[float],
-    corner_force: wp.array2d[float],
-    volume_gradient: wp.array2d[float],
-):
+def wall_of_quad(q: int, origin: wp.vec3, mesh: Mesh, rubber: Rubber, forces: Forces, state: State):
     """Write the force (N) of the wall on the four corners of a quad and the gradient of the volume (m2) by
     them, and return the volume (m3) between the quad and an origin.
     """
-    c = vec4i_at(quads, q)
-    mine = int_at(quad_law, q)
-    law = laws[mine]
-    x0 = coherent_vec3(x, c[0])
-    x1 = coherent_vec3(x, c[1])
-    x2 = coherent_vec3(x, c[2])
-    x3 = coherent_vec3(x, c[3])
+    c = vec4i_at(mesh.quads, q)
+    mine = int_at(rubber.quad_law, q)
+    law = rubber.laws[mine]
+    x0 = coherent_vec3(state.x, c[0])
+    x1 = coherent_vec3(state.x, c[1])
+    x2 = coherent_vec3(state.x, c[2])
+    x3 = coherent_vec3(state.x, c[3])
     # Prefetch: loads of the velocities overlap those of the positions.
-    v0 = coherent_vec3(v, c[0])
-    v1 = coherent_vec3(v, c[1])
-    v2 = coherent_vec3(v, c[2])
-    v3 = coherent_vec3(v, c[3])
-    b = mat22_at(rest_inverse, q)
+    v0 = coherent_vec3(state.v, c[0])
+    v1 = coherent_vec3(state.v, c[1])
+    v2 = coherent_vec3(state.v, c[2])
+    v3 = coherent_vec3(state.v, c[3])
+    b = mat22_at(rubber.rest_inverse, q)
     large2, small2 = stretches_of_quad(x0, x1, x2, x3, b)
     t = wp.vec3(0.0)
     if large2 > 1.0:
-        t = membrane_law(law, curves, followed_stretches(law, large2, small2))
+        t = membrane_law(law, rubber.curves, followed_stretches(law, large2, small2))
     f0, f1, f2, f3, reached = forces_of_quad(
         law,
         b,
-        vec4_at(hourglass, q),
-        float_at(rubber_volume, q),
-        float_at(softening_rate, mine),
-        float_at(peak_energy, q),
+        vec4_at(rubber.hourglass, q),
+        float_at(rubber.rubber_volume, q),
+        float_at(rubber.softening_rate, mine),
+        float_at(rubber.peak_energy, q),
         large2,
         small2,
         t,
@@ -257,16 +242,16 @@ def wall_of_quad(
         v2,
         v3,
     )
-    put_float(peak_energy, q, reached)
-    store_soa(corner_force, q, 0, f0)
-    store_soa(corner_force, q, 1, f1)
-    store_soa(corner_force, q, 2, f2)
-    store_soa(corner_force, q, 3, f3)
+    put_float(rubber.peak_energy, q, reached)
+    store_soa(forces.corner_force, q, 0, f0)
+    store_soa(forces.corner_force, q, 1, f1)
+    store_soa(forces.corner_force, q, 2, f2)
+    store_soa(forces.corner_force, q, 3, f3)
     l0, l1, l2, l3, volume = volume_gradients_of_quad(x0, x1, x2, x3, origin)
-    store_soa(volume_gradient, q, 0, l0)
-    store_soa(volume_gradient, q, 1, l1)
-    store_soa(volume_gradient, q, 2, l2)
-    store_soa(volume_gradient, q, 3, l3)
+    store_soa(forces.volume_gradient, q, 0, l0)
+    store_soa(forces.volume_gradient, q, 1, l1)
+    store_soa(forces.volume_gradient, q, 2, l2)
+    store_soa(forces.volume_gradient, q, 3, l3)
     return volume
 
 
@@ -285,17 +270,7 @@ def stretch_of_quad(
 
 @wp.kernel
 def vertex_stretch(
-    corners: wp.array[wp.vec4i],
-    quads: wp.array[wp.vec4i],
-    rest_inverse: wp.array[wp.mat22],
-    vertex_balloon: wp.array[int],
-    balloon_world: wp.array[int],
-    travel_limit: float,
-    stretch_limit: wp.array[float],
-    x: wp.array[wp.vec3],
-    stretch: wp.array[float],
-    x_checked: wp.array[wp.vec3],
-    suspects: wp.array[int],
+    travel_limit: float, mesh: Mesh, balloons: Balloons, rubber: Rubber, checks: Checks, state: State
 ):
     """Write the largest principal stretch of the wall at every vertex, the mean over its quads, and mark the
     sculptures in which something may be wrong.
@@ -305,12 +280,12 @@ def vertex_stretch(
     count = float(0.0)
     row = int(i)
     while row >= 0:
-        slots = vec4i_at(corners, row)
+        slots = vec4i_at(mesh.corners, row)
         for k in range(4):
             if slots[k] >= 0:
-                total += stretch_of_quad(slots[k] // 4, quads, rest_inverse, x)
+                total += stretch_of_quad(slots[k] // 4, mesh.quads, rubber.rest_inverse, state.x)
                 count += 1.0
         row = -2 - slots[3]
     mean = total / wp.max(count, 1.0)
-    put_float(stretch, i, mean)
-    check_vertex(i, mean, vertex_balloon, balloon_world, travel_limit, stretch_limit, x, x_checked, suspects)
+    put_float(checks.stretch, i, mean)
+    check_vertex(i, mean, travel_limit, mesh, balloons, checks, state)

@@ -6,6 +6,8 @@ All is in one function: rows handed to another would be copied.
 
 import warp as wp
 
+from balloon_usd.solver.kernels.arrays.latex import Chambers, Forces, Rubber
+from balloon_usd.solver.kernels.arrays.shared import Mesh, State
 from balloon_usd.solver.kernels.device.array_access import (
     float_at,
     int_at,
@@ -21,7 +23,7 @@ from balloon_usd.solver.kernels.physics.membrane import (
     stretches_of_quad,
     volume_gradients_of_quad,
 )
-from balloon_usd.solver.kernels.physics.rubber import CurveSegment, Law, followed_stretches, membrane_law
+from balloon_usd.solver.kernels.physics.rubber import followed_stretches, membrane_law
 
 SIMD_QUADS = 16
 """Quads in a row: as many floats as the widest SIMD registers hold."""
@@ -41,24 +43,7 @@ Results = wp.types.matrix(shape=(26, SIMD_QUADS), dtype=float)
 
 @wp.func
 def walls_simd(
-    begin: int,
-    end: int,
-    quads: wp.array[wp.vec4i],
-    quad_law: wp.array[int],
-    chunk_quad: wp.array[int],
-    chunk_origin: wp.array[int],
-    rest_inverse: wp.array[wp.mat22],
-    hourglass: wp.array[wp.vec4],
-    rubber_volume: wp.array[float],
-    laws: wp.array[Law],
-    curves: wp.array[CurveSegment],
-    x: wp.array[wp.vec3],
-    v: wp.array[wp.vec3],
-    softening_rate: wp.array[float],
-    peak_energy: wp.array[float],
-    corner_force: wp.array2d[float],
-    volume_gradient: wp.array2d[float],
-    chunk_share: wp.array[float],
+    begin: int, end: int, mesh: Mesh, rubber: Rubber, chambers: Chambers, forces: Forces, state: State
 ):
     """Write what `wall_of_quad` does for the quads of chunks, each of one rubber, and the volume (m3) between
     those of each chunk and its origin.
@@ -69,33 +54,33 @@ def walls_simd(
     # While loops: compilers do not vectorise Warp's ranges.
     chunk = int(begin)
     while chunk < end:
-        first = int_at(chunk_quad, chunk)
-        last = int_at(chunk_quad, chunk + 1)
-        mine = int_at(quad_law, first)
-        law = laws[mine]
-        softening = float_at(softening_rate, mine)
-        origin = vec3_at(x, int_at(chunk_origin, chunk))
+        first = int_at(mesh.chunk_quad, chunk)
+        last = int_at(mesh.chunk_quad, chunk + 1)
+        mine = int_at(rubber.quad_law, first)
+        law = rubber.laws[mine]
+        softening = float_at(rubber.softening_rate, mine)
+        origin = vec3_at(state.x, int_at(mesh.chunk_origin, chunk))
         total = float(0.0)
         while first < last:
             k = int(0)
             while k < ROW:
                 # The last quad pads an incomplete row.
                 q = wp.min(first + k, last - 1)
-                c = vec4i_at(quads, q)
-                g[0:3, k] = vec3_at(x, c[0])
-                g[3:6, k] = vec3_at(x, c[1])
-                g[6:9, k] = vec3_at(x, c[2])
-                g[9:12, k] = vec3_at(x, c[3])
-                g[12:15, k] = vec3_at(v, c[0])
-                g[15:18, k] = vec3_at(v, c[1])
-                g[18:21, k] = vec3_at(v, c[2])
-                g[21:24, k] = vec3_at(v, c[3])
-                b = mat22_at(rest_inverse, q)
+                c = vec4i_at(mesh.quads, q)
+                g[0:3, k] = vec3_at(state.x, c[0])
+                g[3:6, k] = vec3_at(state.x, c[1])
+                g[6:9, k] = vec3_at(state.x, c[2])
+                g[9:12, k] = vec3_at(state.x, c[3])
+                g[12:15, k] = vec3_at(state.v, c[0])
+                g[15:18, k] = vec3_at(state.v, c[1])
+                g[18:21, k] = vec3_at(state.v, c[2])
+                g[21:24, k] = vec3_at(state.v, c[3])
+                b = mat22_at(rubber.rest_inverse, q)
                 g[24:26, k] = b[0]
                 g[26:28, k] = b[1]
-                g[28:32, k] = vec4_at(hourglass, q)
-                g[32, k] = float_at(rubber_volume, q)
-                g[33, k] = float_at(peak_energy, q)
+                g[28:32, k] = vec4_at(rubber.hourglass, q)
+                g[32, k] = float_at(rubber.rubber_volume, q)
+                g[33, k] = float_at(rubber.peak_energy, q)
                 k += 1
             k = int(0)
             while k < ROW:
@@ -114,7 +99,7 @@ def walls_simd(
             while k < ROW:
                 t = wp.vec3(0.0)
                 if a[0, k] > 1.0:
-                    t = membrane_law(law, curves, a[2:5, k])
+                    t = membrane_law(law, rubber.curves, a[2:5, k])
                 a[2:5, k] = t
                 k += 1
             k = int(0)
@@ -155,17 +140,17 @@ def walls_simd(
             k = int(0)
             while k < wp.min(ROW, last - first):
                 done = first + k
-                store_soa(corner_force, done, 0, r[0:3, k])
-                store_soa(corner_force, done, 1, r[3:6, k])
-                store_soa(corner_force, done, 2, r[6:9, k])
-                store_soa(corner_force, done, 3, r[9:12, k])
-                store_soa(volume_gradient, done, 0, r[12:15, k])
-                store_soa(volume_gradient, done, 1, r[15:18, k])
-                store_soa(volume_gradient, done, 2, r[18:21, k])
-                store_soa(volume_gradient, done, 3, r[21:24, k])
+                store_soa(forces.corner_force, done, 0, r[0:3, k])
+                store_soa(forces.corner_force, done, 1, r[3:6, k])
+                store_soa(forces.corner_force, done, 2, r[6:9, k])
+                store_soa(forces.corner_force, done, 3, r[9:12, k])
+                store_soa(forces.volume_gradient, done, 0, r[12:15, k])
+                store_soa(forces.volume_gradient, done, 1, r[15:18, k])
+                store_soa(forces.volume_gradient, done, 2, r[18:21, k])
+                store_soa(forces.volume_gradient, done, 3, r[21:24, k])
                 total += r[24, k]
-                put_float(peak_energy, done, r[25, k])
+                put_float(rubber.peak_energy, done, r[25, k])
                 k += 1
             first += ROW
-        put_float(chunk_share, chunk, total)
+        put_float(chambers.chunk_share, chunk, total)
         chunk += 1

@@ -2,33 +2,11 @@
 
 import warp as wp
 
+from balloon_usd.solver.kernels.arrays.latex import Chambers, Forces, Rubber
+from balloon_usd.solver.kernels.arrays.shared import Balloons, Contacts, Hands, Mesh, State
 from balloon_usd.solver.kernels.device.array_access import float_at, int_at, put_vec3, vec4i_at
 from balloon_usd.solver.kernels.device.coherent_load import coherent_float, coherent_vec3
 from balloon_usd.solver.kernels.device.soa import load_soa
-
-
-@wp.struct
-class Spin:
-    """Rigid turns of the two parts of a balloon at a joint, about one point."""
-
-    beyond: float
-    """Unstressed distance from the knot beyond which the balloon turns, m."""
-    rate: float
-    """Angular velocity of what lies beyond, rad/s; 0 for none."""
-    axis: wp.vec3
-    """Its unit axis."""
-    point: wp.vec3
-    """The point, m."""
-    back_rate: float
-    """Angular velocity of what lies before, rad/s; 0 where hands hold it. Where both parts turn freely they
-    are only displaced: their momentum stays as it is.
-    """
-    back_axis: wp.vec3
-    """Its unit axis."""
-    drift: wp.vec3
-    """Velocity of what lies beyond, besides, m/s."""
-    back_drift: wp.vec3
-    """Velocity of what lies before, besides, m/s."""
 
 
 @wp.func
@@ -58,60 +36,41 @@ def force_of_further_quads(
 
 @wp.func
 def force_on_vertex(
-    i: int,
-    side: int,
-    inside: float,
-    beyond: float,
-    corners: wp.array[wp.vec4i],
-    quad_segment: wp.array[int],
-    contact_force: wp.array2d[float],
-    corner_force: wp.array2d[float],
-    volume_gradient: wp.array2d[float],
+    i: int, side: int, inside: float, beyond: float, mesh: Mesh, contacts: Contacts, forces: Forces
 ):
     """Return the force (N) of wall, gas and other walls on a vertex.
 
     `inside`, `beyond`: gauge pressures (Pa) in the segment `side` and in the other that it may border on.
     """
-    slots = vec4i_at(corners, i)
-    f = load_soa(contact_force, i, 0) + load_soa(contact_force, i, 1)
+    slots = vec4i_at(mesh.corners, i)
+    f = load_soa(contacts.contact_force, i, 0) + load_soa(contacts.contact_force, i, 1)
     # Branch-free: an empty slot loads another quad of the vertex, and is masked.
     any_slot = wp.max(wp.max(slots[0], slots[1]), wp.max(slots[2], slots[3]))
     for k in range(4):
         slot = wp.where(slots[k] >= 0, slots[k], any_slot)
         q = slot >> 2
         corner = slot & 3
-        p = wp.where(int_at(quad_segment, q) == side, inside, beyond)
-        g = load_soa(corner_force, q, corner) + p * load_soa(volume_gradient, q, corner)
+        p = wp.where(int_at(mesh.quad_segment, q) == side, inside, beyond)
+        g = load_soa(forces.corner_force, q, corner) + p * load_soa(forces.volume_gradient, q, corner)
         f += wp.where(slots[k] >= 0, g, wp.vec3(0.0))
     return f
 
 
 @wp.func
 def step_of_vertex(
-    i: int,
-    f: wp.vec3,
-    vertex_balloon: wp.array[int],
-    vertex_along: wp.array[float],
-    mass: wp.array[float],
-    true_mass: wp.array[float],
-    gravity: wp.array[float],
-    drag: wp.array[float],
-    dt: float,
-    spin: wp.array[Spin],
-    x: wp.array[wp.vec3],
-    v: wp.array[wp.vec3],
+    i: int, f: wp.vec3, dt: float, mesh: Mesh, balloons: Balloons, rubber: Rubber, hands: Hands, state: State
 ):
     """Return where a force (N) moves a vertex (m) and its velocity there (m/s), by symplectic Euler
     (Kosaka 2008, eqs. 3.22 and 3.23).
     """
-    b = int_at(vertex_balloon, i)
-    turn = spin[b]
-    along = float_at(vertex_along, i)
-    pull = wp.vec3(0.0, 0.0, -float_at(gravity, b) * float_at(true_mass, i))
-    velocity = (coherent_vec3(v, i) + (f + pull) * (dt / float_at(mass, i))) * wp.max(
-        1.0 - float_at(drag, b) * dt, 0.0
+    b = int_at(mesh.vertex_balloon, i)
+    turn = hands.spin[b]
+    along = float_at(mesh.vertex_along, i)
+    pull = wp.vec3(0.0, 0.0, -float_at(balloons.gravity, b) * float_at(rubber.true_mass, i))
+    velocity = (coherent_vec3(state.v, i) + (f + pull) * (dt / float_at(mesh.mass, i))) * wp.max(
+        1.0 - float_at(balloons.drag, b) * dt, 0.0
     )
-    p = coherent_vec3(x, i) + velocity * dt
+    p = coherent_vec3(state.x, i) + velocity * dt
     rate = turn.back_rate
     axis = turn.back_axis
     drift = turn.back_drift
@@ -130,35 +89,23 @@ def step_of_vertex(
 @wp.func
 def move_vertex(
     i: int,
-    corners: wp.array[wp.vec4i],
-    vertex_balloon: wp.array[int],
-    vertex_segment: wp.array[int],
-    quad_segment: wp.array[int],
-    vertex_along: wp.array[float],
-    mass: wp.array[float],
-    true_mass: wp.array[float],
-    gravity: wp.array[float],
-    drag: wp.array[float],
     dt: float,
-    spin: wp.array[Spin],
-    contact_force: wp.array2d[float],
-    corner_force: wp.array2d[float],
-    volume_gradient: wp.array2d[float],
-    pressure: wp.array[float],
-    x: wp.array[wp.vec3],
-    v: wp.array[wp.vec3],
+    mesh: Mesh,
+    balloons: Balloons,
+    rubber: Rubber,
+    chambers: Chambers,
+    hands: Hands,
+    contacts: Contacts,
+    forces: Forces,
+    state: State,
 ):
     """Move a vertex (m) that belongs to no ring by the forces on it, and write its velocity (m/s)."""
-    segment = int_at(vertex_segment, i)
-    inside = coherent_float(pressure, segment)
-    f = force_on_vertex(
-        i, segment, inside, inside, corners, quad_segment, contact_force, corner_force, volume_gradient
-    )
-    last = vec4i_at(corners, i)[3]
+    segment = int_at(mesh.vertex_segment, i)
+    inside = coherent_float(chambers.pressure, segment)
+    f = force_on_vertex(i, segment, inside, inside, mesh, contacts, forces)
+    last = vec4i_at(mesh.corners, i)[3]
     if last < -1:
-        f += force_of_further_quads(last, inside, corners, corner_force, volume_gradient)
-    p, velocity = step_of_vertex(
-        i, f, vertex_balloon, vertex_along, mass, true_mass, gravity, drag, dt, spin, x, v
-    )
-    put_vec3(x, i, p)
-    put_vec3(v, i, velocity)
+        f += force_of_further_quads(last, inside, mesh.corners, forces.corner_force, forces.volume_gradient)
+    p, velocity = step_of_vertex(i, f, dt, mesh, balloons, rubber, hands, state)
+    put_vec3(state.x, i, p)
+    put_vec3(state.v, i, velocity)

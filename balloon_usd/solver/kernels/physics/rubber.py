@@ -2,45 +2,8 @@
 
 import warp as wp
 
+from balloon_usd.solver.kernels.arrays.rows import CurveSegment, Law
 from balloon_usd.solver.kernels.device.native import native
-
-CurveSegment = wp.types.matrix(shape=(2, 4), dtype=float)
-"""One cubic of a spline, of stress and of energy: coefficients of the powers of the share of the way from its
-spline knot to the next.
-"""
-
-
-@wp.struct
-class Law:
-    """One rubber: its curve and a Gent term, softening, and the numerical guards that go with them."""
-
-    first_segment: int
-    """First segment of the curve of its Ogden terms."""
-    last_segment: int
-    """Its last segment."""
-    zero_segment: int
-    """Segment that the bits of a squared stretch count from."""
-    step_bits: int
-    """Bits of a squared stretch that lie within a segment."""
-    step_share: float
-    """One of what these bits count, as a share of the segment."""
-    most: float
-    """Squared stretch at which the law is continued by its value, so that locking stays below a few times
-    the rest stiffness.
-    """
-    gent_mu: float
-    """Modulus of the Gent term, Pa; 0 leaves it out."""
-    gent_limit: float
-    """Gent's Jm: the largest I1 - 3."""
-    soft_depth: float
-    """1/r of Ogden & Roxburgh 1999; 0 switches softening off."""
-    soft_steepness: float
-    """1/c of Ogden & Roxburgh 1999."""
-    viscosity: float
-    """Resistance to the rate of strain, Pa s."""
-    hourglass_damping: float
-    """Damping of the hourglass mode per stiffness, s."""
-
 
 GENT_NEAR_LIMIT = wp.constant(0.9)
 """Share of Jm at which the Gent term is continued by its value: beyond it the law would lock."""

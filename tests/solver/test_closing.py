@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from balloon_usd.plan.closing import ClosingChain, central_angles, smooth
+from balloon_usd.solver.motions.closing import ClosingChain, central_angles
+from balloon_usd.solver.motions.smooth import smooth
 
 ALONG, UP = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])
 GAP = 0.005

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from balloon_usd.solver.crossing import deepest_crossing
+from tests.crossing import deepest_crossing
 
 
 def block(corner, size):

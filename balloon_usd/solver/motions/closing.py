@@ -13,18 +13,14 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from balloon_usd.solver.motions.smooth import smooth
+
 Floats = NDArray[np.float64]
 
 TURN_ACROSS_FROM = 0.45
 """Progress at which the chain begins to be turned across the balloon."""
 LONGEST_SIDE = 0.98
 """A side longer than this share of all the others together cannot close; it is taken as this long."""
-
-
-def smooth(t: float) -> float:
-    """Return a progress of 0 to 1 that starts and ends at rest, with no jump in acceleration."""
-    t = min(max(t, 0.0), 1.0)
-    return t * t * t * (10.0 - 15.0 * t + 6.0 * t * t)
 
 
 def central_angles(lengths: Floats) -> Floats:

@@ -1,0 +1,102 @@
+"""Device arrays of the latex model: rubber, chambers of gas, struts, packing cores and forces.
+
+Vectors of `corner_force` and `volume_gradient` lie as `device.soa` says.
+"""
+
+import warp as wp
+
+from balloon_usd.solver.kernels.arrays.rows import STRUT_SLOTS, CurveSegment, Law
+from balloon_usd.solver.kernels.arrays.table import array, array_struct
+
+
+@array_struct
+class Rubber:
+    """The wall: its rest state, its law and what it remembers."""
+
+    quad_law: wp.array[int] = array("quads", meaning="its rubber")
+    rest_inverse: wp.array[wp.mat22] = array("quads", unit="1/m", meaning="inverse of its edges at rest")
+    hourglass: wp.array[wp.vec4] = array("quads", unit="N^1/2/m^1/2", meaning="its hourglass vector")
+    rubber_volume: wp.array[float] = array("quads", unit="m3", meaning="volume of its rubber")
+    peak_energy: wp.array[float] = array(
+        "quads", unit="J/m3", meaning="largest energy that it has noted so far"
+    )
+    laws: wp.array[Law] = array("balloons", unit="SI", meaning="its rubber")
+    curves: wp.array[CurveSegment] = array(
+        "curve segments", unit="Pa, J/m3", meaning="cubics of the Ogden sums"
+    )
+    softening_rate: wp.array[float] = array("balloons", meaning="share of a new peak noted in one substep")
+    true_mass: wp.array[float] = array("vertices", unit="kg", meaning="mass of its rubber, for gravity")
+
+
+@array_struct
+class Chambers:
+    """Gas: segments whose common neck is fully open form one chamber."""
+
+    balloon_segment: wp.array[int] = array("balloons", meaning="first segment")
+    balloon_segment_end: wp.array[int] = array("balloons", meaning="end of its segments")
+    inlet: wp.array[int] = array("balloons", meaning="segment into which it is pumped")
+    chamber_first: wp.array[int] = array("segments", meaning="first segment of its chamber")
+    chamber_last: wp.array[int] = array("segments", meaning="last segment of its chamber")
+    blowing: wp.array[int] = array("balloons", meaning="1 where gas flows through a closing neck")
+    open_from: wp.array[float] = array("joints", unit="m2", meaning="open area at the start of the frame")
+    open_to: wp.array[float] = array("joints", unit="m2", meaning="open area at its end")
+    pump_flow: wp.array[float] = array("balloons", unit="mol/s", meaning="largest flow of the pump")
+    pump_limit: wp.array[float] = array("balloons", unit="Pa", meaning="gauge pressure at which it stops")
+    pump_goal: wp.array[wp.float64] = array("balloons", unit="mol", meaning="amount at which it stops")
+    chunk_share: wp.array[float] = array("chunks", unit="m3", meaning="scratch: volume from its origin")
+    chamber_volume: wp.array[float] = array(
+        "segments", unit="m3", meaning="of the chamber that it is the last of"
+    )
+    flow: wp.array[wp.float64] = array(
+        "segments", unit="mol", meaning="scratch: gas that leaves it in a substep"
+    )
+    amount: wp.array[wp.float64] = array("segments", unit="mol", meaning="its gas")
+    pressure: wp.array[float] = array("segments", unit="Pa", meaning="its gauge pressure")
+
+
+@array_struct
+class Struts:
+    """Friction between joints of a figure: springs that yield."""
+
+    joint_struts: wp.array2d[int] = array(
+        "joints", STRUT_SLOTS, meaning="its struts + 1, negative at their second ends; 0 for none"
+    )
+    strut_joint: wp.array[wp.vec2i] = array("struts", meaning="joints at its ends; -1 for an unused one")
+    strut_stiffness: wp.array[float] = array("struts", unit="N/m", meaning="its stiffness")
+    strut_damping: wp.array[float] = array("struts", unit="N s/m", meaning="its damping")
+    strut_yield: wp.array[float] = array("struts", unit="N", meaning="force beyond which it gives way")
+    strut_length: wp.array[float] = array("struts", unit="m", meaning="its length at rest")
+    strut_force: wp.array[wp.vec3] = array("struts", unit="N", meaning="its force on its first end")
+
+
+@array_struct
+class Cores:
+    """Rings of balloons that pack, in order along them."""
+
+    world_core: wp.array[int] = array("sculpture starts", meaning="first packing ring")
+    core_ring: wp.array[int] = array("packing rings", meaning="its ring")
+    core_next: wp.array[int] = array("packing rings", meaning="1 where the next is of the same balloon")
+    core_radius: wp.array[float] = array(
+        "packing rings", unit="m", meaning="radius to which its rubber packs"
+    )
+    core_row: wp.array[float] = array("packing rings", unit="m", meaning="unstressed distance to the next")
+    core_order: wp.array[wp.vec3] = array(
+        "packed vertices", unit="N", meaning="force towards its place in order"
+    )
+    core_push: wp.array[wp.vec3] = array("packed vertices", unit="N", meaning="force of the core on it")
+    core_thrust: wp.array[wp.vec3] = array(
+        "packing rings", unit="N", meaning="force on each vertex of the next"
+    )
+
+
+@array_struct
+class Forces:
+    """Forces of the wall, and those of contacts beside `Contacts`."""
+
+    corner_force: wp.array2d[float] = array(4 * 3, "quads", unit="N", meaning="forces on its corners")
+    volume_gradient: wp.array2d[float] = array(4 * 3, "quads", unit="m2", meaning="volume by its corners")
+    pair_corners: wp.array[wp.vec4i] = array("contacts", meaning="vertices of the quad that is touched")
+    pair_limits: wp.array[wp.vec4] = array(
+        "contacts", unit="SI", meaning="stiffness, damping, friction, reach beside"
+    )
+    wall_load: wp.array[float] = array("segments", unit="N", meaning="normal forces of other walls on it")
