@@ -8,16 +8,18 @@ from typing import TYPE_CHECKING, Annotated, ClassVar
 from pydantic import Discriminator, Tag
 
 from balloon_usd.language.joint import Joint, JointEntry, joint
+from balloon_usd.language.lengths import cm
 from balloon_usd.language.names import Name
+from balloon_usd.operations.caution import Caution
 from balloon_usd.operations.modifiers import Entries, OnBalloon, Pointed, Timed, Turned
 from balloon_usd.operations.operation import Operation
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from balloon_usd.language.problem import Path
     from balloon_usd.language.quantities import Units
-    from balloon_usd.operations.score import Score
+    from balloon_usd.operations.score import Layout, Score
     from balloon_usd.operations.workbench import Place, Workbench
 
 
@@ -28,6 +30,8 @@ class LockJoints(Entries):
     """Joints that become one, each written bubble.start or bubble.end."""
 
 
+UNEQUAL = 0.10
+"""Difference of the lengths of a locked pair that shows, as a share of the longer one."""
 BUBBLES, JOINTS = "a list of bubbles", "joints of any"
 """Tags of the forms of a lock, which never occur as keys of a recipe."""
 
@@ -101,6 +105,20 @@ steps:
             _check_bubbles(names, _is_read(names, value), path, bench)
         if (joints := _joints_in(value)) is not None:
             _check_joints(joints, _is_read(joints, value), (*path, "joints"), bench)
+
+    def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:
+        """Warn of a pair of unequal length."""
+        if isinstance(self.lock, LockJoints) or len(self.lock) != 2:
+            return
+        first, second = self.lock
+        one, other = layout.bubble(first).length, layout.bubble(second).length
+        if abs(one - other) > UNEQUAL * max(one, other):
+            yield Caution(
+                index,
+                f"{first} ({cm(one)}) and {second} ({cm(other)}) are an unequal pair",
+                "the longer one bows out and turns the pair aside",
+                "give both the same length",
+            )
 
     def perform(self, score: Score, index: int) -> None:
         """Bring each joint to the next, and twist all into one."""

@@ -2,10 +2,20 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
+from balloon_usd.language.lengths import at_least, cm
+from balloon_usd.operations.caution import Caution
 from balloon_usd.operations.closing import TwistsClosed
 from balloon_usd.operations.operation import BubbleKind, Lengths
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from balloon_usd.operations.score import Layout
+
+SHORTEST = 2.0
+"""Length of the shortest loop, in diameters of its tube: the ends of a shorter one meet before it bends."""
 
 
 class Loop(TwistsClosed):
@@ -36,3 +46,16 @@ steps:
 
     loop: Lengths
     """Make a long bubble and twist its two ends together."""
+
+    def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:
+        """Warn of loops that are too short to be bent."""
+        for name in self.loop:
+            bubble = layout.bubble(name)
+            least = SHORTEST * bubble.width
+            if bubble.length < least:
+                yield Caution(
+                    index,
+                    f"{name} ({cm(bubble.length)}) is too short for a loop",
+                    f"a {bubble.size} is {cm(bubble.width)} wide, so its ends meet before it bends",
+                    f"ear instead of loop, or a loop of at least {at_least(least)}",
+                )

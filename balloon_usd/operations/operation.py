@@ -11,10 +11,11 @@ from balloon_usd.language.quantities import Length, length_entry, written_length
 from balloon_usd.operations.modifiers import MODIFIERS, Entries, OnBalloon, Timed
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator, Mapping
 
     from balloon_usd.language.quantities import LengthLike, Units
-    from balloon_usd.operations.score import Score
+    from balloon_usd.operations.caution import Caution
+    from balloon_usd.operations.score import Layout, Score
     from balloon_usd.operations.workbench import Place, Workbench
 
 BubbleKind = Literal["bubble", "loop", "fold", "ear", "rest", "shape"]
@@ -91,6 +92,10 @@ class Operation(Entries):
     @classmethod
     def check(cls, value: object, place: Place, bench: Workbench) -> None:
         """Complain of what makes no sense, and do the rest, as far as the value can be read."""
+
+    def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:
+        """Yield what a maker would warn of in a step of this index."""
+        yield from ()
 
     def perform(self, score: Score, index: int) -> None:
         """Write the moves of a step of this index; raises `RecipeError` where no hand can make it."""

@@ -18,8 +18,8 @@ from balloon_usd.plan.report import (
 )
 
 if TYPE_CHECKING:
+    from balloon_usd.operations.caution import Caution
     from balloon_usd.plan.graph import SculptureGraph
-    from balloon_usd.plan.judgement import Caution
     from balloon_usd.plan.model import Plan
     from balloon_usd.plan.strip import PlannedBubble, Strip
 

@@ -11,7 +11,7 @@ from balloon_usd.language.lengths import at_least, at_most, cm
 from balloon_usd.language.problem import RecipeError, quoted
 from balloon_usd.plan.capsule import capsule_bubbles
 from balloon_usd.plan.laying_shapes import overlap_problems, shaped_strip
-from balloon_usd.plan.open_tube import OpenTube, inflated_tube, softened, tail_range
+from balloon_usd.plan.open_tube import OpenTube, fitting_share, fitting_tail, inflated_tube
 from balloon_usd.plan.strip import Made, PlannedBubble, Strip
 
 if TYPE_CHECKING:
@@ -88,7 +88,7 @@ def _tube(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> Strip
         shape, left = tube.pinched(length)
         if not left.blown_up:
             path: Path = ("steps", index, recipe.steps[index].word, bubble)
-            raise RecipeError([recipe.problem(path, _misfit(recipe, name, bubble, length, tube))])
+            raise RecipeError([recipe.problem(path, _misfit(recipe, name, tail, bubble, length, tube))])
         rest_end = rest_along + shape.rest_length
         bubbles.append(
             PlannedBubble(
@@ -155,10 +155,16 @@ def _rest_of_tube(
     )
 
 
-def _misfit(recipe: Recipe, name: str, bubble: str, length: float, tube: OpenTube) -> str:
+def _misfit(recipe: Recipe, name: str, tail: float, bubble: str, length: float, tube: OpenTube) -> str:
     text = f"{quoted(bubble)} of {cm(length)} does not fit: {cm(tube.inflated_length)} of {name} is left"
-    room = tail_range(tube.size, softened(tube.rubber), [made.length for made in _made(recipe, name)])
-    if room.most >= 0.0:
-        return f"{text}, expected a tail of at most {at_most(room.most)}"
-    excess = -room.most * maxwell_state(tube.rubber).bulged.b
-    return f"{text}, expected bubbles shorter by {at_least(excess)} in all, or a longer balloon"
+    lengths = [made.length for made in _made(recipe, name)]
+    fitting = fitting_tail(tube.size, tube.rubber, lengths)
+    inflated = recipe.balloons[name].inflated
+    if fitting is not None and inflated is None:
+        return f"{text}, expected a tail of at most {at_most(fitting)}"
+    full = tube.size.length * maxwell_state(tube.rubber).bulged.b
+    if fitting is not None:
+        least = full * (1.0 - fitting / tube.size.length)
+        return f"{text}, expected inflated: at least {at_least(least)}"
+    shorter = sum(lengths) * (1.0 - fitting_share(tube.size, tube.rubber, tail, lengths))
+    return f"{text}, expected bubbles shorter by {at_least(shorter)} in all, or a longer balloon"

@@ -11,13 +11,14 @@ from balloon_usd.plan.budget import budget_of
 from balloon_usd.plan.graph import sculpture_graph
 from balloon_usd.plan.holding import loose_joints
 from balloon_usd.plan.judgement import cautions_of
+from balloon_usd.plan.laid_out import LaidOut
 
 if TYPE_CHECKING:
+    from balloon_usd.operations.caution import Caution
     from balloon_usd.operations.moves import Choreography
     from balloon_usd.plan.budget import Budget
     from balloon_usd.plan.graph import SculptureGraph
     from balloon_usd.plan.holding import LooseJoint
-    from balloon_usd.plan.judgement import Caution
     from balloon_usd.plan.rings import RingTable
     from balloon_usd.plan.strip import PlannedBubble, Strip
     from balloon_usd.recipe import Recipe
@@ -56,7 +57,9 @@ class Plan:
     @cached_property
     def cautions(self) -> tuple[Caution, ...]:
         """What a maker would warn of."""
-        return cautions_of(self.recipe, self.strips, self.graph, self.budgets)
+        return cautions_of(
+            self.recipe, self.strips, LaidOut(self.strips, self.table), self.graph, self.budgets
+        )
 
     @property
     def of_meshes(self) -> bool:

@@ -11,9 +11,9 @@ from balloon_usd.operations.workpiece import Joined
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
+    from balloon_usd.operations.caution import Caution
     from balloon_usd.plan.budget import Budget
     from balloon_usd.plan.graph import SculptureGraph
-    from balloon_usd.plan.judgement import Caution
     from balloon_usd.plan.model import Plan
     from balloon_usd.plan.shaped import Shaped
     from balloon_usd.plan.strip import PlannedBubble, Strip
