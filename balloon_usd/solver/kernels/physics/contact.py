@@ -516,7 +516,14 @@ def limits_of_pair(pair: int, touch: Touch, dt: float, mesh: Mesh, balloons: Bal
 
 @wp.func
 def press_wall(
-    pair: int, c: wp.vec4i, limits: wp.vec4, offset: float, dt: float, contacts: Contacts, state: State
+    pair: int,
+    c: wp.vec4i,
+    limits: wp.vec4,
+    offset: float,
+    dt: float,
+    shared: int,
+    contacts: Contacts,
+    state: State,
 ):
     """Write the contact force (N) on a vertex that touches a quad, and where on the quad.
 
@@ -524,17 +531,17 @@ def press_wall(
     """
     i = pair >> 1
     k = pair & 1
-    p = coherent_vec3(state.x, i)
-    x0 = coherent_vec3(state.x, c[0])
-    x1 = coherent_vec3(state.x, c[1])
-    x2 = coherent_vec3(state.x, c[2])
-    x3 = coherent_vec3(state.x, c[3])
+    p = coherent_vec3(state.x, i, shared)
+    x0 = coherent_vec3(state.x, c[0], shared)
+    x1 = coherent_vec3(state.x, c[1], shared)
+    x2 = coherent_vec3(state.x, c[2], shared)
+    x3 = coherent_vec3(state.x, c[3], shared)
     # Prefetch: loaded before the test that may not need them.
-    velocity = coherent_vec3(state.v, i)
-    v0 = coherent_vec3(state.v, c[0])
-    v1 = coherent_vec3(state.v, c[1])
-    v2 = coherent_vec3(state.v, c[2])
-    v3 = coherent_vec3(state.v, c[3])
+    velocity = coherent_vec3(state.v, i, shared)
+    v0 = coherent_vec3(state.v, c[0], shared)
+    v1 = coherent_vec3(state.v, c[1], shared)
+    v2 = coherent_vec3(state.v, c[2], shared)
+    v3 = coherent_vec3(state.v, c[3], shared)
     slipped = contacts.slip[i, k]
     # Warm start: it slides little in a substep, so one iteration is enough.
     place = nearer_on_patch(x0, x1, x2, x3, p, vec2_at(contacts.contact_place, pair))
@@ -577,14 +584,14 @@ def balancing_turn(r0: wp.vec3, r1: wp.vec3, r2: wp.vec3, r3: wp.vec3, couple: w
 
 
 @wp.func
-def press_quad_back(q: int, mesh: Mesh, contacts: Contacts, forces: Forces, state: State):
+def press_quad_back(q: int, shared: int, mesh: Mesh, contacts: Contacts, forces: Forces, state: State):
     """Take from the corners of a quad what the vertices that touch it felt, forces and torques."""
     count = int_at(contacts.hit_count, q)
     c = vec4i_at(mesh.quads, q)
-    x0 = coherent_vec3(state.x, c[0])
-    x1 = coherent_vec3(state.x, c[1])
-    x2 = coherent_vec3(state.x, c[2])
-    x3 = coherent_vec3(state.x, c[3])
+    x0 = coherent_vec3(state.x, c[0], shared)
+    x1 = coherent_vec3(state.x, c[1], shared)
+    x2 = coherent_vec3(state.x, c[2], shared)
+    x3 = coherent_vec3(state.x, c[3], shared)
     middle = 0.25 * (x0 + x1 + x2 + x3)
     r0 = x0 - middle
     r1 = x1 - middle
@@ -597,16 +604,24 @@ def press_quad_back(q: int, mesh: Mesh, contacts: Contacts, forces: Forces, stat
     couple = wp.vec3(0.0)
     for k in range(count):
         hit = int_in(contacts.hits, q, k)
-        f = load_soa(contacts.contact_force, hit // 2, hit % 2)
-        share = patch_shares(coherent_vec2(contacts.contact_place, hit))
+        f = load_soa(contacts.contact_force, hit // 2, hit % 2, shared)
+        share = patch_shares(coherent_vec2(contacts.contact_place, hit, shared))
         f0 += share[0] * f
         f1 += share[1] * f
         f2 += share[2] * f
         f3 += share[3] * f
         touched = middle + share[0] * r0 + share[1] * r1 + share[2] * r2 + share[3] * r3
-        couple += wp.cross(coherent_vec3(state.x, hit // 2) - touched, f)
+        couple += wp.cross(coherent_vec3(state.x, hit // 2, shared) - touched, f)
     turn = balancing_turn(r0, r1, r2, r3, couple)
-    store_soa(forces.corner_force, q, 0, load_soa(forces.corner_force, q, 0) - f0 - wp.cross(turn, r0))
-    store_soa(forces.corner_force, q, 1, load_soa(forces.corner_force, q, 1) - f1 - wp.cross(turn, r1))
-    store_soa(forces.corner_force, q, 2, load_soa(forces.corner_force, q, 2) - f2 - wp.cross(turn, r2))
-    store_soa(forces.corner_force, q, 3, load_soa(forces.corner_force, q, 3) - f3 - wp.cross(turn, r3))
+    store_soa(
+        forces.corner_force, q, 0, load_soa(forces.corner_force, q, 0, shared) - f0 - wp.cross(turn, r0)
+    )
+    store_soa(
+        forces.corner_force, q, 1, load_soa(forces.corner_force, q, 1, shared) - f1 - wp.cross(turn, r1)
+    )
+    store_soa(
+        forces.corner_force, q, 2, load_soa(forces.corner_force, q, 2, shared) - f2 - wp.cross(turn, r2)
+    )
+    store_soa(
+        forces.corner_force, q, 3, load_soa(forces.corner_force, q, 3, shared) - f3 - wp.cross(turn, r3)
+    )
