@@ -9,9 +9,6 @@ if TYPE_CHECKING:
     from balloon_usd.plan import Plan
     from balloon_usd.recipe import Recipe
 
-SOLVERS = {"latex": "latex 1", "kosaka": "kosaka 1"}
-"""Models of the physics and their versions: another version may move points."""
-
 
 def provenance_of(recipe: Recipe) -> dict[str, str]:
     """Return where results of a recipe come from: its file, the hash of its text, the solver's version."""
@@ -19,7 +16,7 @@ def provenance_of(recipe: Recipe) -> dict[str, str]:
         # Stages hold text, which the name of a file need not be.
         "recipe": Path(recipe.file).name.encode("utf-8", "surrogateescape").decode("utf-8", "replace"),
         "recipe_sha256": recipe.sha256,
-        "solver": SOLVERS[recipe.physics.model],
+        "solver": recipe.physics.traits.version,
     }
 
 

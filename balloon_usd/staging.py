@@ -6,7 +6,6 @@ import re
 from typing import TYPE_CHECKING
 
 from balloon_usd.balloon.detail import detail_named
-from balloon_usd.balloon.rubber import BURST_STRETCH
 from balloon_usd.origin import origin_of
 from balloon_usd.plan.meshing import mesh_of
 from balloon_usd.plan.particles import experiment_spacing, start_particles
@@ -21,9 +20,6 @@ if TYPE_CHECKING:
     from balloon_usd.plan import Plan, Strip
     from balloon_usd.stage import StageFrame, WrittenStage
 
-HIGHEST_STRETCH = {"latex": BURST_STRETCH, "kosaka": 3.0}
-"""Where the colours of stretch end: latex bursts there; springs stand at twice their natural length and
-rarely reach three times."""
 DRAWN = 0.4
 """Diameter of a drawn air particle, in distances of neighbouring ones."""
 
@@ -86,14 +82,14 @@ def describe_stage(plan: Plan, meshes: Sequence[BalloonMesh]) -> StageDescriptio
         provenance=origin_of(plan),
         twists=moves_in_time(plan),
         airs=_describe_airs(plan),
-        highest_stretch=HIGHEST_STRETCH[recipe.physics.model],
+        highest_stretch=recipe.physics.traits.highest_stretch,
     )
 
 
 def _describe_airs(plan: Plan) -> tuple[AirDescription, ...]:
     """Describe the air of every balloon, where the model makes it of particles."""
     physics = plan.recipe.physics
-    if physics.model != "kosaka":
+    if not physics.traits.has_air_particles:
         return ()
     found = []
     for strip in plan.strips.values():

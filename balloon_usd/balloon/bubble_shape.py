@@ -20,10 +20,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from balloon_usd.balloon.halving import halved
 from balloon_usd.balloon.rubber import relaxed_stretches
 from balloon_usd.balloon.tube_theory import inflated_rubber, maxwell_state
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from balloon_usd.balloon.rubber import Floats, MembraneLaw, Rubber
     from balloon_usd.balloon.sizes import BalloonSize
     from balloon_usd.balloon.tube_theory import TubeState
@@ -199,16 +202,13 @@ def _legendre(law: MembraneLaw, a: Floats, b: Floats) -> Floats:
 
 def _axial_stretch(law: MembraneLaw, a: Floats, wanted: Floats, *, axial_force: bool) -> Floats:
     """Solve W_b = wanted (the axial force) or W - b W_b = wanted for the meridional stretch b, by halving."""
-    low, high = np.ones(a.shape), np.full(a.shape, _LARGEST_AXIAL_STRETCH)
-    with np.errstate(invalid="ignore"):
-        for _ in range(_HALVINGS):
-            b = 0.5 * (low + high)
-            if axial_force:
-                short = law.nominal_stress(*relaxed_stretches(a, b))[1] < wanted
-            else:
-                short = _legendre(law, a, b) > wanted
-            low, high = np.where(short, b, low), np.where(short, high, b)
-    return np.asarray(0.5 * (low + high))
+
+    def short(b: Floats) -> NDArray[np.bool_]:
+        if axial_force:
+            return np.asarray(law.nominal_stress(*relaxed_stretches(a, b))[1] < wanted)
+        return np.asarray(_legendre(law, a, b) > wanted)
+
+    return halved(short, np.ones(a.shape), np.full(a.shape, _LARGEST_AXIAL_STRETCH), _HALVINGS)
 
 
 @dataclass(frozen=True, eq=False)
@@ -246,11 +246,11 @@ class _BubbleFamily:
             return _scaled(shortest, wanted / getattr(shortest, measure))
         if wanted >= getattr(longest, measure):
             return self._lengthened(longest, (wanted - getattr(longest, measure)) / per_rest_length)
-        low, high = self.start, _FAMILY_END
-        for _ in range(_HALVINGS):
-            u = 0.5 * (low + high)
-            low, high = (u, high) if getattr(self.at(u), measure) < wanted else (low, u)
-        return self.at(0.5 * (low + high))
+
+        def short(u: Floats) -> NDArray[np.bool_]:
+            return np.asarray(getattr(self.at(float(u)), measure) < wanted)
+
+        return self.at(float(halved(short, self.start, _FAMILY_END, _HALVINGS)))
 
     def _lengthened(self, shape: BubbleShape, rest_length: float) -> BubbleShape:
         return BubbleShape(

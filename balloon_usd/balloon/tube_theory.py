@@ -12,12 +12,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from balloon_usd.balloon.halving import halved
 from balloon_usd.balloon.rubber import UnloadedRubber
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from numpy.typing import ArrayLike
+    from numpy.typing import ArrayLike, NDArray
 
     from balloon_usd.balloon.rubber import Floats, MembraneLaw, Rubber
     from balloon_usd.balloon.sizes import BalloonSize
@@ -79,14 +80,12 @@ def closed_tube_axial_stretch(law: MembraneLaw, a: ArrayLike) -> Floats:
     (b = a^-1/2) and the equibiaxial (b = a) state.
     """
     a = np.asarray(a, dtype=np.float64)
-    low, high = a**-0.5, a.copy()
-    with np.errstate(invalid="ignore"):
-        for _ in range(_HALVINGS):
-            b = 0.5 * (low + high)
-            hoop, axial = law.nominal_stress(a, b)
-            short = a * hoop > 2.0 * b * axial
-            low, high = np.where(short, b, low), np.where(short, high, b)
-    return np.asarray(0.5 * (low + high))
+
+    def short(b: Floats) -> NDArray[np.bool_]:
+        hoop, axial = law.nominal_stress(a, b)
+        return np.asarray(a * hoop > 2.0 * b * axial)
+
+    return halved(short, a**-0.5, a, _HALVINGS)
 
 
 def closed_tube_pressure(law: MembraneLaw, a: ArrayLike) -> Floats:

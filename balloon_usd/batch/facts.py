@@ -34,6 +34,7 @@ class Facts:
     vertices: int
     group: Hashable
     """Recipes of one group can advance in one simulation."""
+    notices: tuple[str, ...] = ()
     cautions: tuple[str, ...] = ()
     plan: bytes = b""
     """See `reading.packed`."""
@@ -81,7 +82,7 @@ def _judge(plan: Plan, order: Order) -> Facts | Refusal:
     recipe = plan.recipe
     name, provenance = recipe.name, origin_of(plan)
     problems = order.in_the_way(name)
-    if order.look == WITH_AIR and recipe.physics.model != "kosaka":
+    if order.look == WITH_AIR and not recipe.physics.traits.has_air_particles:
         needs = f"needs model: kosaka, take one of {', '.join(LOOKS)}"
         problems.append(f"{recipe.file}: --look {WITH_AIR} {needs}")
     try:
@@ -99,6 +100,7 @@ def _judge(plan: Plan, order: Order) -> Facts | Refusal:
         len(codes),
         sum(len(mesh_of(strip, level).points) for strip in plan.strips.values()),
         _group(plan),
+        tuple(map(str, recipe.notices)),
         tuple(_cautions(plan)),
         packed(plan),
     )

@@ -30,6 +30,8 @@ def packed(plan: Plan) -> bytes:
     """Return a plan for other processes, ten times as fast as planning anew; empty if it is large."""
     if plan.of_meshes:
         return b""
+    # What a simulation asks for late is found here, so that no frame waits for it.
+    _ = plan.loose
     data = zlib.compress(pickle.dumps(plan, pickle.HIGHEST_PROTOCOL), FAST)
     return data if len(data) <= LARGEST else b""
 

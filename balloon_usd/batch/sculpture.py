@@ -7,7 +7,6 @@ from contextlib import ExitStack
 from typing import TYPE_CHECKING
 
 from balloon_usd.balloon.detail import detail_named
-from balloon_usd.balloon.rubber import BURST_STRETCH
 from balloon_usd.batch.messages import Made
 from balloon_usd.endings import endings_wait
 from balloon_usd.files.hashes import hashes_of
@@ -111,7 +110,7 @@ class Sculpture:
             "model": self._plan.recipe.physics.model,
             "tails_left": {name: round(tail, 6) for name, tail in summary.tails_left.items()},
             "highest_stretch": round(summary.highest_stretch, 4),
-            "burst_stretch": BURST_STRETCH if self._plan.recipe.physics.model == "latex" else None,
+            "burst_stretch": self._plan.recipe.physics.traits.burst_stretch,
             "highest_bubble": summary.highest_bubble,
             "bursts": summary.bursts,
             "undone": list(summary.undone),

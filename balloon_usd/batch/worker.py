@@ -11,10 +11,10 @@ import sys
 from multiprocessing.connection import Connection
 from typing import TYPE_CHECKING, Any
 
-from balloon_usd.batch.forking import end_with
 from balloon_usd.batch.messages import Role, Start
 from balloon_usd.endings import Terminated, never_dropped, terminate
 from balloon_usd.loading import expect_modules
+from balloon_usd.processes.ending import end_with
 
 if TYPE_CHECKING:
     from balloon_usd.batch.simulator import Simulator

@@ -4,25 +4,19 @@ from __future__ import annotations
 
 import os
 import signal
-import socket
 import subprocess
-import sys
 from contextlib import suppress
-from multiprocessing.connection import Connection
-from typing import TYPE_CHECKING, Any
+from functools import partial
+from typing import TYPE_CHECKING
 
 from balloon_usd.batch.channel import send_ring
-from balloon_usd.batch.forking import (
-    ONE_THREAD,
-    ForkedProcess,
-    close_all_but,
-    import_paths,
-    interrupts_blocked,
-)
+from balloon_usd.processes.forking import ONE_THREAD, fork
+from balloon_usd.processes.starting import connected, spawn
 
 if TYPE_CHECKING:
     from balloon_usd.batch.messages import Ring, Role, Started
     from balloon_usd.batch.shared_memory import SharedMemory
+    from balloon_usd.processes.forking import ForkedProcess
 
 WORKER = "balloon_usd.batch.worker"
 """Module that workers run."""
@@ -36,22 +30,11 @@ class Worker:
     """
 
     def __init__(self, role: Role, device: str, *, fork: bool = False) -> None:
-        """Start the process; `fork`: as a copy of this one, see `forking`."""
+        """Start the process; `fork`: as a copy of this one, see `processes.forking`."""
         self.role = role
         self.device = device
         """Device that it was started for; its full name once it has told."""
-        ours, theirs = socket.socketpair()
-        try:
-            with interrupts_blocked():
-                self._process: ForkedProcess | subprocess.Popen[bytes] = (
-                    _fork(role, theirs.fileno()) if fork else _spawn(role, theirs.fileno())
-                )
-        except BaseException:
-            ours.close()
-            raise
-        finally:
-            theirs.close()
-        self.connection: Connection[Any, Any] = Connection(ours.detach())
+        self._process, self.connection = connected(partial(_fork if fork else _spawn, role))
         self.told: Started | None = None
         """What it said when it was ready."""
 
@@ -110,39 +93,16 @@ class Worker:
 
 def _spawn(role: Role, descriptor: int) -> subprocess.Popen[bytes]:
     """Start a new interpreter that works at the other end of a connection."""
-    os.set_inheritable(descriptor, True)
-    return subprocess.Popen(  # noqa: S603  # our own module
-        [sys.executable, "-P", "-m", WORKER, role.value, str(descriptor), str(os.getpid())],
-        stdin=subprocess.DEVNULL,
-        env=_surroundings(),
-        pass_fds=(descriptor,),
-    )
-
-
-def _surroundings() -> dict[str, str]:
-    """Return the environment of a worker, which imports from where this process does."""
-    return {**ONE_THREAD, **os.environ, "PYTHONPATH": import_paths()}
+    return spawn(["-m", WORKER, role.value], descriptor, settings=ONE_THREAD)
 
 
 def _fork(role: Role, descriptor: int) -> ForkedProcess:
     """Start a worker at the other end of a connection as a copy of this process."""
-    sys.stdout.flush()
-    sys.stderr.flush()
-    parent = os.getpid()
-    pid = os.fork()
-    if pid:
-        return ForkedProcess(pid)
-    # Nothing of the parent's clean-up may run here.
-    code = 1
-    try:
-        signal.signal(signal.SIGTERM, signal.SIG_DFL)
-        close_all_but(descriptor)
+    parent = str(os.getpid())
+
+    def work() -> None:
         from balloon_usd.batch.worker import main  # noqa: PLC0415
 
-        main(role.value, str(descriptor), str(parent))
-        code = 0
-    except BaseException:
-        sys.excepthook(*sys.exc_info())
-    finally:
-        sys.stderr.flush()
-        os._exit(code)
+        main(role.value, str(descriptor), parent)
+
+    return fork(work, descriptor)

@@ -13,6 +13,8 @@ if TYPE_CHECKING:
 # A drive of Windows has a colon, too.
 _PLACED = re.compile(r".+?:(\d+):(\d+): .+")
 CAUTION = ": caution: "
+BAD_INPUT = 2
+"""Exit code of a command that was given a wrong recipe."""
 
 
 class Place(NamedTuple):

@@ -12,7 +12,7 @@ from bpy_extras.io_utils import ImportHelper
 
 from .arrival import bring_in
 from .command import CommandMissingError, run_words
-from .complaint import cautions, first_place
+from .complaint import BAD_INPUT, cautions, first_place
 from .making import Making
 from .preferences import command_of
 from .recipe_text import show_recipe
@@ -137,7 +137,8 @@ class ImportRecipe(bpy.types.Operator, ImportHelper):
         """Import what the command has written, or tell why there is nothing."""
         code, told = self.making.wait(), self.making.told
         if code != 0 or self.making.stage is None:
-            place = first_place(told)
+            # Of a recipe that is right only notices have places.
+            place = first_place(told) if code == BAD_INPUT else None
             if place is not None:
                 show_recipe(self.recipe, place)
             shown = told[:LINES_SHOWN] or [f"the command ended with {code} and wrote no stage"]

@@ -40,7 +40,7 @@ class BatchProgress:
         self._stack.close()
 
     def surveyed(self, accepted: Sequence[Facts], refused: Sequence[Record]) -> None:
-        """Tell all problems and cautions of all recipes, and try the output folder.
+        """Tell all problems, notices and cautions of all recipes, and try the output folder.
 
         Raises:
             Failure: the output folder cannot be written.
@@ -50,8 +50,8 @@ class BatchProgress:
         if accepted:
             require_writable(self._order.folder)
         for facts in accepted:
-            for caution in facts.cautions:
-                click.echo(caution, err=True)
+            for line in (*facts.notices, *facts.cautions):
+                click.echo(line, err=True)
 
     def begun(self, device: str, frames: int) -> None:
         """Begin to show progress."""

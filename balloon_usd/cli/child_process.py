@@ -9,28 +9,26 @@ from __future__ import annotations
 import glob
 import os
 import signal
-import socket
 import subprocess
 import sys
 import tempfile
 import time
 from contextlib import suppress
-from multiprocessing.connection import Connection
+from functools import partial
 from typing import IO, TYPE_CHECKING, Any, ParamSpec, Self, TypeVar
 
-from balloon_usd.batch.forking import (
-    ForkedProcess,
-    close_all_but,
-    import_paths,
-    interrupts_blocked,
-    may_fork,
-)
 from balloon_usd.cli.child_memory import bytes_composed, bytes_there, memory_for
 from balloon_usd.cli.failure import ExitCode, Failure
+from balloon_usd.files.hidden import matching
+from balloon_usd.processes.forking import fork, may_fork
+from balloon_usd.processes.starting import connected, spawn
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
     from pathlib import Path
+
+    from balloon_usd.processes.forking import ForkedProcess
+    from balloon_usd.processes.starting import Process
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -56,7 +54,7 @@ class ChildProcess:
 
     def __init__(self) -> None:
         """Start nothing yet."""
-        self._process: ForkedProcess | subprocess.Popen[bytes] | None = None
+        self._process: Process | None = None
 
     def __enter__(self) -> Self:
         """Start nothing yet; at the end of the block the child is gone."""
@@ -71,17 +69,8 @@ class ChildProcess:
         if self._process is not None or sys.platform == "win32":
             return
         self._said = _scratch_file()
-        ours, theirs = socket.socketpair()
-        try:
-            with interrupts_blocked():
-                start = _fork if may_fork() else _spawn
-                self._process = start(theirs.fileno(), self._said.fileno())
-        except BaseException:
-            ours.close()
-            raise
-        finally:
-            theirs.close()
-        self._connection: Connection[Any, Any] = Connection(ours.detach())
+        start = partial(_fork if may_fork() else _spawn, self._said.fileno())
+        self._process, self._connection = connected(start)
 
     def call(
         self, stages: Iterable[str | Path], function: Callable[P, T], *args: P.args, **kw: P.kwargs
@@ -223,14 +212,14 @@ def remove_unfinished(folder: Path, name: str) -> None:
     start = f".{glob.escape(name)}"
     # An impossible path has been told.
     with suppress(OSError, ValueError):
-        if not name or not any(folder.glob(f"{start}*")):
+        if not name or not matching(folder, f"{start}*"):
             return
         from balloon_usd.files.lock import remove_unheld  # noqa: PLC0415
         from balloon_usd.files.whole_file import PARTIAL  # noqa: PLC0415
         from balloon_usd.stage.workspace import sweep  # noqa: PLC0415
 
-        for partial in folder.glob(f"{start}*.????????{PARTIAL}"):
-            remove_unheld(partial)
+        for file in matching(folder, f"{start}*.????????{PARTIAL}"):
+            remove_unheld(file)
         sweep(f"{start[1:]}*", folder)
 
 
@@ -241,34 +230,18 @@ def _scratch_file() -> IO[bytes]:
     return os.fdopen(os.memfd_create("said"), "w+b")
 
 
-def _fork(connection: int, said: int) -> ForkedProcess:
+def _fork(said: int, connection: int) -> ForkedProcess:
     """Start a child as a copy of this process."""
     parent = os.getpid()
-    pid = os.fork()
-    if pid:
-        return ForkedProcess(pid)
-    # Nothing of the parent's clean-up may run here.
-    try:
-        os.dup2(said, 1)
-        os.dup2(said, 2)
-        # Not those of the parent, in which something may wait to be printed.
-        sys.stdout = sys.stderr = os.fdopen(2, "w", buffering=1, errors="backslashreplace", closefd=False)
-        close_all_but(connection)
+
+    def work() -> None:
         from balloon_usd.cli.child_work import serve  # noqa: PLC0415
 
         serve(connection, parent)
-    finally:
-        os._exit(1)
+
+    return fork(work, connection, said)
 
 
-def _spawn(connection: int, said: int) -> subprocess.Popen[bytes]:
+def _spawn(said: int, connection: int) -> subprocess.Popen[bytes]:
     """Start a child as a new interpreter."""
-    os.set_inheritable(connection, True)
-    return subprocess.Popen(  # noqa: S603  # our own module
-        [sys.executable, "-P", "-c", SERVE, str(connection), str(os.getpid())],
-        stdin=subprocess.DEVNULL,
-        stdout=said,
-        stderr=said,
-        env={**os.environ, "PYTHONPATH": import_paths()},
-        pass_fds=(connection,),
-    )
+    return spawn(["-c", SERVE], connection, said=said)

@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
-from balloon_usd.batch.forking import end_with
 from balloon_usd.cli.child_memory import limit_memory
 from balloon_usd.endings import Terminated, terminate
 from balloon_usd.loading import expect_modules
+from balloon_usd.processes.ending import end_with
 
 if sys.platform != "win32":
     import resource

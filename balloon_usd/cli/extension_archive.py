@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import io
-import tempfile
 import tomllib
 import zipfile
 from pathlib import Path
 
 import balloon_usd
+from balloon_usd.files.whole_file import write_whole
 
 SOURCE = Path(balloon_usd.__file__).with_name("blender")
 """Where the extension lies; it is read, never imported."""
@@ -31,10 +31,7 @@ def write_archive(file: Path) -> None:
     Raises:
         OSError: the file cannot be written.
     """
-    with tempfile.TemporaryDirectory(dir=file.parent, prefix=f".{file.name}.") as folder:
-        written = Path(folder, file.name)
-        written.write_bytes(_packed())
-        written.replace(file)
+    write_whole({file: _packed()})
 
 
 def _packed() -> bytes:

@@ -98,7 +98,7 @@ def _require_air(plans: Sequence[Plan], look: str | None) -> None:
     """Check that plans with a look that shows air have some."""
     if look != WITH_AIR:
         return
-    files = [plan.recipe.file for plan in plans if plan.recipe.physics.model != "kosaka"]
+    files = [plan.recipe.file for plan in plans if not plan.recipe.physics.traits.has_air_particles]
     if files:
         needs = f"--look {WITH_AIR} needs model: kosaka, take one of {', '.join(LOOKS)}"
         raise Failure("\n".join(f"{file}: {needs}" for file in files), ExitCode.BAD_INPUT)

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections import defaultdict
 from typing import TYPE_CHECKING
 
+import click
+
 from balloon_usd.cli.failure import ExitCode, Failure
 
 if TYPE_CHECKING:
@@ -12,6 +14,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from balloon_usd.plan import Plan
+    from balloon_usd.recipe import Recipe
 
 SUFFIXES = frozenset({".yaml", ".yml"})
 
@@ -58,7 +61,7 @@ def _place(file: Path) -> Path:
 
 
 def plans_of(files: Sequence[Path]) -> list[Plan]:
-    """Read and plan every file.
+    """Read and plan every file, and tell notices of all on the error stream.
 
     Raises:
         Failure: with the problems of all files, one a line, if there is any.
@@ -73,10 +76,18 @@ def plans_of(files: Sequence[Path]) -> list[Plan]:
             plans.append(plan(Recipe.load(file)))
         except RecipeError as error:
             problems.append(str(error))
+    for planned in plans:
+        tell_notices(planned.recipe)
     problems += _shared_names(plans)
     if problems:
         raise Failure("\n".join(problems), ExitCode.BAD_INPUT)
     return plans
+
+
+def tell_notices(recipe: Recipe) -> None:
+    """Tell what the writer of a recipe should know, on the error stream."""
+    for notice in recipe.notices:
+        click.echo(notice, err=True)
 
 
 def _shared_names(plans: Iterable[Plan]) -> list[str]:

@@ -90,6 +90,8 @@ def vary(
 def _print_summary(made: Variations, recipe: Path, output: Path) -> None:
     from balloon_usd.variation.reasons import reason_lines  # noqa: PLC0415
 
+    for notice in made.notices:
+        click.echo(notice, err=True)
     written = [variation.file.name for variation in made.written]
     of = f"{len(written)} of {len(written) + len(made.left_out)} variations"
     files = written[0] if len(written) == 1 else f"{written[0]} to {written[-1]}"

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import json
-import secrets
-from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 import yaml
+
+from balloon_usd.files.whole_file import write_whole
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -36,17 +36,10 @@ def template_text(document: dict[str, Any], *, as_json: bool = False) -> str:
 
 
 def write_template(document: dict[str, Any], path: Path) -> None:
-    """Write a template, beside its final name first: no half-written one is ever seen.
+    """Write a template, whole or not at all.
 
     Raises:
         OSError: it cannot be written.
     """
     text = template_text(document, as_json=path.suffix.lower() == ".json")
-    partial = path.with_name(f".{path.name}.{secrets.token_hex(4)}.partial")
-    try:
-        with partial.open("x", encoding="utf-8", newline="\n") as file:
-            file.write(text)
-        partial.replace(path)
-    finally:
-        with suppress(OSError):
-            partial.unlink(missing_ok=True)
+    write_whole({path: text.encode("utf-8")})

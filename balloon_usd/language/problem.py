@@ -51,6 +51,20 @@ class Problem:
         return f"{place}{self.path}: {self.text}" if self.path else place + self.text
 
 
+@dataclass(frozen=True)
+class Notice:
+    """What the writer of a recipe should know though nothing is wrong, such as the new name of a word."""
+
+    file: str
+    line: int
+    column: int
+    text: str
+
+    def __str__(self) -> str:
+        """Format as `file:line:column: text`."""
+        return f"{self.file}:{self.line}:{self.column}: {self.text}"
+
+
 class RecipeError(ValueError):
     """A recipe that cannot be used; `problems` holds all of them, in the order of the file."""
 

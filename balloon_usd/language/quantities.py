@@ -2,6 +2,7 @@
 
 import math
 import re
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from decimal import Decimal
 from typing import Annotated, Any, Literal
@@ -14,6 +15,8 @@ from balloon_usd.language.choices import one_of
 from balloon_usd.language.problem import quoted
 
 Units = Literal["mm", "cm", "m", "in", "ft"]
+LengthLike = float | str
+"""Metres, or a text with its own unit such as "4 in"."""
 
 METRES: dict[str, Decimal] = {
     "mm": Decimal("0.001"),
@@ -91,10 +94,7 @@ def newtons(value: object) -> float:
     Raises:
         ValueError: if it is no force or has an unknown unit.
     """
-    number, unit = _number_and_unit(value, "force", '2 or "2 N"')
-    if unit and unit not in NEWTONS:
-        raise ValueError(f"unknown force unit {quoted(unit)}, expected {one_of(NEWTONS)}")
-    return float(number * NEWTONS[unit or "N"])
+    return _in_units(value, NEWTONS, "force", '2 or "2 N"', "force unit")
 
 
 def seconds(value: object) -> float:
@@ -103,10 +103,7 @@ def seconds(value: object) -> float:
     Raises:
         ValueError: if it is no time or has an unknown unit.
     """
-    number, unit = _number_and_unit(value, "time", '"6 h" or "2 days"')
-    if unit and unit not in SECONDS:
-        raise ValueError(f"unknown unit of time {quoted(unit)}, expected {one_of(SECONDS)}")
-    return float(number * SECONDS[unit or "s"])
+    return _in_units(value, SECONDS, "time", '"6 h" or "2 days"', "unit of time")
 
 
 def length_entry(length: float, units: str | None) -> int | float | str:
@@ -117,6 +114,11 @@ def length_entry(length: float, units: str | None) -> int | float | str:
         if metres(entry, units) == length:
             return entry
     return f"{length!r} m"
+
+
+def written_length(length: LengthLike, units: str | None) -> int | float | str:
+    """Write a length (m) as it stands in a recipe with these `units`; a text stays as it is."""
+    return length if isinstance(length, str) else length_entry(float(length), units)
 
 
 def angle_entry(angle: float) -> int | float | str:
@@ -137,6 +139,14 @@ def duration_entry(duration: float) -> str:
 def short_number(number: float) -> int | float:
     """Drop the `.0` of a whole number."""
     return int(number) if math.isfinite(number) and number == int(number) else number
+
+
+def _in_units(value: object, units: Mapping[str, Decimal], what: str, example: str, called: str) -> float:
+    """Read a quantity in SI units, in which a bare number is."""
+    number, unit = _number_and_unit(value, what, example)
+    if unit and unit not in units:
+        raise ValueError(f"unknown {called} {quoted(unit)}, expected {one_of(units)}")
+    return float(number * units[unit] if unit else number)
 
 
 def _number_and_unit(value: object, what: str, example: str) -> tuple[Decimal, str]:
@@ -229,16 +239,28 @@ class LengthWithin:
         return {"anyOf": [{"type": "number", **least}, text]}
 
 
-class AngleWithin:
-    """An angle above 0 and at most half a turn, in radians; written in degrees."""
+@dataclass(frozen=True)
+class UpTo:
+    """A quantity above 0 and at most `most`, in SI units."""
+
+    most: float
+    """As a bare number in a recipe."""
+    in_si: Callable[[object], float]
+    """Reads what is written."""
+    units: tuple[str, ...]
+    """That may follow the number."""
+    shown: Callable[[float], str]
+    """Writes what was read and is too much."""
+    limit: str
+    """`most` as it is told."""
 
     def read(self, value: object) -> float:
-        """Convert to radians."""
-        angle = radians(value)
-        if not 0.0 < angle <= math.pi:
-            degrees = f"{math.degrees(angle):g}"
-            raise ValueError(f"{degrees} degrees is out of range, expected more than 0 and at most 180")
-        return angle
+        """Convert to SI units."""
+        found = self.in_si(value)
+        if not 0.0 < found <= self.in_si(self.most):
+            what = f"expected more than 0 and at most {self.limit}"
+            raise ValueError(f"{self.shown(found)} is out of range, {what}")
+        return found
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_before_validator_function(self.read, handler(source))
@@ -246,53 +268,8 @@ class AngleWithin:
     def __get_pydantic_json_schema__(
         self, schema: CoreSchema, handler: GetJsonSchemaHandler
     ) -> JsonSchemaValue:
-        text = {"type": "string", "pattern": r"^\s*\+?[0-9.]+\s*(deg|rad)?\s*$"}
-        return {"anyOf": [{"type": "number", "exclusiveMinimum": 0, "maximum": 180}, text]}
-
-
-class ForceWithin:
-    """A force above 0 and at most `high`, in newtons."""
-
-    high = 100.0
-
-    def read(self, value: object) -> float:
-        """Convert to newtons."""
-        force = newtons(value)
-        if not 0.0 < force <= self.high:
-            raise ValueError(f"{force:g} N is out of range, expected more than 0 and at most {self.high:g} N")
-        return force
-
-    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        return core_schema.no_info_before_validator_function(self.read, handler(source))
-
-    def __get_pydantic_json_schema__(
-        self, schema: CoreSchema, handler: GetJsonSchemaHandler
-    ) -> JsonSchemaValue:
-        text = {"type": "string", "pattern": rf"^\s*\+?[0-9.]+\s*({'|'.join(NEWTONS)})?\s*$"}
-        return {"anyOf": [{"type": "number", "exclusiveMinimum": 0, "maximum": self.high}, text]}
-
-
-class DurationWithin:
-    """A time above 0 and at most `high`, in seconds."""
-
-    high = 30.0 * 86400.0
-
-    def read(self, value: object) -> float:
-        """Convert to seconds."""
-        duration = seconds(value)
-        if not 0.0 < duration <= self.high:
-            expected = f"more than 0 and at most {duration_entry(self.high)}"
-            raise ValueError(f"{duration:g} s is out of range, expected {expected}")
-        return duration
-
-    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        return core_schema.no_info_before_validator_function(self.read, handler(source))
-
-    def __get_pydantic_json_schema__(
-        self, schema: CoreSchema, handler: GetJsonSchemaHandler
-    ) -> JsonSchemaValue:
-        text = {"type": "string", "pattern": rf"^\s*\+?[0-9.]+\s*({'|'.join(SECONDS)})?\s*$"}
-        return {"anyOf": [{"type": "number", "exclusiveMinimum": 0, "maximum": self.high}, text]}
+        text = {"type": "string", "pattern": rf"^\s*\+?[0-9.]+\s*({'|'.join(self.units)})?\s*$"}
+        return {"anyOf": [{"type": "number", "exclusiveMinimum": 0, "maximum": self.most}, text]}
 
 
 def _shown(length: float) -> str:
@@ -304,6 +281,10 @@ def _shown(length: float) -> str:
 
 Length = Annotated[float, LengthWithin()]
 FlatTail = Annotated[float, LengthWithin(low_included=True)]
-Angle = Annotated[float, AngleWithin()]
-Force = Annotated[float, ForceWithin()]
-Duration = Annotated[float, DurationWithin()]
+Angle = Annotated[
+    float, UpTo(180, radians, ("deg", "rad"), lambda angle: f"{math.degrees(angle):g} degrees", "180")
+]
+Force = Annotated[float, UpTo(100.0, newtons, tuple(NEWTONS), lambda force: f"{force:g} N", "100 N")]
+Duration = Annotated[
+    float, UpTo(30.0 * 86400.0, seconds, tuple(SECONDS), lambda time: f"{time:g} s", "30 days")
+]

@@ -7,7 +7,7 @@ itself through aliases. What a recipe never needs (tags, anchors, aliases, keys 
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import NoReturn
 
 import yaml
@@ -32,6 +32,17 @@ class Document:
     data: object
     marks: Marks
     complaints: tuple[Complaint, ...]
+
+    def moved(self, before: Path, after: Path) -> Document:
+        """Return it with a part of its data at another path: what stands in the file stays where it is."""
+        marks = replace(self.marks, moved=(*self.marks.moved, (before, after)))
+        complaints = (
+            replace(each, path=(*after, *each.path[len(before) :]))
+            if each.path[: len(before)] == before
+            else each
+            for each in self.complaints
+        )
+        return Document(self.data, marks, tuple(complaints))
 
 
 def read_yaml(text: str, file: str) -> Document:

@@ -14,8 +14,11 @@ from balloon_usd.operations.moves import Bend as BendMove
 from balloon_usd.operations.operation import Operation
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from balloon_usd.language.quantities import Units
     from balloon_usd.operations.score import Score
-    from balloon_usd.operations.workpiece import Place, Workpiece
+    from balloon_usd.operations.workbench import Place, Workbench
 
 BEND_SECONDS = 0.9
 """Bending one bubble, s."""
@@ -31,13 +34,18 @@ format: 1
 name: swan_neck
 units: cm
 balloons:
-  main: {size: 260, color: white, tail: 10}
+  main: {size: 260, color: yellow, length: 15, tail: 5}
 steps:
-  - bubbles: {head: 6, neck: 25}
+  - bubbles: {head: 6, neck: 18}
   - bend: {neck: 90}
     point: up
   - rest: body
 """
+    sources: ClassVar[tuple[str, ...]] = (
+        "Kosaka 2008, fig. 2.2: the bend",
+        "mbfloyd.com: Different twists",
+        "mossieur-ballon.com, 11: air control",
+    )
 
     bend: Annotated[dict[Name, Angle], Field(min_length=1)]
     """Bend bubbles by an angle (degrees; radians in Python), their ends towards point."""
@@ -52,15 +60,22 @@ steps:
         return {name: angle_entry(angle) for name, angle in self.bend.items()}
 
     @classmethod
+    def value_of(
+        cls, units: Units, angles: Mapping[str, float | str] | None = None, /, **more: float | str
+    ) -> object:
+        """Return its value as it stands in a file: angles in degrees."""
+        return {**(angles or {}), **more}
+
+    @classmethod
     def uses(cls, value: object) -> tuple[str, ...]:
         """Return the bubbles that it bends."""
         return tuple(value) if isinstance(value, dict) else ()
 
     @classmethod
-    def check(cls, value: object, place: Place, piece: Workpiece) -> None:
+    def check(cls, value: object, place: Place, bench: Workbench) -> None:
         """Complain of bubbles that do not exist by now."""
         for name in cls.uses(value):
-            piece.find_whole(name, place, (*place.path, cls.word, name))
+            bench.find_whole(name, place, (*place.path, cls.word, name))
 
     def perform(self, score: Score, index: int) -> None:
         """Lead the start and the middle of each bubble onto an arc."""

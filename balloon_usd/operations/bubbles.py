@@ -18,14 +18,19 @@ class Bubbles(Turned, TwistsOff):
     bubble_kind: ClassVar[BubbleKind | None] = "bubble"
     example: ClassVar[str] = """\
 format: 1
-name: snake
+name: caterpillar
 units: cm
 balloons:
-  main: {size: 260, color: green, tail: 20}
+  main: {size: 260, color: green, length: 14, tail: 6}
 steps:
-  - bubbles: {head: 8, neck: 6}
+  - bubbles: {head: 6, first: 4, second: 4, third: 4}
   - rest: tail
 """
+    sources: ClassVar[tuple[str, ...]] = (
+        "Kosaka 2008, fig. 2.2: the bubble twist",
+        "balloonhq.com: Twists 101, the basic twist",
+        "allaboutclowns.com: Twisting lingo",
+    )
 
     bubbles: Lengths
     """Twist off bubbles of these lengths, one after another."""

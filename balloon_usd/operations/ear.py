@@ -15,15 +15,25 @@ class Ear(TwistsClosed):
     bubble_kind: ClassVar[BubbleKind | None] = "ear"
     example: ClassVar[str] = """\
 format: 1
-name: eared
+name: bear_head
 units: cm
 balloons:
-  main: {size: 260, color: pink, tail: 20}
+  main: {size: 260, color: brown, length: 17, tail: 8}
 steps:
-  - bubbles: {stem: 8}
-  - ear: {knob: 4}
-  - rest: tail
+  - bubbles: {left_cheek: 8}
+  - ear: {left_ear: 4}
+  - bubbles: {forehead: 6}
+  - ear: {right_ear: 4}
+  - bubbles: {right_cheek: 8}
+  - lock: {joints: [left_cheek.start, right_cheek.end]}
+    point: up
+  - rest: neck
 """
+    sources: ClassVar[tuple[str, ...]] = (
+        "geocities.com/EnchantedForest/Glade/5001: the ear twist",
+        "mbfloyd.com: Different twists, the pinch twist",
+        "bpmizuki.hatenablog.jp: 空豆ひねり",
+    )
 
     ear: Lengths
     """Pinch a short soft bubble and twist its two ends together."""

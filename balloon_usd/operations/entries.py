@@ -12,7 +12,7 @@ from balloon_usd.language.choices import one_of
 from balloon_usd.language.names import rest_name
 from balloon_usd.operations.rest import Rest
 from balloon_usd.operations.table import BY_WORD, WORDS, words_in
-from balloon_usd.operations.workpiece import Place, UnnamedRest, Workpiece
+from balloon_usd.operations.workbench import Place, UnnamedRest, Workbench
 
 if TYPE_CHECKING:
     from collections.abc import Container, Iterable, Sequence
@@ -57,16 +57,16 @@ class StepEntry:
         """Bubbles that it makes or works on."""
         return (*self.makes, *self.uses)
 
-    def check(self, piece: Workpiece) -> None:
-        """Complain of what makes no sense on this workpiece, and change it."""
+    def check(self, bench: Workbench) -> None:
+        """Complain of what makes no sense, and do the rest to the workpiece."""
         if not self.words:
-            piece.complain(self.path, f"no operation, expected {one_of(WORDS)}")
+            bench.complain(self.path, f"no operation, expected {one_of(WORDS)}")
         unnamed = "balloon" not in self.entries
         makes = any(BY_WORD[word].bubble_kind is not None for word in self.words) and unnamed
-        place = Place(self.path, piece.balloon_of(self.path, self.balloon, makes=makes))
+        place = Place(self.path, bench.balloon_of(self.path, self.balloon, makes=makes))
         for word in self.words:
-            BY_WORD[word].check(self.entries[word], place, piece)
-        piece.check_owner(self.path, self.balloon, self.uses)
+            BY_WORD[word].check(self.entries[word], place, bench)
+        bench.check_owner(self.path, self.balloon, self.uses)
 
 
 def steps_in(data: object) -> list[StepEntry]:
@@ -76,14 +76,14 @@ def steps_in(data: object) -> list[StepEntry]:
     return [StepEntry(("steps", at), step) for at, step in enumerate(entries) if isinstance(step, dict)]
 
 
-def workpiece_of(balloons: Iterable[str], steps: Sequence[StepEntry]) -> Workpiece:
-    """Return the workpiece on which steps begin."""
+def workbench_of(balloons: Iterable[str], steps: Sequence[StepEntry]) -> Workbench:
+    """Return the workbench at which steps begin."""
     names = list(balloons)
     made_ever: dict[str, Path] = {}
     for step in steps:
         for name, path in step.makes.items():
             made_ever.setdefault(name, path)
-    return Workpiece(names, made_ever, _unnamed_rests(names, steps, made_ever))
+    return Workbench(names, made_ever, _unnamed_rests(names, steps, made_ever))
 
 
 def _unnamed_rests(

@@ -15,15 +15,22 @@ class Fold(TwistsClosed):
     bubble_kind: ClassVar[BubbleKind | None] = "fold"
     example: ClassVar[str] = """\
 format: 1
-name: folded
+name: sword
 units: cm
 balloons:
-  main: {size: 260, color: white, tail: 20}
+  main: {size: 260, color: orange, length: 27, tail: 7}
 steps:
-  - bubbles: {stem: 8}
-  - fold: {ear: 16}
-  - rest: tail
+  - bubbles: {grip: 7}
+  - fold: {left_guard: 20}
+    point: left
+  - fold: {right_guard: 20}
+    point: right
+  - rest: blade
 """
+    sources: ClassVar[tuple[str, ...]] = (
+        "allaboutclowns.com: Twisting lingo, the fold twist",
+        "airweaver.wordpress.com",
+    )
 
     fold: Lengths
     """As loop, but bent sharply in its middle so that both halves lie side by side."""

@@ -8,16 +8,19 @@ from typing import TYPE_CHECKING, Annotated, ClassVar
 from pydantic import Discriminator, Tag
 
 from balloon_usd.language.joint import Joint, JointEntry, joint
+from balloon_usd.language.lengths import cm
 from balloon_usd.language.names import Name
+from balloon_usd.operations.caution import Caution
 from balloon_usd.operations.modifiers import Entries, OnBalloon, Pointed, Timed, Turned
 from balloon_usd.operations.operation import Operation
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from balloon_usd.language.problem import Path
-    from balloon_usd.operations.score import Score
-    from balloon_usd.operations.workpiece import Place, Workpiece
+    from balloon_usd.language.quantities import Units
+    from balloon_usd.operations.score import Layout, Score
+    from balloon_usd.operations.workbench import Place, Workbench
 
 
 class LockJoints(Entries):
@@ -27,6 +30,8 @@ class LockJoints(Entries):
     """Joints that become one, each written bubble.start or bubble.end."""
 
 
+UNEQUAL = 0.10
+"""Difference of the lengths of a locked pair that shows, as a share of the longer one."""
 BUBBLES, JOINTS = "a list of bubbles", "joints of any"
 """Tags of the forms of a lock, which never occur as keys of a recipe."""
 
@@ -44,15 +49,24 @@ class Lock(OnBalloon, Pointed, Turned, Timed, Operation):
     value_model: ClassVar[type[Entries] | None] = LockJoints
     example: ClassVar[str] = """\
 format: 1
-name: mouse_ears
+name: mouse
 units: cm
 balloons:
-  main: {size: 260, color: grey, tail: 20}
+  main: {size: 260, color: light_blue, length: 17, tail: 7}
 steps:
-  - bubbles: {nose: 5, left_ear: 4, right_ear: 4}
+  - bubbles: {nose: 5, left_ear: 7, right_ear: 7}
   - lock: [left_ear, right_ear]
-  - rest: tail
+    point: up
+  - bubbles: {neck: 3, left_paw: 6, right_paw: 6}
+  - lock: [left_paw, right_paw]
+    point: down
+  - rest: body
 """
+    sources: ClassVar[tuple[str, ...]] = (
+        "Kosaka 2008, fig. 2.2: the lock twist",
+        "balloonhq.com: Twists 101, the lock twist",
+        "mbfloyd.com: Different twists",
+    )
 
     lock: Annotated[
         Annotated[tuple[Name, ...], Tag(BUBBLES)] | Annotated[LockJoints, Tag(JOINTS)],
@@ -68,14 +82,14 @@ steps:
         return Joint(self.lock[0], "start"), Joint(self.lock[-1], "end")
 
     @property
-    def joined(self) -> tuple[tuple[Joint, ...], ...]:
-        """Joints that become one, in groups."""
-        return (self.ends,)
-
-    @property
     def names(self) -> tuple[str, ...]:
         """Bubbles or joints that it brings together."""
         return tuple(map(str, self.ends)) if isinstance(self.lock, LockJoints) else self.lock
+
+    @classmethod
+    def value_of(cls, units: Units, /, *bubbles: str, joints: Sequence[str] | None = None) -> object:
+        """Return its value as it stands in a file: neighbouring bubbles, or joints such as "nose.end"."""
+        return list(bubbles) if joints is None else {"joints": list(joints)}
 
     @classmethod
     def uses(cls, value: object) -> tuple[str, ...]:
@@ -84,13 +98,27 @@ steps:
         return (*(names or ()), *(each.bubble for each in joints or ()))
 
     @classmethod
-    def check(cls, value: object, place: Place, piece: Workpiece) -> None:
+    def check(cls, value: object, place: Place, bench: Workbench) -> None:
         """Bring joints together that are there and are not one yet."""
         path = (*place.path, cls.word)
         if (names := _names_in(value)) is not None:
-            _check_bubbles(names, _is_read(names, value), path, piece)
+            _check_bubbles(names, _is_read(names, value), path, bench)
         if (joints := _joints_in(value)) is not None:
-            _check_joints(joints, _is_read(joints, value), (*path, "joints"), piece)
+            _check_joints(joints, _is_read(joints, value), (*path, "joints"), bench)
+
+    def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:
+        """Warn of a pair of unequal length."""
+        if isinstance(self.lock, LockJoints) or len(self.lock) != 2:
+            return
+        first, second = self.lock
+        one, other = layout.bubble(first).length, layout.bubble(second).length
+        if abs(one - other) > UNEQUAL * max(one, other):
+            yield Caution(
+                index,
+                f"{first} ({cm(one)}) and {second} ({cm(other)}) are an unequal pair",
+                "the longer one bows out and turns the pair aside",
+                "give both the same length",
+            )
 
     def perform(self, score: Score, index: int) -> None:
         """Bring each joint to the next, and twist all into one."""
@@ -131,46 +159,46 @@ def _is_read(found: Sequence[object], value: object) -> bool:
     return isinstance(written, (list, tuple)) and len(found) == len(written)
 
 
-def _check_bubbles(names: Sequence[str], read: bool, path: Path, piece: Workpiece) -> None:
-    found = [piece.find(name, path) for name in names]
+def _check_bubbles(names: Sequence[str], read: bool, path: Path, bench: Workbench) -> None:
+    found = [bench.find(name, path) for name in names]
     if not read or not all(found):
         return
     if len(set(names)) < len(names):
-        piece.complain(path, "names a bubble twice, expected each once")
+        bench.complain(path, "names a bubble twice, expected each once")
     elif len(names) < 2:
         what = "expected at least two bubbles; one bubble closes on itself with loop, fold or ear"
-        piece.complain(path, f"{len(names)} bubbles cannot be locked, {what}")
+        bench.complain(path, f"{len(names)} bubbles cannot be locked, {what}")
     else:
-        _check_neighbours(names, path, piece)
+        _check_neighbours(names, path, bench)
 
 
-def _check_neighbours(names: Sequence[str], path: Path, piece: Workpiece) -> None:
-    places = [place for name in names if (place := piece.place_of(name))]
-    if len(places) < len(names):
+def _check_neighbours(names: Sequence[str], path: Path, bench: Workbench) -> None:
+    if not bench.knows(names):
         return
+    made = bench.piece.bubbles
     joints = f"lock: {{joints: [{names[0]}.start, {names[-1]}.end]}}"
-    balloons = list(dict.fromkeys(balloon for balloon, _ in places))
+    balloons = list(dict.fromkeys(made[name].balloon for name in names))
     if len(balloons) > 1:
-        piece.complain(path, f"bubbles of different balloons ({', '.join(balloons)}), expected {joints}")
+        bench.complain(path, f"bubbles of different balloons ({', '.join(balloons)}), expected {joints}")
         return
-    first, last = min(at for _, at in places), max(at for _, at in places)
-    run = piece.row(balloons[0])[first : last + 1]
+    row = bench.piece.row(balloons[0])
+    places = [row.index(name) for name in names]
+    run = row[min(places) : max(places) + 1]
     if list(run) == list(names):
-        piece.join(path, [(balloons[0], first), (balloons[0], last + 1)], names)
+        bench.join(path, [Joint(names[0], "start"), Joint(names[-1], "end")], names)
     elif len(run) == len(names):
-        piece.complain(path, f"not in the order of the balloon, expected [{', '.join(run)}]")
+        bench.complain(path, f"not in the order of the balloon, expected [{', '.join(run)}]")
     else:
         between = ", ".join(name for name in run if name not in names)
-        piece.complain(path, f"no neighbours ({between} between them), expected all of them or {joints}")
+        bench.complain(path, f"no neighbours ({between} between them), expected all of them or {joints}")
 
 
-def _check_joints(joints: Sequence[Joint], read: bool, path: Path, piece: Workpiece) -> None:
-    found = [piece.find(each.bubble, path) for each in joints]
+def _check_joints(joints: Sequence[Joint], read: bool, path: Path, bench: Workbench) -> None:
+    found = [bench.find(each.bubble, path) for each in joints]
     if not read or not all(found):
         return
     if len(joints) < 2:
-        piece.complain(path, f"{len(joints)} joints cannot be locked, expected at least two")
+        bench.complain(path, f"{len(joints)} joints cannot be locked, expected at least two")
         return
-    vertices = [vertex for each in joints if (vertex := piece.vertex(each))]
-    if len(vertices) == len(joints):
-        piece.join(path, vertices, [str(each) for each in joints])
+    if bench.knows(each.bubble for each in joints):
+        bench.join(path, joints, [str(each) for each in joints])

@@ -2,10 +2,20 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
+from balloon_usd.language.lengths import at_least, cm
+from balloon_usd.operations.caution import Caution
 from balloon_usd.operations.closing import TwistsClosed
 from balloon_usd.operations.operation import BubbleKind, Lengths
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from balloon_usd.operations.score import Layout
+
+SHORTEST = 2.0
+"""Length of the shortest loop, in diameters of its tube: the ends of a shorter one meet before it bends."""
 
 
 class Loop(TwistsClosed):
@@ -16,15 +26,36 @@ class Loop(TwistsClosed):
     guides: ClassVar[tuple[float, ...]] = tuple(k / 8 for k in range(1, 8))
     example: ClassVar[str] = """\
 format: 1
-name: ring
+name: dragonfly
 units: cm
 balloons:
-  main: {size: 260, color: yellow, tail: 20}
+  main: {size: 260, color: blue, length: 27, tail: 7}
 steps:
-  - bubbles: {stem: 8}
-  - loop: {petal: 24}
-  - rest: tail
+  - bubbles: {head: 5}
+  - loop: {left_wing: 24}
+    point: left
+  - loop: {right_wing: 24}
+    point: right
+  - rest: body
 """
+    sources: ClassVar[tuple[str, ...]] = (
+        "Kosaka 2008, fig. 2.2: the loop twist",
+        "geocities.com/EnchantedForest/Glade/5001: the loop twist",
+        "bpmizuki.hatenablog.jp: 輪ひねり",
+    )
 
     loop: Lengths
     """Make a long bubble and twist its two ends together."""
+
+    def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:
+        """Warn of loops that are too short to be bent."""
+        for name in self.loop:
+            bubble = layout.bubble(name)
+            least = SHORTEST * bubble.width
+            if bubble.length < least:
+                yield Caution(
+                    index,
+                    f"{name} ({cm(bubble.length)}) is too short for a loop",
+                    f"a {bubble.size} is {cm(bubble.width)} wide, so its ends meet before it bends",
+                    f"ear instead of loop, or a loop of at least {at_least(least)}",
+                )

@@ -94,7 +94,7 @@ class Bend(Move):
 
 
 @dataclass(frozen=True)
-class Push(Move):
+class Press(Move):
     """Press a finger into a wall, hold it there, and take it away, while the other hand holds some rings."""
 
     balloon: str = ""

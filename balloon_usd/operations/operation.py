@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
-from balloon_usd.language.joint import Joint
 from balloon_usd.language.names import Name, Text
-from balloon_usd.language.quantities import Length, length_entry
+from balloon_usd.language.quantities import Length, length_entry, written_length
 from balloon_usd.operations.modifiers import MODIFIERS, Entries, OnBalloon, Timed
 
 if TYPE_CHECKING:
-    from balloon_usd.operations.score import Score
-    from balloon_usd.operations.workpiece import Place, Workpiece
+    from collections.abc import Iterator, Mapping
+
+    from balloon_usd.language.quantities import LengthLike, Units
+    from balloon_usd.operations.caution import Caution
+    from balloon_usd.operations.score import Layout, Score
+    from balloon_usd.operations.workbench import Place, Workbench
 
 BubbleKind = Literal["bubble", "loop", "fold", "ear", "rest", "shape"]
 Lengths = Annotated[dict[Name, Length], Field(min_length=1)]
@@ -26,6 +29,8 @@ class Operation(Entries):
     """Key in the recipe."""
     example: ClassVar[str]
     """A whole short recipe with it."""
+    sources: ClassVar[tuple[str, ...]]
+    """Books and pages that describe it."""
     bubble_kind: ClassVar[BubbleKind | None] = None
     """Of the bubbles that it makes."""
     closes: ClassVar[bool] = False
@@ -53,16 +58,6 @@ class Operation(Entries):
         return {}
 
     @property
-    def named_rest(self) -> str | None:
-        """Name that it gives to what is left of a balloon."""
-        return None
-
-    @property
-    def joined(self) -> tuple[tuple[Joint, ...], ...]:
-        """Joints that become one, in groups."""
-        return tuple((Joint(name, "start"), Joint(name, "end")) for name in self.lengths if self.closes)
-
-    @property
     def label(self) -> str:
         """The step in a few words, such as `lock: left_ear, right_ear`."""
         return f"{self.word}: {', '.join(self.names)}"
@@ -77,6 +72,14 @@ class Operation(Entries):
         return self.model_dump(include={self.word})[self.word]
 
     @classmethod
+    def value_of(cls, units: Units, /, *what: Any, **keys: Any) -> object:
+        """Return its value as it stands in a file with these units, from the arguments of a call in Python.
+
+        Each operation has arguments of its own; lengths among them are in m.
+        """
+        raise NotImplementedError
+
+    @classmethod
     def makes(cls, value: object) -> tuple[str, ...]:
         """Return the bubbles that it makes, as far as its value in a file can be read."""
         return ()
@@ -87,8 +90,12 @@ class Operation(Entries):
         return ()
 
     @classmethod
-    def check(cls, value: object, place: Place, piece: Workpiece) -> None:
-        """Complain of what makes no sense on a workpiece, and change it as far as the value can be read."""
+    def check(cls, value: object, place: Place, bench: Workbench) -> None:
+        """Complain of what makes no sense, and do the rest, as far as the value can be read."""
+
+    def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:
+        """Yield what a maker would warn of in a step of this index."""
+        yield from ()
 
     def perform(self, score: Score, index: int) -> None:
         """Write the moves of a step of this index; raises `RecipeError` where no hand can make it."""
@@ -110,12 +117,21 @@ class TwistsOff(OnBalloon, Timed, Operation):
         return {name: length_entry(length, units) for name, length in self.lengths.items()}
 
     @classmethod
+    def value_of(
+        cls, units: Units, lengths: Mapping[str, LengthLike] | None = None, /, **more: LengthLike
+    ) -> object:
+        """Return its value as it stands in a file."""
+        return {name: written_length(length, units) for name, length in {**(lengths or {}), **more}.items()}
+
+    @classmethod
     def makes(cls, value: object) -> tuple[str, ...]:
         """Return the bubbles that it makes."""
         return tuple(value) if isinstance(value, dict) else ()
 
     @classmethod
-    def check(cls, value: object, place: Place, piece: Workpiece) -> None:
+    def check(cls, value: object, place: Place, bench: Workbench) -> None:
         """Make its bubbles."""
         for name in cls.makes(value):
-            piece.make(name, (*place.path, cls.word, name), place.balloon, closed=cls.closes)
+            path = (*place.path, cls.word, name)
+            if bench.make(name, path, place.balloon) and cls.closes:
+                bench.close(name, path)

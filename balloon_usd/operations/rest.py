@@ -9,7 +9,8 @@ from balloon_usd.operations.modifiers import OnBalloon, Timed
 from balloon_usd.operations.operation import BubbleKind, Operation
 
 if TYPE_CHECKING:
-    from balloon_usd.operations.workpiece import Place, Workpiece
+    from balloon_usd.language.quantities import Units
+    from balloon_usd.operations.workbench import Place, Workbench
 
 
 class Rest(OnBalloon, Timed, Operation):
@@ -19,22 +20,23 @@ class Rest(OnBalloon, Timed, Operation):
     bubble_kind: ClassVar[BubbleKind | None] = "rest"
     example: ClassVar[str] = """\
 format: 1
-name: worm
+name: magnifier
 units: cm
 balloons:
-  main: {size: 260, color: brown, tail: 10}
+  main: {size: 260, color: red, length: 16, tail: 5}
 steps:
-  - bubbles: {head: 6}
-  - rest: body
+  - loop: {glass: 25}
+  - rest: handle
 """
+    sources: ClassVar[tuple[str, ...]] = ("Kosaka 2008, fig. 2.4: the tail of the dog is what is left",)
 
     rest: Name
     """Name what is left of the balloon: nothing more is made of it."""
 
-    @property
-    def named_rest(self) -> str | None:
-        """Name that it gives to what is left."""
-        return self.rest
+    @classmethod
+    def value_of(cls, units: Units, /, name: str) -> object:
+        """Return its value as it stands in a file."""
+        return name
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -47,9 +49,8 @@ steps:
         return (value,) if isinstance(value, str) else ()
 
     @classmethod
-    def check(cls, value: object, place: Place, piece: Workpiece) -> None:
+    def check(cls, value: object, place: Place, bench: Workbench) -> None:
         """Name the rest, and let nothing more be made of the balloon."""
         path = (*place.path, cls.word)
         for name in cls.makes(value):
-            piece.make(name, path, place.balloon)
-            piece.end(place.balloon, path)
+            bench.make(name, path, place.balloon, last=True)

@@ -16,7 +16,7 @@ from balloon_usd.operations.lock import Lock
 from balloon_usd.operations.loop import Loop
 from balloon_usd.operations.modifiers import OnBalloon, Pointed, Timed, Turned
 from balloon_usd.operations.operation import Operation
-from balloon_usd.operations.push import Push
+from balloon_usd.operations.press import Press
 from balloon_usd.operations.rest import Rest
 from balloon_usd.operations.wait import Wait
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from pydantic import GetJsonSchemaHandler
     from pydantic.json_schema import JsonSchemaValue
 
-OPERATIONS: tuple[type[Operation], ...] = (Bubbles, Lock, Loop, Fold, Ear, Rest, Bend, Push, Wait)
+OPERATIONS: tuple[type[Operation], ...] = (Bubbles, Lock, Loop, Fold, Ear, Rest, Bend, Press, Wait)
 
 BY_WORD: dict[str, type[Operation]] = {operation.word: operation for operation in OPERATIONS}
 WORDS: tuple[str, ...] = tuple(BY_WORD)

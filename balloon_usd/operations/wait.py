@@ -9,6 +9,7 @@ from balloon_usd.operations.moves import Move
 from balloon_usd.operations.operation import Operation
 
 if TYPE_CHECKING:
+    from balloon_usd.language.quantities import Units
     from balloon_usd.operations.score import Score
 
 
@@ -19,18 +20,27 @@ class Wait(Operation):
     keeps_time: ClassVar[bool] = True
     example: ClassVar[str] = """\
 format: 1
-name: waiting
+name: held
 units: cm
 balloons:
-  main: {size: 260, color: red, tail: 10}
+  main: {size: 260, color: red, length: 13, tail: 6}
 steps:
-  - bubbles: {a: 8}
+  - bubbles: {head: 7, neck: 5}
   - wait: 1.5
-  - rest: b
+  - rest: body
 """
+    sources: ClassVar[tuple[str, ...]] = (
+        "howstuffworks.com: first and last bubbles are held until a lock closes",
+        "sharonministries.org.za: Balloons 2",
+    )
 
     wait: Seconds
     """Do nothing for some seconds."""
+
+    @classmethod
+    def value_of(cls, units: Units, /, seconds: float) -> object:
+        """Return its value as it stands in a file."""
+        return seconds
 
     @property
     def label(self) -> str:

@@ -1,177 +1,300 @@
-"""The workpiece: what has been made so far, for the questions that operations ask of it."""
+"""The workpiece: what the hands have made of the balloons so far, and the questions that operations ask."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
-from balloon_usd.language.choices import one_of, unknown
-from balloon_usd.language.names import NAME_LIMIT
-from balloon_usd.language.problem import PROBLEMS_SHOWN, Complaint, Path, path_text, quoted
+from balloon_usd.language.joint import Joint
 from balloon_usd.operations.disjoint_sets import DisjointSets
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Container, Iterable, Mapping, Sequence
 
-    from balloon_usd.language.joint import Joint
+    import networkx as nx
 
-Vertex = tuple[str, int]
-"""Joint number (0 = knot) on a balloon."""
-
-
-@dataclass(frozen=True)
-class Place:
-    """Where a step stands, and what it works on."""
-
-    path: Path
-    """Of the step in the recipe."""
-    balloon: str | None
-    """The balloon worked on, None when that cannot be known."""
-
-    @property
-    def index(self) -> int:
-        """Number of the step, from 0."""
-        return int(self.path[1])
+ContactKind = Literal["roll", "push", "tuck", "thread"]
+PASSING = ("push", "thread")
+"""Contacts in which one bubble goes through another, or through a ring of others."""
 
 
 @dataclass(frozen=True)
-class UnnamedRest:
-    """What is left of a balloon to which no step gives a name."""
+class Made:
+    """A bubble was made behind those that its balloon had, or is what was left of it."""
 
+    step: int
+    """Index of the step."""
+    bubble: str
     balloon: str
-    last: int
-    """Index of the last step that makes something of the balloon."""
+    last: bool = False
+    """Whether it is the rest of its balloon, behind which nothing is made."""
+
+
+@dataclass(frozen=True)
+class Joined:
+    """Joints became one."""
+
+    step: int
+    ends: tuple[Joint, ...]
+    """One bubble end of each."""
+
+
+@dataclass(frozen=True)
+class Cut:
+    """A balloon was cut through at a joint: its bubbles are two trails from then on."""
+
+    step: int
+    end: Joint
+    """The joint as the end of the bubble before it."""
+
+
+@dataclass(frozen=True)
+class Contact:
+    """Two bubbles were brought to hold each other without a common joint."""
+
+    step: int
+    kind: ContactKind
+    bubble: str
+    other: str
+
+
+Event: TypeAlias = Made | Joined | Cut | Contact
 
 
 class Workpiece:
-    """Bubbles on balloons, and which joints are already one; complaints about what cannot be done."""
+    """Balloons as trails of bubbles, joints that became one, contacts, and how all that came about.
 
-    def __init__(
-        self, balloons: Iterable[str], made_ever: Mapping[str, Path], rests: Mapping[str, UnnamedRest]
-    ) -> None:
-        """Begin with balloons of which nothing is made.
+    Each effect takes the index of the step that has it, so that the workpiece can be had as it was after any.
+    """
+
+    def __init__(self, balloons: Iterable[str]) -> None:
+        """Begin with balloons of which nothing is made."""
+        self.history: list[Event] = []
+        self._made: dict[str, Made] = {}
+        self._trails: dict[str, list[list[str]]] = {name: [] for name in balloons}
+        self._joints: DisjointSets[Joint] = DisjointSets()
+        self._brought: set[Joint] = set()
+        """Ends that a step brought together with others."""
+        self._network: nx.MultiGraph[Joint] | None = None
+        """See `_graph`; made when it is asked for."""
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Leave out what can be made again: other processes need no graph library to read a plan."""
+        return self.__dict__ | {"_network": None}
+
+    # Effects.
+
+    def make(self, step: int, bubble: str, balloon: str, *, last: bool = False) -> None:
+        """Make a new bubble behind those of a balloon, which begins with its first."""
+        self._do(Made(step, bubble, balloon, last))
+
+    def join(self, step: int, ends: Iterable[Joint]) -> None:
+        """Let joints become one."""
+        self._do(Joined(step, tuple(ends)))
+
+    def cut(self, step: int, end: Joint) -> None:
+        """Cut a balloon through at a joint between two of its bubbles.
+
+        Raises:
+            ValueError: no bubble of the balloon follows.
+        """
+        self._do(Cut(step, end))
+
+    def touch(self, step: int, kind: ContactKind, bubble: str, other: str) -> None:
+        """Let one bubble hold another without a common joint."""
+        self._do(Contact(step, kind, bubble, other))
+
+    def _do(self, event: Event) -> None:
+        if isinstance(event, Made):
+            self._make(event)
+        elif isinstance(event, Joined):
+            self._joints.merge(event.ends)
+            self._brought.update(event.ends)
+        elif isinstance(event, Cut):
+            self._cut(event.end)
+        self.history.append(event)
+        self._network = None
+
+    def _make(self, made: Made) -> None:
+        trails = self._trails[made.balloon]
+        if trails:
+            self._joints.merge([Joint(trails[-1][-1], "end"), Joint(made.bubble, "start")])
+            trails[-1].append(made.bubble)
+        else:
+            trails.append([made.bubble])
+        self._made[made.bubble] = made
+
+    def _cut(self, end: Joint) -> None:
+        trails = self._trails[self._made[end.bubble].balloon]
+        trail = next(trail for trail in trails if end.bubble in trail)
+        after = trail.index(end.bubble) + 1
+        if end.end != "end" or after == len(trail):
+            raise ValueError(f"{end} does not part two bubbles of one balloon")
+        at = trails.index(trail)
+        trails[at : at + 1] = [trail[:after], trail[after:]]
+        self._join_anew()
+
+    def _join_anew(self) -> None:
+        """Merge what is one: sets that grew together cannot be parted."""
+        self._joints = DisjointSets()
+        for trail in self.trails:
+            for before, behind in pairwise(trail):
+                self._joints.merge([Joint(before, "end"), Joint(behind, "start")])
+        for event in self.history:
+            if isinstance(event, Joined):
+                self._joints.merge(event.ends)
+
+    # The workpiece as it was.
+
+    def after(self, step: int, without: Container[int] = ()) -> Workpiece:
+        """Return the workpiece as it was after a step, what was left of its balloons as their last bubbles.
 
         Args:
-            balloons: their names.
-            made_ever: where each bubble is made that any step makes, for words about steps in a wrong order.
-            rests: what is left of balloons in the end, by the names that it gets.
+            step: its index.
+            without: steps whose joints have come apart again.
         """
-        self.complaints: list[Complaint] = []
-        self._balloons: dict[str, list[str]] = {name: [] for name in balloons}
-        self._bubbles: dict[str, Vertex | None] = {}
-        self._made_at: dict[str, Path] = {}
-        self._ended: dict[str, Path] = {}
-        self._joints: DisjointSets[Vertex] = DisjointSets()
-        self._made_ever, self._rests = made_ever, rests
+        found = Workpiece(self._trails)
+        for event in self.history:
+            if event.step <= step and not (isinstance(event, Joined) and event.step in without):
+                found._do(event)
+        begun = set(found.balloons)
+        for made in self._made.values():
+            if made.last and made.balloon in begun and made.bubble not in found._made:
+                found._do(made)
+        return found
+
+    # What there is.
 
     @property
-    def full(self) -> bool:
-        """More complaints than anybody reads."""
-        return len(self.complaints) > PROBLEMS_SHOWN
+    def bubbles(self) -> Mapping[str, Made]:
+        """How every bubble was made, by its name."""
+        return self._made
 
-    def complain(self, path: Path, text: str) -> None:
-        """Note that something makes no sense."""
-        self.complaints.append(Complaint(path, text))
+    @property
+    def balloons(self) -> tuple[str, ...]:
+        """Balloons that are begun."""
+        return tuple(balloon for balloon, trails in self._trails.items() if trails)
 
-    def balloon_of(self, path: Path, named: str | None, *, makes: bool) -> str | None:
-        """Return the balloon a step works on; None when that cannot be known.
-
-        Args:
-            path: of the step.
-            named: the balloon that it names.
-            makes: whether it makes something and names no balloon at all.
-        """
-        known = list(self._balloons)
-        if named is not None:
-            if named in self._balloons:
-                return named
-            if known:
-                self.complain((*path, "balloon"), unknown("balloon", named, known))
-            return None
-        if len(known) > 1 and makes:
-            self.complain(path, f"does not say on which balloon, expected balloon: {one_of(known)}")
-        return known[0] if len(known) == 1 else None
-
-    def make(self, name: str, path: Path, balloon: str | None, *, closed: bool = False) -> None:
-        """Make a bubble behind those that are there, `closed` if its two ends become one."""
-        if name in self._made_at:
-            first = path_text(self._made_at[name])
-            self.complain(path, f"bubble {quoted(name)} was made at {first}, expected a new name")
-            return
-        self._made_at[name] = path
-        self._bubbles[name] = None
-        if balloon is None:
-            return
-        if balloon in self._ended:
-            end = path_text(self._ended[balloon])
-            what = f"balloon {quoted(balloon)} has ended at {end}, expected nothing made of it after its rest"
-            self.complain(path, what)
-        at = len(self._balloons[balloon])
-        self._balloons[balloon].append(name)
-        self._bubbles[name] = (balloon, at)
-        if closed:
-            self._joints.merge([(balloon, at), (balloon, at + 1)])
-
-    def end(self, balloon: str | None, path: Path) -> None:
-        """Let nothing more be made of a balloon."""
-        if balloon is not None:
-            self._ended.setdefault(balloon, path)
-
-    def find(self, name: str, path: Path, rests: Iterable[str] = ()) -> bool:
-        """Say whether a bubble exists by now, and complain if it does not; `rests` could be meant, too."""
-        if name in self._made_at:
-            return True
-        later = self._made_ever.get(name)
-        if later is not None:
-            what = f"bubble {quoted(name)} does not exist yet, it is made at {path_text(later)}"
-            self.complain(path, f"{what}: expected this step after that one")
-        elif len(name) <= NAME_LIMIT and not self.full:
-            self.complain(path, unknown("bubble", name, [*self._made_at, *rests]))
-        elif not self.full:
-            self.complain(path, f"unknown bubble {quoted(name)}")
-        return False
-
-    def find_whole(self, name: str, place: Place, path: Path) -> None:
-        """Complain if a bubble, which may be an unnamed rest, does not exist by now."""
-        if name not in self._rests:
-            self.find(name, path, (rest for rest, found in self._rests.items() if found.last <= place.index))
-            return
-        rest = self._rests[name]
-        if rest.last > place.index:
-            what = f"bubble {quoted(name)} does not exist yet"
-            later = f"steps[{rest.last}] makes more of {quoted(rest.balloon)}"
-            self.complain(path, f"{what}, {later}: expected this step after that one")
-
-    def check_owner(self, path: Path, balloon: str | None, names: Iterable[str]) -> None:
-        """Complain of bubbles on another balloon than the one that a step names."""
-        if balloon not in self._balloons:
-            return
-        for name in names:
-            if (owner := self._owner(name)) and owner != balloon:
-                what = f"bubble {quoted(name)} is on balloon {quoted(owner)}, expected no other balloon named"
-                self.complain((*path, "balloon"), what)
-
-    def _owner(self, name: str) -> str | None:
-        if vertex := self._bubbles.get(name):
-            return vertex[0]
-        return self._rests[name].balloon if name in self._rests else None
-
-    def place_of(self, name: str) -> Vertex | None:
-        """Return the balloon of a bubble and its number there; None where that is not known."""
-        return self._bubbles[name]
+    @property
+    def trails(self) -> tuple[tuple[str, ...], ...]:
+        """Bubbles that follow each other along a balloon, from its knot on; a cut balloon has several."""
+        return tuple(tuple(trail) for trails in self._trails.values() for trail in trails)
 
     def row(self, balloon: str) -> Sequence[str]:
-        """Return the bubbles that are made of a balloon, from its knot on."""
-        return self._balloons[balloon]
+        """Return all bubbles of a balloon, from its knot on."""
+        return [bubble for trail in self._trails.get(balloon, ()) for bubble in trail]
 
-    def vertex(self, joint: Joint) -> Vertex | None:
-        """Return the joint at a bubble's end; None where that is not known."""
-        place = self._bubbles[joint.bubble]
-        return place and (place[0], place[1] + (joint.end == "end"))
+    @property
+    def contacts(self) -> tuple[Contact, ...]:
+        """Bubbles that hold each other without a common joint."""
+        return tuple(event for event in self.history if isinstance(event, Contact))
 
-    def join(self, path: Path, vertices: Sequence[Vertex], names: Sequence[str]) -> None:
-        """Let joints become one; where two of them are already one, something else was meant."""
-        if len({self._joints.root(vertex) for vertex in vertices}) < len(vertices):
-            what = f"{', '.join(names)}: these joints are already one, expected different joints"
-            self.complain(path, what)
-        self._joints.merge(vertices)
+    @property
+    def joints(self) -> tuple[tuple[Joint, ...], ...]:
+        """Bubble ends that are one, by balloon and along it; each joint where its first end comes."""
+        members: dict[Joint, list[Joint]] = {}
+        for trail in self.trails:
+            for end in (Joint(bubble, side) for bubble in trail for side in ("start", "end")):
+                members.setdefault(self._joints.root(end), []).append(end)
+        return tuple(map(tuple, members.values()))
+
+    @property
+    def open_ends(self) -> Mapping[str, Joint | None]:
+        """Where what is left of every begun balloon begins, behind its last bubble; of ended ones None."""
+        last = {name: self._made[self._trails[name][-1][-1]] for name in self.balloons}
+        return {name: None if made.last else Joint(made.bubble, "end") for name, made in last.items()}
+
+    @property
+    def chambers(self) -> tuple[tuple[str, ...], ...]:
+        """Bubbles that share their gas: each has its own once it is twisted off."""
+        return tuple((bubble,) for trail in self.trails for bubble in trail)
+
+    # What operations ask.
+
+    def are_one(self, ends: Sequence[Joint]) -> bool:
+        """Whether some of these joints are the same already."""
+        return len({self._joints.root(end) for end in ends}) < len(ends)
+
+    def joint(self, end: Joint) -> tuple[Joint, ...]:
+        """Return all bubble ends that are one with this."""
+        root = self._joints.root(end)
+        return next(ends for ends in self.joints if self._joints.root(ends[0]) == root)
+
+    def is_merged(self, ends: Iterable[Joint]) -> bool:
+        """Whether a step brought several joints together in the one that has all these ends."""
+        return not self._brought.isdisjoint(ends)
+
+    def is_closed(self, bubbles: Iterable[str]) -> bool:
+        """Whether bubbles form one closed ring by now, such as a loop, or the two of a lock twist."""
+        import networkx as nx  # noqa: PLC0415  # slow to import, and a simulation needs none
+
+        ring: nx.MultiGraph[Joint] = nx.MultiGraph()
+        for bubble in bubbles:
+            start, stop = self._ends(bubble)
+            ring.add_edge(start, stop, key=bubble)
+        return len(ring) > 0 and nx.is_connected(ring) and all(degree == 2 for _, degree in ring.degree)
+
+    def bridges(self) -> frozenset[str]:
+        """Return the bubbles that belong to no closed ring."""
+        import networkx as nx  # noqa: PLC0415
+
+        found: Iterable[Any] = nx.bridges(self._graph) if self._made else ()
+        parting = {frozenset(ends) for ends in found}
+        return frozenset(b for u, v, b in self._graph.edges(keys=True) if frozenset((u, v)) in parting)
+
+    def pieces(self) -> list[frozenset[str]]:
+        """Return the bubbles of each connected piece, in the order of their first ones."""
+        import networkx as nx  # noqa: PLC0415
+
+        found = nx.connected_components(self._graph)
+        return [frozenset(bubble for *_, bubble in self._graph.edges(ends, keys=True)) for ends in found]
+
+    def free_joints(self, bridges: frozenset[str]) -> list[tuple[Joint, ...]]:
+        """Return the joints that unwind when they are let go.
+
+        That is where just two bubbles meet, not brought together by any step, and neither belongs to a closed
+        ring: within a ring, turning one bubble would have to turn the ring.
+        """
+        return [
+            ends
+            for ends in self.joints
+            if len(ends) == 2 and not self.is_merged(ends) and bridges.issuperset(end.bubble for end in ends)
+        ]
+
+    def free_to_spin(self, end: Joint) -> bool:
+        """Whether a joint unwinds when it is let go."""
+        return any(end in ends for ends in self.free_joints(self.bridges()))
+
+    def hangs_on(self, end: Joint) -> frozenset[str]:
+        """Return what hangs on one end of a bubble: all other bubbles that come along when it is moved."""
+        import networkx as nx  # noqa: PLC0415
+
+        start, stop = self._ends(end.bubble)
+        self._graph.remove_edge(start, stop, end.bubble)
+        try:
+            reached = nx.node_connected_component(self._graph, self._joints.root(end))
+            return frozenset(bubble for *_, bubble in self._graph.edges(reached, keys=True))
+        finally:
+            self._graph.add_edge(start, stop, key=end.bubble)
+
+    def through(self, bubbles: Iterable[str]) -> frozenset[str]:
+        """Return the bubbles that go through a ring of these."""
+        ring = set(bubbles)
+        return frozenset(c.bubble for c in self.contacts if c.kind in PASSING and c.other in ring)
+
+    @property
+    def _graph(self) -> nx.MultiGraph[Joint]:
+        """Joints as nodes, each named by one of its ends, and bubbles as edges between them."""
+        import networkx as nx  # noqa: PLC0415
+
+        if self._network is None:
+            self._network = nx.MultiGraph()
+            for bubble in (bubble for trail in self.trails for bubble in trail):
+                start, stop = self._ends(bubble)
+                self._network.add_edge(start, stop, key=bubble)
+        return self._network
+
+    def _ends(self, bubble: str) -> tuple[Joint, Joint]:
+        """Return the nodes of a bubble's start and end."""
+        return self._joints.root(Joint(bubble, "start")), self._joints.root(Joint(bubble, "end"))

@@ -21,6 +21,8 @@ class TwistEntry:
     bubble: str
     step: int
     """Index of the step that makes the twist."""
+    length_left: float
+    """Inflated length of the open part, m."""
     tail_left: float
     """Flat tail, m; 0 when it is used up."""
     pressure: float
@@ -105,7 +107,8 @@ def budget_of(strip: Strip) -> Budget:
         state = tube.state
         pressure = gauge_pressure(strip.size, state.p_star)
         energy = float(rubber.energy(state.a, state.b))
-        twists.append(TwistEntry(bubble.name, bubble.step, tube.tail, pressure, state.a, energy))
+        left = tube.inflated_length, tube.tail
+        twists.append(TwistEntry(bubble.name, bubble.step, *left, pressure, state.a, energy))
     room = tail_range(strip.size, rubber, [bubble.length for bubble in strip.bubbles[:-1]])
     maxwell = maxwell_state(rubber)
     return Budget(

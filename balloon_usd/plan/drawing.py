@@ -14,10 +14,11 @@ from balloon_usd.plan.graph_drawing import HEIGHT, graph_shapes, graph_width
 from balloon_usd.plan.open_tube import softened
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     from numpy.typing import NDArray
 
+    from balloon_usd.plan.after_step import AfterStep
     from balloon_usd.plan.model import Plan
     from balloon_usd.plan.shaped import Shaped
     from balloon_usd.plan.strip import PlannedBubble, Strip
@@ -38,23 +39,30 @@ _STYLE = (
 )
 
 
-def plan_svg(plan: Plan) -> str:
-    """Return the plan as an SVG drawing: strips inflated and flat to one scale, then the graph."""
+def plan_svg(plan: Plan, after: AfterStep | None = None) -> str:
+    """Return the plan as an SVG drawing: strips inflated and flat to one scale, then the graph.
+
+    `after`: a step after which it is drawn, instead of the last.
+    """
+    graph = plan.graph if after is None else after.graph
     colors = {name: svg.srgb(plan.recipe.balloons[name].color.rgb) for name in plan.strips}
-    body = [svg.text(plan.recipe.title or plan.recipe.name, (MARGIN, 28.0), "head")]
-    top, width = _HEAD, 0.0 if plan.of_meshes else graph_width(plan.graph)
+    title = plan.recipe.title or plan.recipe.name
+    title = title if after is None else f"{title}, {after.what}"
+    body = [svg.text(title, (MARGIN, 28.0), "head")]
+    top, width = _HEAD, 0.0 if plan.of_meshes else graph_width(graph)
     for name, strip in plan.strips.items():
         if strip.shape is not None:
             body += _mesh_shapes(strip, strip.shape, top)
             top += _ABOVE_MESH + SCALE * float(_printed(strip.shape)[1].max()) + MARGIN
             width = max(width, SCALE * max(strip.shape.surface.size))
             continue
-        body += _strip_shapes(strip, colors[name], top)
+        bubbles = strip.bubbles if after is None else after.made(strip)
+        body += _strip_shapes(strip, bubbles, colors[name], top)
         top += _strip_height(strip)
         before = strip.capsule_length if strip.capsule else strip.size.length
         width = max(width, SCALE * max(strip.bubbles[-1].end, before))
     if not plan.of_meshes:
-        body += graph_shapes(plan.graph, colors, (MARGIN, top))
+        body += graph_shapes(graph, colors, (MARGIN, top))
         top += HEIGHT
     width, height = width + 2.0 * MARGIN, top + MARGIN
     size = f'width="{width:.0f}" height="{height:.0f}" viewBox="0 0 {width:.0f} {height:.0f}"'
@@ -88,12 +96,12 @@ def _strip_height(strip: Strip) -> float:
     return _ABOVE_TUBE + _thickness(strip) + _BELOW_TUBE + (_thickness(strip) if strip.capsule else 0.0)
 
 
-def _strip_shapes(strip: Strip, color: str, top: float) -> Iterator[str]:
+def _strip_shapes(strip: Strip, bubbles: Sequence[PlannedBubble], color: str, top: float) -> Iterator[str]:
     thick = _thickness(strip)
     middle = top + _ABOVE_TUBE + 0.5 * thick
     filling = f"capsule of {cm(strip.capsule_length)}" if strip.capsule else f"leave {cm(strip.tail)} flat"
     yield svg.text(f"{strip.balloon}: {strip.size.name}, {filling}", (MARGIN, top + 12.0))
-    for bubble in strip.bubbles:
+    for bubble in bubbles:
         yield from _bubble_shapes(bubble, color, middle, thick)
     yield from _ruler(strip.bubbles[-1].end, middle + 0.5 * thick + 10.0)
     before = _capsule_shapes if strip.capsule else _flat_shapes

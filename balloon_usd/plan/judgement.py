@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from itertools import chain
 from typing import TYPE_CHECKING
 
 from balloon_usd.balloon.bubble_shape import shortest_stable_bubble
 from balloon_usd.balloon.rubber import BURST_ENERGY, BURST_STRETCH
 from balloon_usd.language.lengths import at_least, cm
-from balloon_usd.operations.lock import Lock
+from balloon_usd.operations.caution import Caution
 from balloon_usd.operations.modifiers import Turned
 from balloon_usd.plan.holding import HOLDING_TURNS
 from balloon_usd.plan.open_tube import softened
@@ -18,6 +17,7 @@ from balloon_usd.plan.open_tube import softened
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
+    from balloon_usd.operations.score import Layout
     from balloon_usd.plan.budget import Budget, TwistEntry
     from balloon_usd.plan.graph import GraphJoint, SculptureGraph
     from balloon_usd.plan.strip import Strip
@@ -25,35 +25,24 @@ if TYPE_CHECKING:
 
 MOST_TURNS = 5.0
 """Turns above which a twist eats tail and can cut the rubber: makers stop at 5."""
-UNEQUAL = 0.10
-"""Difference of the lengths of a locked pair that shows, as a share of the longer one."""
-
-
 EVEN = 2.4
 """Growth of volume up to which a long shape stays even: measured on a ring of round cross-section."""
 LONG = (0.1, 0.68)
 """Volumes of a shape, in that of a ball of its wall, between which it is long: no ball, no flat sheets."""
 
 
-@dataclass(frozen=True)
-class Caution:
-    """A warning with its reason."""
-
-    step: int | None
-    """Index of the step it is about; None for the sculpture as a whole."""
-    what: str
-    why: str
-    remedy: str
-
-
 def cautions_of(
-    recipe: Recipe, strips: Mapping[str, Strip], graph: SculptureGraph, budgets: Mapping[str, Budget]
+    recipe: Recipe,
+    strips: Mapping[str, Strip],
+    layout: Layout,
+    graph: SculptureGraph,
+    budgets: Mapping[str, Budget],
 ) -> tuple[Caution, ...]:
     """Return all cautions, those of the whole sculpture last."""
     found = chain(
-        _unequal_pairs(recipe),
+        chain.from_iterable(step.cautions(index, layout) for index, step in enumerate(recipe.steps)),
         chain.from_iterable(_tail(budget) for budget in budgets.values()),
-        _of_latex(recipe, strips, graph, budgets) if recipe.physics.model == "latex" else (),
+        _of_latex(recipe, strips, graph, budgets) if recipe.physics.traits.winds else (),
         _loose_pieces(strips, graph),
         _bulging(strips),
     )
@@ -95,23 +84,6 @@ def _turns(recipe: Recipe) -> Iterator[Caution]:
 
 def _turns_text(turns: float) -> str:
     return "1 turn" if turns == 1.0 else f"{turns:g} turns"
-
-
-def _unequal_pairs(recipe: Recipe) -> Iterator[Caution]:
-    lengths = {name: length for step in recipe.steps for name, length in step.lengths.items()}
-    for index, step in enumerate(recipe.steps):
-        if not isinstance(step, Lock) or not isinstance(step.lock, tuple) or len(step.lock) != 2:
-            continue
-        first, second = (lengths.get(name) for name in step.lock)
-        if first is None or second is None:
-            continue
-        if abs(first - second) > UNEQUAL * max(first, second):
-            yield Caution(
-                index,
-                f"{step.lock[0]} ({cm(first)}) and {step.lock[1]} ({cm(second)}) are an unequal pair",
-                "the longer one bows out and turns the pair aside",
-                "give both the same length",
-            )
 
 
 def _short_bubbles(strips: Mapping[str, Strip]) -> Iterator[Caution]:

@@ -8,20 +8,18 @@ from typing import TYPE_CHECKING
 from balloon_usd.balloon.rubber import rubber_named
 from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.language.lengths import at_least, at_most, cm
-from balloon_usd.language.names import rest_name
 from balloon_usd.language.problem import RecipeError, quoted
-from balloon_usd.operations.modifiers import OnBalloon
 from balloon_usd.plan.capsule import capsule_bubbles
 from balloon_usd.plan.laying_shapes import overlap_problems, shaped_strip
-from balloon_usd.plan.open_tube import OpenTube, inflated_tube, softened, tail_range
+from balloon_usd.plan.open_tube import OpenTube, fitting_share, fitting_tail, inflated_tube
 from balloon_usd.plan.strip import Made, PlannedBubble, Strip
-from balloon_usd.plan.tube_sizes import tube_sizes
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from balloon_usd.balloon.rubber import Rubber
     from balloon_usd.balloon.sizes import BalloonSize
     from balloon_usd.language.problem import Path, Problem
-    from balloon_usd.operations.operation import Operation
     from balloon_usd.recipe import Recipe
     from balloon_usd.recipe.balloons import Balloon
 
@@ -29,8 +27,8 @@ FULL_TOLERANCE = 0.02
 """An inflated length beyond the full one by this share means full: nominal lengths are rounded."""
 
 
-def lay_strips(recipe: Recipe) -> dict[str, Strip]:
-    """Return the strip of every balloon of a recipe, by name.
+def lay_strips(recipe: Recipe, tubes: Mapping[str, BalloonSize]) -> dict[str, Strip]:
+    """Return the strip of every balloon of a recipe, by name; `tubes`: sizes of those that are tubes.
 
     A balloon without a `rest` step ends in a bubble named after it: `main_rest`.
 
@@ -43,8 +41,11 @@ def lay_strips(recipe: Recipe) -> dict[str, Strip]:
     problems: list[Problem] = []
     for name, balloon in recipe.balloons.items():
         try:
-            lay = shaped_strip if balloon.mesh else _tube if balloon.capsule is None else _capsule
-            strips[name] = lay(recipe, name, rubber)
+            if balloon.mesh:
+                strips[name] = shaped_strip(recipe, name, rubber)
+            else:
+                lay = _tube if balloon.capsule is None else _capsule
+                strips[name] = lay(recipe, name, tubes[name], rubber)
         except RecipeError as error:
             problems.extend(error.problems)
     problems += overlap_problems(recipe, strips)
@@ -63,10 +64,10 @@ def _rubber(recipe: Recipe) -> Rubber:
     return rubber if recipe.physics.softening else rubber.without_softening()
 
 
-def _capsule(recipe: Recipe, name: str, rubber: Rubber) -> Strip:
+def _capsule(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> Strip:
     balloon = recipe.balloons[name]
     length = balloon.capsule or 0.0
-    strip = Strip(name, tube_sizes(recipe)[name], rubber, 0.0, (), capsule=True)
+    strip = Strip(name, size, rubber, 0.0, (), capsule=True)
     path: Path = ("balloons", name, "capsule")
     if length > strip.full_length * (1.0 + FULL_TOLERANCE):
         raise RecipeError([recipe.problem(path, _beyond_full(length, strip.size, strip.full_length))])
@@ -78,8 +79,7 @@ def _capsule(recipe: Recipe, name: str, rubber: Rubber) -> Strip:
     return replace(strip, bubbles=bubbles)
 
 
-def _tube(recipe: Recipe, name: str, rubber: Rubber) -> Strip:
-    size = tube_sizes(recipe)[name]
+def _tube(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> Strip:
     tail = _tail(recipe, name, size, rubber)
     tube = inflated_tube(size, rubber, tail)
     bubbles: list[PlannedBubble] = []
@@ -88,7 +88,7 @@ def _tube(recipe: Recipe, name: str, rubber: Rubber) -> Strip:
         shape, left = tube.pinched(length)
         if not left.blown_up:
             path: Path = ("steps", index, recipe.steps[index].word, bubble)
-            raise RecipeError([recipe.problem(path, _misfit(recipe, name, bubble, length, tube))])
+            raise RecipeError([recipe.problem(path, _misfit(recipe, name, tail, bubble, length, tube))])
         rest_end = rest_along + shape.rest_length
         bubbles.append(
             PlannedBubble(
@@ -120,22 +120,20 @@ def _beyond_full(length: float, size: BalloonSize, full: float) -> str:
 
 
 def _made(recipe: Recipe, name: str) -> list[Made]:
-    """What the steps make of one balloon."""
-    return [
-        Made(index, step.bubble_kind, bubble, length)
-        for index, step in enumerate(recipe.steps)
-        if step.bubble_kind is not None and _balloon_of(recipe, step) == name
-        for bubble, length in step.lengths.items()
-    ]
+    """What the steps make of one balloon, but its rest."""
+    found = []
+    for bubble in recipe.piece.row(name)[:-1]:
+        index = recipe.piece.bubbles[bubble].step
+        step = recipe.steps[index]
+        assert step.bubble_kind is not None, "a step that makes bubbles says of which kind"
+        found.append(Made(index, step.bubble_kind, bubble, step.lengths[bubble]))
+    return found
 
 
 def _rest(recipe: Recipe, name: str) -> tuple[str, int]:
     """Name of what is left of a balloon, and the step that names it, or the number of steps."""
-    for at, step in enumerate(recipe.steps):
-        if step.named_rest is not None and _balloon_of(recipe, step) == name:
-            return step.named_rest, at
-    taken = {bubble for step in recipe.steps for bubble in (*step.lengths, step.named_rest or "")}
-    return rest_name(name, taken), len(recipe.steps)
+    bubble = recipe.piece.row(name)[-1]
+    return bubble, recipe.piece.bubbles[bubble].step
 
 
 def _rest_of_tube(
@@ -157,16 +155,16 @@ def _rest_of_tube(
     )
 
 
-def _balloon_of(recipe: Recipe, step: Operation) -> str:
-    """The balloon that a step works on: the one it names, else the only one."""
-    named = step.balloon if isinstance(step, OnBalloon) else None
-    return named if named is not None else next(iter(recipe.balloons))
-
-
-def _misfit(recipe: Recipe, name: str, bubble: str, length: float, tube: OpenTube) -> str:
+def _misfit(recipe: Recipe, name: str, tail: float, bubble: str, length: float, tube: OpenTube) -> str:
     text = f"{quoted(bubble)} of {cm(length)} does not fit: {cm(tube.inflated_length)} of {name} is left"
-    room = tail_range(tube.size, softened(tube.rubber), [made.length for made in _made(recipe, name)])
-    if room.most >= 0.0:
-        return f"{text}, expected a tail of at most {at_most(room.most)}"
-    excess = -room.most * maxwell_state(tube.rubber).bulged.b
-    return f"{text}, expected bubbles shorter by {at_least(excess)} in all, or a longer balloon"
+    lengths = [made.length for made in _made(recipe, name)]
+    fitting = fitting_tail(tube.size, tube.rubber, lengths)
+    inflated = recipe.balloons[name].inflated
+    if fitting is not None and inflated is None:
+        return f"{text}, expected a tail of at most {at_most(fitting)}"
+    full = tube.size.length * maxwell_state(tube.rubber).bulged.b
+    if fitting is not None:
+        least = full * (1.0 - fitting / tube.size.length)
+        return f"{text}, expected inflated: at least {at_least(least)}"
+    shorter = sum(lengths) * (1.0 - fitting_share(tube.size, tube.rubber, tail, lengths))
+    return f"{text}, expected bubbles shorter by {at_least(shorter)} in all, or a longer balloon"

@@ -4,14 +4,21 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
+from balloon_usd.plan.budget import budget_of
+from balloon_usd.plan.graph import sculpture_graph
+from balloon_usd.plan.holding import loose_joints
+from balloon_usd.plan.judgement import cautions_of
+from balloon_usd.plan.laid_out import LaidOut
+
 if TYPE_CHECKING:
+    from balloon_usd.operations.caution import Caution
     from balloon_usd.operations.moves import Choreography
     from balloon_usd.plan.budget import Budget
     from balloon_usd.plan.graph import SculptureGraph
-    from balloon_usd.plan.holding import Holding
-    from balloon_usd.plan.judgement import Caution
+    from balloon_usd.plan.holding import LooseJoint
     from balloon_usd.plan.rings import RingTable
     from balloon_usd.plan.strip import PlannedBubble, Strip
     from balloon_usd.recipe import Recipe
@@ -27,16 +34,32 @@ class Plan:
     recipe: Recipe
     strips: dict[str, Strip]
     """By balloon, in the order of the recipe."""
-    graph: SculptureGraph
-    holding: Holding
-    """What stays when the hands let go."""
-    budgets: dict[str, Budget]
-    """By balloon, in the order of the recipe; only tubes have one."""
-    cautions: tuple[Caution, ...]
     table: RingTable
     """Rings that hands hold and close."""
     choreography: Choreography
     """What the hands do, in time."""
+
+    @cached_property
+    def graph(self) -> SculptureGraph:
+        """Joints and bubbles of the finished sculpture."""
+        return sculpture_graph(self.recipe.piece)
+
+    @cached_property
+    def loose(self) -> tuple[LooseJoint, ...]:
+        """Joints that untwist when the hands let go, in plan order."""
+        return loose_joints(self.recipe)
+
+    @cached_property
+    def budgets(self) -> dict[str, Budget]:
+        """Tail and gas by balloon, in the order of the recipe; only tubes have a budget."""
+        return {name: budget_of(strip) for name, strip in self.strips.items() if strip.has_tail}
+
+    @cached_property
+    def cautions(self) -> tuple[Caution, ...]:
+        """What a maker would warn of."""
+        return cautions_of(
+            self.recipe, self.strips, LaidOut(self.strips, self.table), self.graph, self.budgets
+        )
 
     @property
     def of_meshes(self) -> bool:

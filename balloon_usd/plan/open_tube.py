@@ -22,10 +22,15 @@ from balloon_usd.balloon.rubber import Softening
 from balloon_usd.balloon.tube_theory import TubeState, bulged_state_of_volume, maxwell_state
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
     from balloon_usd.balloon.rubber import Rubber
     from balloon_usd.balloon.sizes import BalloonSize
+
+MILLIMETRE = 1e-3
+"""Step in which tails are told, m."""
+SHARE = 1e-3
+"""Accuracy of the share by which bubbles have to be shorter."""
 
 
 @dataclass(frozen=True)
@@ -146,3 +151,35 @@ def tail_range(size: BalloonSize, rubber: Rubber, lengths: Iterable[float]) -> T
     used = sum(bulged * shape.rest_length - shape.volume for shape in shapes) / gained
     taken = sum(shape.rest_length for shape in shapes) + end_rest_length(size, rubber)
     return TailRange(used, size.length - taken + used)
+
+
+def fitting_tail(size: BalloonSize, rubber: Rubber, lengths: Sequence[float]) -> float | None:
+    """Return the longest flat tail (m, to a millimetre) with which bubbles of these inflated lengths (m) fit,
+    also where they use it up and blow up what is left harder; None where they fit with none.
+    """
+    if not _fit(size, rubber, 0.0, lengths):
+        return None
+    low, high = 0, math.ceil(size.length / MILLIMETRE)
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (middle, high) if _fit(size, rubber, middle * MILLIMETRE, lengths) else (low, middle)
+    return low * MILLIMETRE
+
+
+def fitting_share(size: BalloonSize, rubber: Rubber, tail: float, lengths: Sequence[float]) -> float:
+    """Return the share of their inflated lengths (m) with which bubbles fit beside a flat tail (m)."""
+    low, high = 0.0, 1.0
+    while high - low > SHARE:
+        middle = 0.5 * (low + high)
+        fits = _fit(size, rubber, tail, [middle * length for length in lengths])
+        low, high = (middle, high) if fits else (low, middle)
+    return low
+
+
+def _fit(size: BalloonSize, rubber: Rubber, tail: float, lengths: Sequence[float]) -> bool:
+    tube = inflated_tube(size, rubber, tail)
+    for length in lengths:
+        _, tube = tube.pinched(length)
+        if not tube.blown_up:
+            return False
+    return True

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from balloon_usd.balloon.capsule_mesh import EXPERIMENT_LENGTH, EXPERIMENT_RADIUS
 from balloon_usd.plan.blown import blown_shape
 
 if TYPE_CHECKING:
@@ -16,10 +17,6 @@ Floats = NDArray[np.float64]
 
 EXPERIMENT = (40, 4, 5)
 """Particles of the experiment along, across and up."""
-EXPERIMENT_LENGTH = 0.20
-"""Length of its capsule, m."""
-EXPERIMENT_RADIUS = 0.0255
-"""Radius of its capsule, m."""
 PACKED = 0.4 / 2.55
 """Spacing of the experiment's particles at the start, in radii of its capsule."""
 FROM_WALL = 0.5

@@ -6,31 +6,25 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from balloon_usd.language.lengths import at_least, at_most, cm
-from balloon_usd.operations.lock import Lock
+from balloon_usd.operations.workpiece import Joined
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
+    from balloon_usd.operations.caution import Caution
     from balloon_usd.plan.budget import Budget
-    from balloon_usd.plan.judgement import Caution
+    from balloon_usd.plan.graph import SculptureGraph
     from balloon_usd.plan.model import Plan
     from balloon_usd.plan.shaped import Shaped
-    from balloon_usd.plan.strip import Strip
+    from balloon_usd.plan.strip import PlannedBubble, Strip
 
 PLAN_FORMAT = 1
 """Version of the layout of `plan_json`."""
-MODELS = {"latex": "hyperelastic rubber and gas", "kosaka": "springs and air particles"}
-"""The physical models in a few words."""
 
 
 def plan_text(plan: Plan) -> str:
     """Return the plan as readable text: strips, tail, joints, locks and cautions with their reasons."""
-    recipe = plan.recipe
-    title = f"{recipe.title} ({recipe.name})" if recipe.title else recipe.name
-    lines = [title]
-    if recipe.source:
-        lines.append(f"after {recipe.source}")
-    lines.append(f"model {recipe.physics.model}: {MODELS[recipe.physics.model]}")
+    lines = list(head_lines(plan))
     for name, strip in plan.strips.items():
         if strip.shape is not None:
             lines += ["", *_shape_lines(strip, strip.shape)]
@@ -39,16 +33,30 @@ def plan_text(plan: Plan) -> str:
         else:
             lines += ["", *_strip_lines(strip), *_budget_lines(plan, plan.budgets[name])]
     graph = [] if plan.of_meshes else ["", *_graph_lines(plan)]
-    lines += [*graph, "", *_caution_lines(plan.cautions)]
+    lines += [*graph, "", *caution_lines(plan.cautions)]
     return "\n".join(lines) + "\n"
 
 
+def head_lines(plan: Plan) -> Iterator[str]:
+    """Yield what a plan is of."""
+    recipe = plan.recipe
+    yield f"{recipe.title} ({recipe.name})" if recipe.title else recipe.name
+    if recipe.source:
+        yield f"after {recipe.source}"
+    yield f"model {recipe.physics.model}: {recipe.physics.traits.title}"
+
+
 def _strip_lines(strip: Strip) -> Iterator[str]:
-    width = max(len("bubble"), *(len(bubble.name) for bubble in strip.bubbles))
     size = strip.size
     yield f"balloon {strip.balloon}: {size.name}, {cm(size.length)} flat"
+    yield from bubble_lines(strip, strip.bubbles)
+
+
+def bubble_lines(strip: Strip, bubbles: Sequence[PlannedBubble]) -> Iterator[str]:
+    """Yield a table of bubbles of a strip."""
+    width = max(len("bubble"), *(len(bubble.name) for bubble in strip.bubbles))
     yield f"  {'bubble':{width}}  kind    length    from      to   of flat tube     gas"
-    for bubble in strip.bubbles:
+    for bubble in bubbles:
         yield (
             f"  {bubble.name:{width}}  {bubble.kind:6}"
             f"{bubble.length * 100:5.1f} cm  {bubble.start * 100:6.1f}  {bubble.end * 100:6.1f}   "
@@ -88,7 +96,7 @@ def _shape_lines(strip: Strip, shape: Shaped) -> Iterator[str]:
 def _budget_lines(plan: Plan, budget: Budget) -> Iterator[str]:
     twists = len(budget.twists)
     gas = f"{budget.volume * 1e3:.2f} L"
-    if plan.recipe.physics.model == "latex":
+    if plan.recipe.physics.traits.winds:
         gas += f" at {budget.pressure / 1e3:.1f} kPa, {budget.gas_amount:.3f} mol"
     yield f"  blow up {cm(budget.inflated_length)}, leave {cm(budget.tail)} flat: {gas}"
     yield (
@@ -106,12 +114,22 @@ def _budget_lines(plan: Plan, budget: Budget) -> Iterator[str]:
 def _graph_lines(plan: Plan) -> Iterator[str]:
     graph = plan.graph
     strokes = "one balloon" if graph.one_stroke else f"{graph.fewest_balloons} balloons"
+    yield f"{ring_line(graph)}; {strokes} could make it"
+    for event in plan.recipe.piece.history:
+        if isinstance(event, Joined) and not plan.recipe.steps[event.step].closes:
+            what = f"{plan.recipe.steps[event.step].word}s {', '.join(map(str, event.ends))}"
+            yield f"  step {event.step + 1} {what} (joint {graph.joint_of(event.ends[0]).index})"
+    yield from joint_lines(graph)
+
+
+def ring_line(graph: SculptureGraph) -> str:
+    """Return how much of what a graph has."""
     bubbles, rings = _count(len(graph.edges), "bubble"), _count(graph.rings, "closed ring")
-    yield f"{len(graph.joints)} joints, {bubbles}, {rings}; {strokes} could make it"
-    for index, step in enumerate(plan.recipe.steps):
-        if isinstance(step, Lock):
-            meeting = graph.joint_of(step.ends[0])
-            yield f"  step {index + 1} locks {', '.join(map(str, step.ends))} (joint {meeting.index})"
+    return f"{_count(len(graph.joints), 'joint')}, {bubbles}, {rings}"
+
+
+def joint_lines(graph: SculptureGraph) -> Iterator[str]:
+    """Yield a line for every joint of a graph."""
     for place in graph.joints:
         yield f"  joint {place.index}, {_count(graph.degree(place.index), 'bubble end')}: {place}"
 
@@ -120,7 +138,8 @@ def _count(number: int, what: str) -> str:
     return f"{number} {what}" if number == 1 else f"{number} {what}s"
 
 
-def _caution_lines(cautions: tuple[Caution, ...]) -> Iterator[str]:
+def caution_lines(cautions: tuple[Caution, ...]) -> Iterator[str]:
+    """Yield cautions with their reasons and remedies."""
     if not cautions:
         yield "no cautions"
         return
@@ -134,33 +153,45 @@ def _caution_lines(cautions: tuple[Caution, ...]) -> Iterator[str]:
 
 def plan_json(plan: Plan) -> dict[str, Any]:
     """Return the plan as plain data, ready for JSON: SI units, step indices from 0."""
-    graph, latex = plan.graph, plan.recipe.physics.model == "latex"
+    return {
+        **head_json(plan),
+        "balloons": [_balloon_json(strip, plan.budgets.get(name)) for name, strip in plan.strips.items()],
+        "graph": graph_json(plan.graph, winds=plan.recipe.physics.traits.winds),
+        "cautions": [asdict(caution) for caution in plan.cautions],
+        "notices": [asdict(notice) for notice in plan.recipe.notices],
+    }
+
+
+def head_json(plan: Plan) -> dict[str, Any]:
+    """Return what a plan is of, as plain data."""
     return {
         "format": PLAN_FORMAT,
         "name": plan.recipe.name,
         "title": plan.recipe.title,
         "recipe_sha256": plan.recipe.sha256,
         "model": plan.recipe.physics.model,
-        "balloons": [_balloon_json(strip, plan.budgets.get(name)) for name, strip in plan.strips.items()],
-        "graph": {
-            "joints": [
-                {
-                    "index": joint.index,
-                    "ends": [str(end) for end in joint.ends],
-                    "degree": graph.degree(joint.index),
-                    "merged": joint.merged,
-                    "springs_back": latex and graph.springs_back(joint.index),
-                }
-                for joint in graph.joints
-            ],
-            "edges": [asdict(edge) for edge in graph.edges],
-            "contacts": [asdict(contact) for contact in graph.contacts],
-            "rings": graph.rings,
-            "pieces": len(graph.pieces),
-            "odd_joints": list(graph.odd_joints),
-            "fewest_balloons": graph.fewest_balloons,
-        },
-        "cautions": [asdict(caution) for caution in plan.cautions],
+    }
+
+
+def graph_json(graph: SculptureGraph, *, winds: bool) -> dict[str, Any]:
+    """Return a graph as plain data; joints of frozen springs never spring back."""
+    return {
+        "joints": [
+            {
+                "index": joint.index,
+                "ends": [str(end) for end in joint.ends],
+                "degree": graph.degree(joint.index),
+                "merged": joint.merged,
+                "springs_back": winds and graph.springs_back(joint.index),
+            }
+            for joint in graph.joints
+        ],
+        "edges": [asdict(edge) for edge in graph.edges],
+        "contacts": [asdict(contact) for contact in graph.contacts],
+        "rings": graph.rings,
+        "pieces": len(graph.pieces),
+        "odd_joints": list(graph.odd_joints),
+        "fewest_balloons": graph.fewest_balloons,
     }
 
 

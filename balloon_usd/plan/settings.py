@@ -10,15 +10,14 @@ import math
 from typing import TYPE_CHECKING
 
 from balloon_usd.language.quantities import duration_entry
-from balloon_usd.operations.moves import Inflate
 from balloon_usd.plan.settings_kosaka import kosaka_problems
-from balloon_usd.plan.tube_sizes import tube_sizes
+from balloon_usd.recipe.physics import MOST_SUBSTEPS
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
+    from balloon_usd.balloon.sizes import BalloonSize
     from balloon_usd.language.problem import Problem
-    from balloon_usd.operations.moves import Choreography
     from balloon_usd.recipe import Recipe
 
 THICKEST = 0.25
@@ -29,41 +28,27 @@ wave must not cross a face of the draft mesh.
 """
 SLOWEST = 400.0
 """Time steps in a second with which scaled masses still follow the hands."""
-MOST_SUBSTEPS = 2000
-"""Substeps in a frame that a recipe can ask for."""
 LEAK_IN_A_SECOND = 86400.0
 """Time of leaking that one second of the hold may stand for, s: in a day a 260 loses half of its gas."""
-FEWEST_FRAMES = 6
-"""Frames in which a balloon can be blown up: the pump's flow changes from frame to frame."""
 
 
-def settings_problems(recipe: Recipe) -> list[Problem]:
-    """Return what is wrong with the physics and the balloons of a recipe, at its places in the file."""
+def settings_problems(recipe: Recipe, tubes: Mapping[str, BalloonSize]) -> list[Problem]:
+    """Return what is wrong with the physics and the balloons of a recipe, at its places in the file.
+
+    `tubes`: sizes of its tubes, by balloon.
+    """
     if recipe.physics.model == "kosaka":
-        return kosaka_problems(recipe)
+        return kosaka_problems(recipe, tubes)
     return [
-        *_thick_walls(recipe),
+        *_thick_walls(recipe, tubes),
         *_slow_steps(recipe),
-        *_unscaled_masses(recipe),
+        *_unscaled_masses(recipe, tubes),
         *_hasty_leak(recipe),
     ]
 
 
-def pace_problems(recipe: Recipe, choreography: Choreography) -> list[Problem]:
-    """Return whether balloons are blown up in too few frames."""
-    seconds = min((m.seconds for m in choreography.moves if isinstance(m, Inflate)), default=math.inf)
-    if seconds * recipe.fps >= FEWEST_FRAMES:
-        return []
-    frames = math.floor(seconds * recipe.fps)
-    text = (
-        f"{recipe.fps:g} frames/s leave {frames} for the {seconds:.1f} s in which a balloon is blown up, "
-        f"expected at least {math.ceil(FEWEST_FRAMES / seconds)} frames/s"
-    )
-    return [recipe.problem(("fps",), text)]
-
-
-def _thick_walls(recipe: Recipe) -> Iterator[Problem]:
-    for name, size in tube_sizes(recipe).items():
+def _thick_walls(recipe: Recipe, tubes: Mapping[str, BalloonSize]) -> Iterator[Problem]:
+    for name, size in tubes.items():
         if size.thickness > THICKEST * size.radius * (1.0 + 1e-9):
             key = "radius" if recipe.balloons[name].thickness is None else "thickness"
             # Rounded to hundredths of a millimetre, so that what is written works.
@@ -86,11 +71,11 @@ def _slow_steps(recipe: Recipe) -> Iterator[Problem]:
         yield recipe.problem(("physics", "substeps"), text)
 
 
-def _unscaled_masses(recipe: Recipe) -> Iterator[Problem]:
+def _unscaled_masses(recipe: Recipe, tubes: Mapping[str, BalloonSize]) -> Iterator[Problem]:
     physics = recipe.physics
     if physics.mass_scaling != "none":
         return
-    radius = min(size.radius for size in tube_sizes(recipe).values())
+    radius = min(size.radius for size in tubes.values())
     needed = 50 * math.ceil(WAVE / radius / recipe.fps / 50.0)
     if (physics.substeps or 0) >= needed or (physics.substeps or math.inf) < SLOWEST / recipe.fps:
         return

@@ -9,14 +9,15 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from balloon_usd.balloon.capsule_mesh import EXPERIMENT_RADIUS
 from balloon_usd.balloon.rubber import rubber_named
 from balloon_usd.balloon.tube_theory import maxwell_state
-from balloon_usd.plan.particles import EXPERIMENT_RADIUS, experiment_spacing
-from balloon_usd.plan.tube_sizes import tube_sizes
+from balloon_usd.plan.particles import experiment_spacing
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
+    from balloon_usd.balloon.sizes import BalloonSize
     from balloon_usd.language.problem import Path, Problem
     from balloon_usd.recipe import Recipe
 
@@ -45,12 +46,15 @@ HEAVIEST = 0.5
 CHOSEN = "or no such line: the model chooses it"
 
 
-def kosaka_problems(recipe: Recipe) -> list[Problem]:
-    """Return what is wrong with the constants of a recipe of model kosaka, at its places in the file."""
+def kosaka_problems(recipe: Recipe, tubes: Mapping[str, BalloonSize]) -> list[Problem]:
+    """Return what is wrong with the constants of a recipe of model kosaka, at its places in the file.
+
+    `tubes`: sizes of its tubes, by balloon.
+    """
     found = (*_steps(recipe), *_gravity(recipe), *_stiff(recipe), *_zero(recipe), *_taut(recipe))
     sized = [
         problem
-        for radius in _radii(recipe)
+        for radius in _radii(recipe, tubes)
         for problem in (*_reach(recipe, radius), *_regions(recipe, radius))
     ]
     return list(dict.fromkeys([*found, *sized]))
@@ -149,13 +153,13 @@ def _regions(recipe: Recipe, radius: float) -> Iterator[Problem]:
             yield recipe.problem(_place(key), text)
 
 
-def _radii(recipe: Recipe) -> list[float]:
+def _radii(recipe: Recipe, tubes: Mapping[str, BalloonSize]) -> list[float]:
     """Radii of the blown-up balloons, m; none of rubber without a bulged phase, which is told elsewhere."""
     try:
         wide = maxwell_state(rubber_named(recipe.physics.rubber)).bulged.a
     except ValueError:
         return []
-    return sorted({wide * size.radius for size in tube_sizes(recipe).values()})
+    return sorted({wide * size.radius for size in tubes.values()})
 
 
 def _place(key: str) -> Path:

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 
+from balloon_usd.stage.shot_camera import held_by
+
 if TYPE_CHECKING:
     import numpy.typing as npt
 
@@ -73,17 +75,8 @@ def frame_points(points: Points, axes: Axes, aspect: float) -> Framing:
     local = (points - middle) @ np.stack([axes.right, axes.up, axes.forward], axis=1)
     half_height = tan(FIELD_OF_VIEW / 2.0)
     half_width = half_height * aspect
-    across, wide = _fit(local[:, 0], local[:, 2], half_width / MARGIN)
-    height, tall = _fit(local[:, 1], local[:, 2], half_height / MARGIN)
+    across, wide = held_by(local[:, 0], local[:, 2], half_width / MARGIN)
+    height, tall = held_by(local[:, 1], local[:, 2], half_height / MARGIN)
     distance = max(wide, tall, SMALLEST / half_height)
     eye = middle + across * axes.right + height * axes.up - distance * axes.forward
     return Framing(eye, half_width, half_height, distance)
-
-
-def _fit(
-    offset: npt.NDArray[np.float64], depth: npt.NDArray[np.float64], slope: float
-) -> tuple[float, float]:
-    """Return the offset and the distance of the eye at which a wedge of `slope` just holds all points."""
-    high = float(np.max(offset - slope * depth))
-    low = float(np.min(offset + slope * depth))
-    return 0.5 * (high + low), 0.5 * (high - low) / slope

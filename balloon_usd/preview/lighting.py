@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import cos, pi, radians, sin, sqrt, tan
 from typing import TYPE_CHECKING
 
 import numpy as np
+
+from balloon_usd.stage.lamp import Lamp
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -15,32 +16,15 @@ DIRECTIONS = 96
 """Rays that gather light over the whole sphere."""
 
 
-@dataclass(frozen=True)
-class Softbox:
-    """A rectangular lamp at infinity."""
-
-    name: str
-    azimuth: float
-    """From behind the camera, positive to its right (radians)."""
-    elevation: float
-    """Above the horizon (radians)."""
-    width: float
-    """Half opening angle to the side (radians)."""
-    height: float
-    """Half opening angle upwards (radians)."""
-    radiance: float
-    """Relative to a white wall."""
-
-
 SOFTBOXES = (
-    Softbox("key", radians(-48.0), radians(46.0), radians(20.0), radians(25.0), 13.0),
-    Softbox("rim", radians(125.0), radians(25.0), radians(12.0), radians(40.0), 7.0),
-    Softbox("top", radians(150.0), radians(74.0), radians(40.0), radians(24.0), 3.0),
+    Lamp("key", radians(-48.0), radians(46.0), radians(20.0), radians(25.0), 13.0),
+    Lamp("rim", radians(125.0), radians(25.0), radians(12.0), radians(40.0), 7.0),
+    Lamp("top", radians(150.0), radians(74.0), radians(40.0), radians(24.0), 3.0),
 )
 """A big key from the upper left, a strip behind on the right for the edge, a bank overhead."""
 
 
-def softbox_axes(box: Softbox, forward: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+def softbox_axes(box: Lamp, forward: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
     """Return centre, right and up of a lamp as rows (3, 3); right and up are divided by the half openings.
 
     Args:

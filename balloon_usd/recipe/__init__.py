@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from balloon_usd.language.colors import LATEX_COLORS, Color
 from balloon_usd.language.joint import Joint
-from balloon_usd.language.problem import Problem, RecipeError
+from balloon_usd.language.problem import Notice, Problem, RecipeError
 from balloon_usd.operations.lock import LockJoints
 from balloon_usd.operations.operation import Operation
-from balloon_usd.operations.push import PushedBubble
+from balloon_usd.operations.press import PressedBubble
 
 from .balloons import Balloon
 from .builder import RecipeBuilder
@@ -26,10 +26,11 @@ __all__ = [
     "Joint",
     "Kosaka",
     "LockJoints",
+    "Notice",
     "Operation",
     "Physics",
+    "PressedBubble",
     "Problem",
-    "PushedBubble",
     "Recipe",
     "RecipeBuilder",
     "RecipeError",

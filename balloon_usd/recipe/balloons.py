@@ -2,11 +2,12 @@
 
 from typing import Annotated, Literal, get_args
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema
+from pydantic import BeforeValidator, ConfigDict, Field, WithJsonSchema
 
 from balloon_usd.language.colors import ColorEntry, color
 from balloon_usd.language.names import Text
 from balloon_usd.language.quantities import LONGEST, Between, FlatTail, Length, LengthWithin, Units
+from balloon_usd.operations.modifiers import Entries
 
 BalloonSizeName = Literal["160", "260", "321", "350", "360", "646"]
 
@@ -32,16 +33,13 @@ def _size_text(value: object) -> object:
     return str(value) if isinstance(value, int) and not isinstance(value, bool) else value
 
 
-class Balloon(BaseModel):
+class Balloon(Entries):
     """One balloon of the recipe: a tube of some size, or any closed shape from a mesh file.
 
     Of a tube, `tail`, `inflated` or `capsule` says how far it is blown up.
     """
 
     model_config = ConfigDict(
-        frozen=True,
-        extra="forbid",
-        use_attribute_docstrings=True,
         json_schema_extra={"oneOf": [{"required": ["size"]}, {"required": ["mesh"]}]},
     )
 

@@ -2,30 +2,30 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Any, Self
 
-from balloon_usd.language.quantities import Units, length_entry
+from balloon_usd.language.choices import unknown
+from balloon_usd.language.quantities import LengthLike, Units, written_length
+from balloon_usd.operations.operation import Operation
+from balloon_usd.operations.table import BY_WORD, WORDS
 
 from .kosaka import kosaka_entries
+from .operation_methods import with_operations
 from .recipe import Recipe
-from .writer import Entries, recipe_text
+from .writer import Entries, recipe_text, step_entries
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-
-    from balloon_usd.operations.modifiers import Point
-
-LengthLike = float | str
-"""Metres, or a text with its own unit such as "4 in"."""
+    from collections.abc import Callable, Mapping, Sequence
 
 BUILDER_FILE = "<builder>"
 
 
+@with_operations
 class RecipeBuilder:
     """Collects balloons and steps; `build` checks them as a file is checked.
 
-    Lengths are in metres, angles in degrees, times in seconds. The words that follow the bubbles (balloon,
-    point, turns, seconds, note) are those of the recipe language.
+    Every operation of the recipe language is a method with the same word. Lengths are in metres, angles in
+    degrees, times in seconds. Modifiers (balloon, point, turns, seconds, note) are those of the language.
     """
 
     def __init__(
@@ -79,127 +79,28 @@ class RecipeBuilder:
         self._balloons[name] = _given({"size": code, **shape, "color": color}) | written
         return self
 
-    def bubbles(
-        self,
-        lengths: Mapping[str, LengthLike] | None = None,
-        /,
-        *,
-        balloon: str | None = None,
-        turns: float | None = None,
-        seconds: float | None = None,
-        note: str | None = None,
-        **more: LengthLike,
-    ) -> Self:
-        """Twist off bubbles (inflated lengths, m), one after another."""
-        manner = {"balloon": balloon, "turns": turns, "seconds": seconds, "note": note}
-        return self._make("bubbles", {**(lengths or {}), **more}, manner)
+    def add(self, step: str | Operation, /, *what: Any, **keys: Any) -> Self:
+        """Add a step: one that is there, or the word of an operation with the arguments of its method.
 
-    def lock(
-        self,
-        *bubbles: str,
-        joints: Sequence[str] | None = None,
-        point: Point | None = None,
-        balloon: str | None = None,
-        turns: float | None = None,
-        seconds: float | None = None,
-        note: str | None = None,
-    ) -> Self:
-        """Lock neighbouring bubbles, or joints such as "nose.end"."""
-        what: object = list(bubbles) if joints is None else {"joints": list(joints)}
-        manner = {"point": point, "balloon": balloon, "turns": turns, "seconds": seconds, "note": note}
-        return self._step("lock", what, manner)
+        Raises:
+            ValueError: no operation has this word, with the nearest that one has.
+        """
+        if isinstance(step, Operation):
+            if what or keys:
+                raise TypeError("a whole step takes no arguments")
+            self._steps.append(step_entries(step, self._units))
+            return self
+        if step not in BY_WORD:
+            raise ValueError(unknown("operation", step, WORDS))
+        operation = BY_WORD[step]
+        beside = {key: keys.pop(key) for key in operation.modifiers() if key in keys}
+        self._steps.append({step: operation.value_of(self._units, *what, **keys)} | _given(beside))
+        return self
 
-    def loop(
-        self,
-        lengths: Mapping[str, LengthLike] | None = None,
-        /,
-        *,
-        point: Point | None = None,
-        balloon: str | None = None,
-        turns: float | None = None,
-        seconds: float | None = None,
-        note: str | None = None,
-        **more: LengthLike,
-    ) -> Self:
-        """Make long bubbles (m), each with its two ends twisted together."""
-        manner = {"point": point, "balloon": balloon, "turns": turns, "seconds": seconds, "note": note}
-        return self._make("loop", {**(lengths or {}), **more}, manner)
+    if TYPE_CHECKING:
 
-    def fold(
-        self,
-        lengths: Mapping[str, LengthLike] | None = None,
-        /,
-        *,
-        point: Point | None = None,
-        balloon: str | None = None,
-        turns: float | None = None,
-        seconds: float | None = None,
-        note: str | None = None,
-        **more: LengthLike,
-    ) -> Self:
-        """Make bubbles (m) folded in their middle, with their two ends twisted together."""
-        manner = {"point": point, "balloon": balloon, "turns": turns, "seconds": seconds, "note": note}
-        return self._make("fold", {**(lengths or {}), **more}, manner)
-
-    def ear(
-        self,
-        lengths: Mapping[str, LengthLike] | None = None,
-        /,
-        *,
-        point: Point | None = None,
-        balloon: str | None = None,
-        turns: float | None = None,
-        seconds: float | None = None,
-        note: str | None = None,
-        **more: LengthLike,
-    ) -> Self:
-        """Make short soft bubbles (m), each pinched sideways with its two ends twisted together."""
-        manner = {"point": point, "balloon": balloon, "turns": turns, "seconds": seconds, "note": note}
-        return self._make("ear", {**(lengths or {}), **more}, manner)
-
-    def rest(
-        self, name: str, *, balloon: str | None = None, seconds: float | None = None, note: str | None = None
-    ) -> Self:
-        """Name what is left of the balloon."""
-        return self._step("rest", name, {"balloon": balloon, "seconds": seconds, "note": note})
-
-    def bend(
-        self,
-        angles: Mapping[str, float | str] | None = None,
-        /,
-        *,
-        point: Point | None = None,
-        balloon: str | None = None,
-        seconds: float | None = None,
-        note: str | None = None,
-        **more: float | str,
-    ) -> Self:
-        """Bend bubbles (degrees), their ends towards `point`."""
-        manner = {"point": point, "balloon": balloon, "seconds": seconds, "note": note}
-        return self._step("bend", {**(angles or {}), **more}, manner)
-
-    def push(
-        self,
-        bubble: str,
-        *,
-        at: LengthLike | None = None,
-        depth: LengthLike | None = None,
-        force: float | str | None = None,
-        point: Point | None = None,
-        balloon: str | None = None,
-        seconds: float | None = None,
-        note: str | None = None,
-    ) -> Self:
-        """Push a finger into a bubble at a distance from its start, so deep (m) or so hard (N)."""
-        lengths = {"at": at, "depth": depth}
-        what: Entries = {"bubble": bubble}
-        what |= {key: self._length(value) for key, value in lengths.items() if value is not None}
-        manner = {"point": point, "balloon": balloon, "seconds": seconds, "note": note}
-        return self._step("push", what | _given({"force": force}), manner)
-
-    def wait(self, seconds: float, *, note: str | None = None) -> Self:
-        """Do nothing for some seconds."""
-        return self._step("wait", seconds, {"note": note})
+        def __getattr__(self, word: str) -> Callable[..., Self]:
+            """Return the method of an operation."""
 
     def physics(
         self,
@@ -227,15 +128,8 @@ class RecipeBuilder:
         """
         return Recipe.parse(self.to_yaml(), file=BUILDER_FILE)
 
-    def _make(self, kind: str, lengths: Mapping[str, LengthLike], manner: Mapping[str, object]) -> Self:
-        return self._step(kind, {name: self._length(value) for name, value in lengths.items()}, manner)
-
-    def _step(self, kind: str, what: object, manner: Mapping[str, object]) -> Self:
-        self._steps.append({kind: what} | _given(manner))
-        return self
-
     def _length(self, value: LengthLike) -> object:
-        return value if isinstance(value, str) else length_entry(float(value), self._units)
+        return written_length(value, self._units)
 
 
 def _given(entries: Mapping[str, object]) -> Entries:

@@ -7,9 +7,8 @@ model so that its motion is stable.
 from collections.abc import Mapping
 from typing import Annotated
 
-from pydantic import BaseModel, ConfigDict
-
 from balloon_usd.language.quantities import Between, LengthWithin, length_entry
+from balloon_usd.operations.modifiers import Entries
 
 Offset = Annotated[float, LengthWithin(0.0, 0.1)]
 
@@ -17,10 +16,8 @@ KOSAKA_LENGTHS = ("gamma", "re", "air_offset", "contact_offset", "leak_offset", 
 """Keys that are lengths."""
 
 
-class Kosaka(BaseModel):
+class Kosaka(Entries):
     """Constants of springs and air particles; None is chosen by the model."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
 
     swell: Annotated[float, Between(0.001, 0.5)] = 0.03
     """How much thicker the air makes the balloon at rest, as a share of its radius."""

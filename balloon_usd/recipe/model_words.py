@@ -12,7 +12,7 @@ from .balloons import balloons_in
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from .physics import ModelName
+    from .models import ModelName
 
 LATEX_ONLY = {
     "softening": "springs do not soften",

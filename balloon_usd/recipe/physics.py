@@ -2,19 +2,20 @@
 
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, StrictBool
+from pydantic import StrictBool
 
 from balloon_usd.language.quantities import Between, Duration
+from balloon_usd.operations.modifiers import Entries
 
 from .kosaka import Kosaka
+from .models import MODELS, ModelName, ModelTraits
 
-ModelName = Literal["latex", "kosaka"]
+MOST_SUBSTEPS = 2000
+"""Substeps in a frame that a recipe can ask for."""
 
 
-class Physics(BaseModel):
+class Physics(Entries):
     """How the simulation treats rubber, air and hands."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
 
     model: ModelName = "latex"
     """Physical model: latex with its gas, or springs and air particles after Kosaka 2008."""
@@ -26,7 +27,7 @@ class Physics(BaseModel):
     """Acceleration downwards, m/s2."""
     friction: Annotated[float, Between(0.0, 3.0)] = 0.8
     """Coulomb coefficient of latex on latex."""
-    substeps: Annotated[int, Between(20, 2000, whole=True)] | None = None
+    substeps: Annotated[int, Between(20, MOST_SUBSTEPS, whole=True)] | None = None
     """Time steps in a frame; chosen by the level of detail when absent."""
     burst: Literal["report", "stop"] = "report"
     """What to do when a balloon bursts."""
@@ -39,3 +40,8 @@ class Physics(BaseModel):
     """Whether vertices that would need a smaller time step are made heavier."""
     kosaka: Kosaka = Kosaka()
     """Constants of the model kosaka."""
+
+    @property
+    def traits(self) -> ModelTraits:
+        """What is true of all figures of its model."""
+        return MODELS[self.model]

@@ -5,7 +5,6 @@ from dataclasses import dataclass, field
 from typing import Annotated, Literal, Self
 
 from pydantic import (
-    BaseModel,
     BeforeValidator,
     ConfigDict,
     Field,
@@ -17,16 +16,19 @@ from pydantic import (
 
 from balloon_usd.language.marks import Marks
 from balloon_usd.language.names import Name, Text
-from balloon_usd.language.problem import Complaint, Path, Problem, RecipeError, path_text, quoted
+from balloon_usd.language.problem import Complaint, Notice, Path, Problem, RecipeError, path_text, quoted
 from balloon_usd.language.quantities import METRES, Between, Reading, Units
 from balloon_usd.language.yaml_reader import Document, read_yaml
+from balloon_usd.operations.modifiers import Entries
 from balloon_usd.operations.table import Step
+from balloon_usd.operations.workpiece import Workpiece
 
 from .balloons import Balloon
-from .meaning import meaning_complaints
+from .meaning import meaning_of
 from .physics import Physics
 from .recipe_file import FilePath, read_recipe_file
 from .translation import validation_complaints
+from .upgrades import upgraded
 from .writer import recipe_entries, recipe_text
 
 FRAMES_PER_SECOND = 24.0
@@ -38,6 +40,7 @@ class _Origin:
 
     marks: Marks = field(default_factory=lambda: Marks("<python>"))
     text: str | None = None
+    notices: tuple[Notice, ...] = ()
 
 
 def _format(value: object) -> object:
@@ -46,12 +49,10 @@ def _format(value: object) -> object:
     return value
 
 
-class Recipe(BaseModel):
+class Recipe(Entries):
     """A recipe of balloon twists (format 1), complete and consistent."""
 
-    model_config = ConfigDict(
-        frozen=True, extra="forbid", use_attribute_docstrings=True, title="Balloon recipe"
-    )
+    model_config = ConfigDict(title="Balloon recipe")
 
     format: Annotated[Literal[1], BeforeValidator(_format)]
     """Version of the recipe language."""
@@ -73,6 +74,7 @@ class Recipe(BaseModel):
     """How it is simulated."""
 
     _origin: _Origin = PrivateAttr(default_factory=_Origin)
+    _piece: Workpiece = PrivateAttr()
 
     @classmethod
     def load(cls, path: FilePath) -> Self:
@@ -85,37 +87,49 @@ class Recipe(BaseModel):
 
     @classmethod
     def parse(cls, text: str, file: str = "<text>") -> Self:
-        """Read a recipe from YAML text; `file` is how messages call it.
+        """Read a recipe from YAML text; `file` is how messages call it. See `notices` for older words in it.
 
         Raises:
             RecipeError: with all problems of the text.
         """
-        document = read_yaml(text, file)
+        document, notices = upgraded(read_yaml(text, file))
         complaints = list(document.complaints)
         try:
             recipe = cls.model_validate(document.data, context=Reading(_units_in(document.data)))
         except ValidationError as error:
             recipe = None
             complaints += validation_complaints(error, document.data, cls)
-        complaints += meaning_complaints(document.data)
+        meaning = meaning_of(document.data)
+        complaints += meaning.complaints
         if recipe is None or complaints:
             raise RecipeError(document.marks.problems(_without_echoes(complaints, document)))
-        recipe._origin = _Origin(document.marks, text)
+        recipe._origin, recipe._piece = _Origin(document.marks, text, notices), meaning.piece
         return recipe
 
     @model_validator(mode="after")
     def _check_meaning(self, info: ValidationInfo) -> Self:
         if not isinstance(info.context, Reading):  # parse() reports meaning with places
-            complaints = meaning_complaints(self._entries())
+            complaints, piece = meaning_of(self._entries())
             if complaints:
                 texts = [f"{path_text(complaint.path)}: {complaint.text}" for complaint in complaints]
                 raise ValueError("; ".join(texts))
+            self._piece = piece
         return self
+
+    @property
+    def piece(self) -> Workpiece:
+        """What the steps make of the balloons, one after the other."""
+        return self._piece
 
     @property
     def file(self) -> str:
         """Name of the file it was read from."""
         return self._origin.marks.file
+
+    @property
+    def notices(self) -> tuple[Notice, ...]:
+        """What its writer should know though nothing is wrong, such as words that have new names."""
+        return self._origin.notices
 
     @property
     def sha256(self) -> str:

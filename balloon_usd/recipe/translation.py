@@ -30,6 +30,8 @@ _EXPECTED: dict[str, str] = {
     "too_short": "is empty, expected at least one entry",
     "union_tag_not_found": "expected a list of bubbles, or {joints: [nose.end, tail.start]}",
 }
+_COUNTS = {"too_short": ("at least", "min_length"), "too_long": ("at most", "max_length")}
+"""Words for how many entries a list or mapping has, and where pydantic tells the limit."""
 _CHOICE = re.compile(r"'([^']*)'|(\d+)")
 
 
@@ -49,7 +51,7 @@ def validation_complaints(error: ValidationError, data: object, root: type[BaseM
 
 def _only_seems_empty(detail: ErrorDetails) -> bool:
     """Pydantic counts valid entries only: a list of wrong ones is too short to it."""
-    return detail["type"] == "too_short" and bool(detail["input"])
+    return detail["type"] == "too_short" and len(detail["input"]) >= detail["ctx"]["min_length"]
 
 
 def _complaint(detail: ErrorDetails, data: object, root: type[BaseModel]) -> Complaint:
@@ -65,6 +67,10 @@ def _complaint(detail: ErrorDetails, data: object, root: type[BaseModel]) -> Com
     cause = _cause(detail)
     if cause is not None:
         return Complaint(path, str(cause))
+    if kind in _COUNTS and value:
+        word, limit = _COUNTS[kind]
+        found = "1 entry" if len(value) == 1 else f"{len(value)} entries"
+        return Complaint(path, f"{found} here, expected {word} {detail['ctx'][limit]}")
     expected = _EXPECTED.get(kind, detail["msg"])
     begin = "" if kind == "too_short" else f"{quoted(value)} does not fit, "
     return Complaint(path, begin + expected)
@@ -137,6 +143,6 @@ def _wanted(path: Path) -> str:
         "balloons": "balloons such as {main: {size: 260, color: red, tail: 10}}",
         "steps": f"a list of steps, each with {one_of(WORDS)}",
         "joints": "a list such as [nose.end, tail.start]",
-        "bubble": "the bubble that is pushed",
+        "bubble": "the bubble that is pressed",
     }
     return wanted.get(str(path[-1]), "it here")

@@ -45,7 +45,7 @@ def recipe_entries(
         "format": written["format"],
         **kept,
         "balloons": {name: _balloon_entries(entry, units) for name, entry in balloons.items()},
-        "steps": [_step_entries(step, units) for step in steps],
+        "steps": [step_entries(step, units) for step in steps],
     }
     physics = written.get("physics")
     if isinstance(physics, dict):
@@ -83,7 +83,8 @@ def _balloon_entries(balloon: Balloon, units: str | None) -> Entries:
     return entries
 
 
-def _step_entries(step: Operation, units: str | None) -> Entries:
+def step_entries(step: Operation, units: str | None) -> Entries:
+    """Plain data of a step as it stands in a file: lengths in units, angles in degrees."""
     written = step.model_dump(exclude_defaults=True)
     beside = {key: written[key] for key in MODIFIERS if key in written}
     return {step.word: step.entry(units), **beside}

@@ -5,8 +5,6 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any
 
-from balloon_usd.balloon.rubber import BURST_STRETCH
-
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
@@ -33,7 +31,7 @@ def report_data(history: History, *, detail: str, provenance: Mapping[str, str])
         provenance: where the numbers come from: recipe, its hash and the solver.
     """
     recipe = history.plan.recipe
-    latex = recipe.physics.model == "latex"
+    most = recipe.physics.traits.burst_stretch
     rows = {"pressure": history.pressure, "volume": history.volume, "stretch": history.stretch}
     if history.contact is not None:
         rows["contact"] = history.contact
@@ -46,7 +44,7 @@ def report_data(history: History, *, detail: str, provenance: Mapping[str, str])
         "detail": detail,
         "fps": recipe.fps,
         "units": UNITS,
-        "burst_stretch": round(BURST_STRETCH, DIGITS["stretch"]) if latex else None,
+        "burst_stretch": None if most is None else round(most, DIGITS["stretch"]),
         "steps": [
             {
                 "step": mark.step,

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from balloon_usd.balloon.rubber import BURST_STRETCH
 from balloon_usd.report.axis import time_axis
 from balloon_usd.report.labels import rows_for
 from balloon_usd.report.palette import INK, PALE_INK, PAPER, STEP_RULE, bubble_color
@@ -79,8 +78,8 @@ def draw_figure(history: History, *, detail: str) -> Image.Image:
 def panels_of(history: History) -> tuple[Panel, ...]:
     """Return what is drawn, in units that makers know; no panel of tails where no balloon has one."""
     names = history.bubble_names
-    latex = history.plan.recipe.physics.model == "latex"
-    limit = (BURST_STRETCH, "latex bursts") if latex else None
+    most = history.plan.recipe.physics.traits.burst_stretch
+    limit = None if most is None else (most, "latex bursts")
     pressure = _curves(names, 1e-3 * history.pressure)
     volume, stretch = _curves(names, 1e6 * history.volume), _curves(names, history.stretch)
     panels = [

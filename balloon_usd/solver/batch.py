@@ -21,8 +21,9 @@ if TYPE_CHECKING:
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
     from balloon_usd.solver.frame_arrays import FrameArrays
-    from balloon_usd.solver.model import Model, ModelMaker, Status
+    from balloon_usd.solver.model import Model, ModelMaker
     from balloon_usd.solver.snapshot import Memory
+    from balloon_usd.solver.status import Status
 
 
 class Batch:
@@ -67,7 +68,7 @@ class Batch:
         return bool(self._made(index).any())
 
     def snapshot(self, index: int, into: FrameArrays) -> Snapshot:
-        """Return the frame of an index, written into arrays; the makers and the physics of the next have
+        """Return the frame of an index, written into arrays; the performers and the physics of the next have
         begun then.
         """
         with capture_lock():

@@ -8,14 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from balloon_usd.plan.welding import MOST_WELDED
-from balloon_usd.solver.gathering import pose_chains
 from balloon_usd.solver.kernels.physics.joints import CLASP_MODE, GRIP_MODE, LEAD_MODE
+from balloon_usd.solver.motions.chains import pose_chains
 from balloon_usd.solver.upload import ArrayUpload, BatchedUpload
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
-    from balloon_usd.solver.gathering import Pose
+    from balloon_usd.solver.motions.chains import Pose
     from balloon_usd.solver.scene import Scene
 
 Floats = NDArray[np.float32]
@@ -85,8 +85,6 @@ class Hands:
         """The weld that holds a joint."""
         self._weld_sizes: dict[tuple[int, ...], tuple[float, float]] = {}
         """Gap and reach (m) of every weld so far."""
-        self.releases = 0
-        """How often hands have let go."""
         self._poses: list[Pose] = []
         """Chains that are brought somewhere in the coming frame."""
         self._ring_world = np.repeat(scene.worlds, np.diff(scene.joint_start))
@@ -95,9 +93,10 @@ class Hands:
         """Return the names of the arrays that change in few frames only."""
         return ("fingers", "finger_share", *WELDS)
 
-    def update(self, state: Mapping[str, NDArray[Any]]) -> None:
-        """Take over the state read back last, by the names of arrays of the scene."""
+    def begin_frame(self, state: Mapping[str, NDArray[Any]]) -> None:
+        """Take over the state read back last, by the names of arrays of the scene, and lift all fingers."""
         self.places = state["x"]
+        self.lift_fingers()
 
     def grip(self, joint: int, middle: Floats) -> None:
         """Take hold of a ring where it is."""
@@ -154,7 +153,6 @@ class Hands:
     def let_go(self, joints: NDArray[np.int64]) -> None:
         """Take the hands from these rings."""
         self.mode[joints] = 0
-        self.releases += 1
 
     def bring(self, pose: Pose) -> None:
         """Bring the rings of a chain somewhere in the coming frame, with those of other chains."""

@@ -1,8 +1,9 @@
-"""The interface between a simulation and its physical model."""
+"""What the physical models share: sculptures in one flat state; hands, physics and read-back take turns."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from abc import ABC, abstractmethod
+from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -14,52 +15,79 @@ if TYPE_CHECKING:
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
     from balloon_usd.solver.frame_arrays import FrameArrays
+    from balloon_usd.solver.hands import Hands
     from balloon_usd.solver.layout import Layout
+    from balloon_usd.solver.performer import Performer
+    from balloon_usd.solver.readback import Readback
+    from balloon_usd.solver.status import Status
 
 
-class Status(NamedTuple):
-    """What a sculpture is doing, for messages."""
-
-    doing: str
-    """What the hands do."""
-    undone: tuple[str, ...] = ()
-    """Locks that have slipped and joints that have come undone so far."""
-
-
-class Model(Protocol):
+class Model(ABC):
     """Sculptures of one physical model in one flat state, advanced together."""
 
-    layout: Layout
-    """Where every sculpture lies in the arrays of a frame."""
+    def __init__(
+        self,
+        hands: Hands,
+        performers: Sequence[Performer],
+        bodies: Sequence[range],
+        layout: Layout,
+        readback: Readback,
+    ) -> None:
+        """Begin before the first frame; `bodies`: those of every sculpture in the flat state."""
+        self.performers = tuple(performers)
+        self.layout = layout
+        """Where every sculpture lies in the arrays of a frame."""
+        self.statuses: list[Status] = []
+        """Status of every sculpture when the state was read back."""
+        self._hands, self._bodies, self._readback = hands, bodies, readback
+        self._state: dict[str, NDArray[Any]] = {}
+        """Arrays of the state read back last, by name."""
 
     def advance(self, begin: float, end: float) -> None:
-        """Let the makers act and start the physics from `begin` to `end` (s)."""
+        """Let the performers act and start the physics from `begin` to `end` (s)."""
+        middle = self._state["ring_middle"].copy()
+        self._hands.begin_frame(self._state)
+        for performer, astray in zip(self.performers, self.layout.astray(middle), strict=True):
+            if not astray:
+                performer.act(begin, end, middle)
+        self._start_physics(begin, end, middle)
+
+    @abstractmethod
+    def _start_physics(self, begin: float, end: float, middle: NDArray[np.float32]) -> None:
+        """Upload what the hands do from `begin` to `end` (s), start the physics, and reading back its state.
+
+        `middle`: where all rings are at the beginning, (J, 3), m.
+        """
 
     def read_back(self) -> None:
         """Wait for the read-back of the latest state: what follows is of that state, until the next
         read-back.
         """
+        self._state = self._readback.arrays()
+        self.statuses = [performer.status for performer in self.performers]
 
     def rest(self) -> None:
         """Wait for the pending read-back, and so for all work before it."""
+        self._readback.wait()
 
     @property
+    @abstractmethod
     def frame_arrays(self) -> FrameArrays:
         """Arrays of the state read back last, of all sculptures; valid for two more read-backs."""
 
     @property
-    def statuses(self) -> Sequence[Status]:
-        """Status of every sculpture then."""
-
-    @property
     def suspects(self) -> NDArray[np.int32]:
         """1 for every sculpture with walls that went too far or are stretched too much, (W,)."""
+        suspects: NDArray[np.int32] = self._state["suspects"]
+        return suspects
 
+    @abstractmethod
     def failures(self) -> dict[int, str]:
         """Return failures that the frames do not show, by sculpture."""
 
     def give_up(self, world: int) -> None:
         """Leave a sculpture alone whose run has failed."""
+        self._hands.give_up(self._bodies[world])
 
 
 class ModelMaker(Protocol):

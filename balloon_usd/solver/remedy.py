@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from balloon_usd.recipe.physics import MOST_SUBSTEPS
+
 if TYPE_CHECKING:
     from balloon_usd.recipe import Recipe
 
-MOST_SUBSTEPS = 2000
-"""Substeps in a frame that a recipe can ask for."""
 LONGER_STEP = "a longer step (seconds)"
 
 

@@ -6,8 +6,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from balloon_usd.balloon.rubber import BURST_STRETCH
-
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -49,7 +47,8 @@ class RunSummary:
     @property
     def bursts(self) -> bool:
         """Whether latex would not have borne the highest stretch; springs do not burst."""
-        return self._plan.recipe.physics.model == "latex" and self.highest_stretch > BURST_STRETCH
+        most = self._plan.recipe.physics.traits.burst_stretch
+        return most is not None and self.highest_stretch > most
 
     @property
     def tails_left(self) -> dict[str, float]:

@@ -49,14 +49,14 @@ def frame_box(extent: NDArray[np.float32]) -> Viewpoint:
     middle = corners.mean(axis=0)
     local = (corners - middle) @ np.stack([right, up, forward], axis=1)
     slope = SENSOR_WIDTH / FOCAL_LENGTH / 2.0 / ROOM
-    fits = [_fit(local[:, 0], local[:, 2], slope), _fit(local[:, 1], local[:, 2], slope / ASPECT)]
+    fits = [held_by(local[:, 0], local[:, 2], slope), held_by(local[:, 1], local[:, 2], slope / ASPECT)]
     across, height = (offset for offset, _ in fits)
     distance = max(distance for _, distance in fits)
     return Viewpoint(middle + across * right + height * up - distance * forward, right, up, forward)
 
 
-def _fit(offset: NDArray[np.float64], depth: NDArray[np.float64], slope: float) -> tuple[float, float]:
-    """Offset and distance of the eye at which a wedge of a slope just holds all points."""
+def held_by(offset: NDArray[np.float64], depth: NDArray[np.float64], slope: float) -> tuple[float, float]:
+    """Return the offset and the distance of the eye (m) at which a wedge of a slope just holds all points."""
     high = float(np.max(offset - slope * depth))
     low = float(np.min(offset + slope * depth))
     return 0.5 * (high + low), 0.5 * (high - low) / slope

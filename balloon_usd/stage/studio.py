@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import cos, pi, radians, sin, tan
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from balloon_usd.openusd import Gf, Sdf, UsdGeom, UsdLux, UsdShade, Vt
+from balloon_usd.stage.lamp import Lamp
 from balloon_usd.stage.shaders import preview_surface
 from balloon_usd.stage.shot_camera import ASPECT, FOCAL_LENGTH, SENSOR_WIDTH
 
@@ -27,22 +27,6 @@ DECIMALS = 6
 
 SKY = 0.22
 """Radiance all around, relative to a white wall at 1."""
-
-
-@dataclass(frozen=True)
-class Lamp:
-    """A rectangular lamp that faces the sculpture; radiances do not depend on the scene's size."""
-
-    name: str
-    azimuth: float
-    """From behind the camera, positive to its right [rad]."""
-    elevation: float
-    """Above the horizon [rad]."""
-    width: float
-    """Half opening angle to the side, seen from the sculpture [rad]."""
-    height: float
-    """Half opening angle upwards [rad]."""
-    radiance: float
 
 
 LAMPS = (

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import prod
 from typing import TYPE_CHECKING
 
 from balloon_usd.language.yaml_reader import read_yaml
 from balloon_usd.recipe import Recipe, RecipeError
 from balloon_usd.recipe.recipe_file import read_recipe_file
+from balloon_usd.recipe.upgrades import upgraded
 from balloon_usd.variation.error import VariationError
 from balloon_usd.variation.mesh_paths import mesh_paths, moved_value
 from balloon_usd.variation.naming import FEW, names_with_values, numbered_names
@@ -71,21 +72,23 @@ def design_of(file: File, settings: Settings, target: File, *, draws: int | None
         VariationError: with all that is wrong with the recipe, the settings and the folder.
     """
     problems: list[str] = []
-    recipe, text, data = None, "", None
+    recipe, text, document = None, "", None
     try:
         text = read_recipe_file(file)
         recipe = Recipe.parse(text, file=str(file))
-        data = read_yaml(text, str(file)).data
+        document, _ = upgraded(read_yaml(text, str(file)))
     except RecipeError as error:
         problems += map(str, error.problems)
-    parameters, wrong = read_parameters(settings, data)
+    parameters, wrong = read_parameters(settings, document and document.data)
     problems += [*wrong, *_amount_problems(parameters, draws, seed), *filter(None, [folder_problem(target)])]
-    if recipe is None or problems:
+    if recipe is None or document is None or problems:
         raise VariationError(problems)
     counts = [parameter.values.count for parameter in parameters]
     chosen = list(sweep(counts)) if draws is None else draw(counts, draws, seed or 0)
     names = _names(recipe.name, parameters, chosen, drawn=draws is not None)
-    moved = _moved_meshes(data, parameters, file.parent, target)
+    # The text keeps its older words, which are known by today's.
+    parameters = [replace(each, path=document.marks.written(each.path)) for each in parameters]
+    moved = _moved_meshes(document.data, parameters, file.parent, target)
     paths = [NAME, *moved, *(parameter.path for parameter in parameters)]
     template = template_of(text, str(file), paths)
     return Design(recipe, template, parameters, chosen, names, moved, file.parent, target)

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from pathlib import Path
 
-    from balloon_usd.recipe import Problem
+    from balloon_usd.recipe import Notice, Problem
 
 
 @dataclass(frozen=True)
@@ -38,3 +38,5 @@ class Variations:
 
     written: tuple[Variation, ...]
     left_out: tuple[LeftOut, ...]
+    notices: tuple[Notice, ...] = ()
+    """What the writer of the recipe should know, such as words in it that have new names."""

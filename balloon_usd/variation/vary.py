@@ -83,7 +83,7 @@ def _make(design: Design, files: list[Path], aside: Path, progress: Progress | N
             left_out.append(LeftOut(name, design.values(at), problem))
         if progress is not None:
             progress(at + 1, len(files))
-    return Variations(tuple(written), tuple(left_out))
+    return Variations(tuple(written), tuple(left_out), design.recipe.notices)
 
 
 def _first_problem(text: str, file: Path) -> Problem | None:

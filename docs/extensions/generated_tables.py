@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from operation_pages import link, modifier_row, operation_page, says, table, written
 from sphinx.util.docutils import SphinxDirective
 
-from balloon_usd.operations.table import OPERATIONS
+from balloon_usd.operations.modifiers import MODIFIERS
+from balloon_usd.operations.table import BY_WORD, OPERATIONS
 from balloon_usd.recipe import recipe_schema
 from balloon_usd.report.document import DIGITS, UNITS
 from balloon_usd.solver.kernels.arrays import kosaka, latex, shared  # noqa: F401  # they fill the table
@@ -14,12 +16,8 @@ from balloon_usd.solver.kernels.arrays.table import ARRAYS, STRUCTS
 from balloon_usd.stage.properties import PROPERTIES
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from docutils import nodes
     from sphinx.application import Sphinx
-
-    from balloon_usd.operations.operation import Operation
 
 
 class RecipeKeys(SphinxDirective):
@@ -31,15 +29,35 @@ class RecipeKeys(SphinxDirective):
         """Return the table of the block that is named: Balloon, Physics, Kosaka or a step."""
         keys = recipe_schema()["$defs"][self.arguments[0]]["properties"]
         rows = ((f"`{name}`", _allowed(key), _default(key), key["description"]) for name, key in keys.items())
-        return self.parse_text_to_nodes(_table(("key", "values", "default", "meaning"), rows))
+        return self.parse_text_to_nodes(table(("key", "values", "default", "meaning"), rows))
 
 
 class Operations(SphinxDirective):
-    """`operations`: every operation with what may stand beside it, and a whole short recipe."""
+    """`operations`: every operation as its example writes it, with what it does and a link to its page."""
 
     def run(self) -> list[nodes.Node]:
-        """Return a paragraph and an example of each, in the order of their table."""
-        return self.parse_text_to_nodes("\n\n".join(map(_operation, OPERATIONS)))
+        """Return the table of all operations, in the order of their table."""
+        rows = ((link(it.word), f"`{it.word}: {written(it)}`", says(it)) for it in OPERATIONS)
+        return self.parse_text_to_nodes(table(("operation", "for example", "what is done"), rows))
+
+
+class OneOperation(SphinxDirective):
+    """`operation`: the keys, an example, the moves and the sources of the operation that is named."""
+
+    required_arguments = 1
+
+    def run(self) -> list[nodes.Node]:
+        """Return the page of an operation, but for what its author tells of it."""
+        text = operation_page(BY_WORD[self.arguments[0]])
+        return self.parse_text_to_nodes(text, allow_section_headings=True)
+
+
+class Modifiers(SphinxDirective):
+    """`modifiers`: what may stand beside operations, and beside which."""
+
+    def run(self) -> list[nodes.Node]:
+        """Return the table of all modifiers, in the order in which they are written."""
+        return self.parse_text_to_nodes(table(("key", "with", "meaning"), map(modifier_row, MODIFIERS)))
 
 
 class StageProperties(SphinxDirective):
@@ -48,7 +66,7 @@ class StageProperties(SphinxDirective):
     def run(self) -> list[nodes.Node]:
         """Return the table of all properties by their numbers."""
         rows = ((str(number), it.says, it.where, it.remedy) for number, it in PROPERTIES.items())
-        return self.parse_text_to_nodes(_table(("", "property", "tested", "remedy"), rows))
+        return self.parse_text_to_nodes(table(("", "property", "tested", "remedy"), rows))
 
 
 class ReportUnits(SphinxDirective):
@@ -57,7 +75,7 @@ class ReportUnits(SphinxDirective):
     def run(self) -> list[nodes.Node]:
         """Return the table of all quantities."""
         rows = ((f"`{name}`", unit, str(DIGITS[name])) for name, unit in UNITS.items())
-        return self.parse_text_to_nodes(_table(("quantity", "unit", "digits after the point"), rows))
+        return self.parse_text_to_nodes(table(("quantity", "unit", "digits after the point"), rows))
 
 
 class DeviceArrays(SphinxDirective):
@@ -73,14 +91,7 @@ def _struct(struct: Any) -> str:
     specs = [ARRAYS[name] for name in struct.vars]
     rows = ((f"`{a.name}`", a.type_name, " x ".join(map(str, a.shape)), a.unit, a.meaning) for a in specs)
     says = f"**`{struct.key}`** (`{struct.cls.__module__.rpartition('.')[2]}`): {struct.cls.__doc__}"
-    return f"{says}\n\n{_table(('array', 'type', 'shape', 'unit', 'meaning'), rows)}"
-
-
-def _operation(operation: type[Operation]) -> str:
-    """Return what an operation does, with its example."""
-    says = (operation.__doc__ or "").splitlines()[0]
-    beside = ", ".join(f"`{key}`" for key in operation.modifiers())
-    return f"**`{operation.word}`**: {says} Beside it: {beside}.\n\n```yaml\n{operation.example}```"
+    return f"{says}\n\n{table(('array', 'type', 'shape', 'unit', 'meaning'), rows)}"
 
 
 def _allowed(key: dict[str, Any]) -> str:
@@ -104,16 +115,12 @@ def _plain(_app: Sphinx, _context: object, lines: list[str]) -> None:
     lines[:] = [line.replace("*", r"\*") for line in lines]
 
 
-def _table(head: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:
-    """Return a table in Markdown."""
-    cells = ((" ".join(cell.split()).replace("|", r"\|") for cell in row) for row in rows)
-    return "\n".join(f"| {' | '.join(row)} |" for row in (head, ("---",) * len(head), *cells))
-
-
 def setup(app: Sphinx) -> dict[str, bool]:
     """Tell Sphinx of the directives."""
     app.add_directive("recipe-keys", RecipeKeys)
     app.add_directive("operations", Operations)
+    app.add_directive("operation", OneOperation)
+    app.add_directive("modifiers", Modifiers)
     app.add_directive("stage-properties", StageProperties)
     app.add_directive("report-units", ReportUnits)
     app.add_directive("device-arrays", DeviceArrays)

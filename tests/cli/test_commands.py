@@ -33,6 +33,19 @@ def test_plan_prints_one_json_object_a_recipe(cli, write_recipe):
     assert [json.loads(line)["name"] for line in result.stdout.splitlines()] == ["one", "two"]
 
 
+def test_older_words_are_told_once_a_place_and_the_exit_code_stays_0(cli, write_recipe):
+    text = (
+        "format: 1\nname: old\nunits: cm\nballoons: {main: {size: 260, tail: 10}}\n"
+        "steps:\n  - bubbles: {a: 10}\n  - push: {bubble: a, depth: 1}\n  - push: {bubble: a, depth: 2}\n"
+    )
+    result = cli("plan", write_recipe("old", text=text), "--json")
+    assert result.exit_code == 0
+    told = [line.partition("old.yaml:")[2] for line in result.stderr.splitlines()]
+    assert told == [f"{line}:5: push is called press now: press: {{...}}" for line in (7, 8)]
+    notices = json.loads(result.stdout)["notices"]
+    assert [(notice["line"], notice["column"]) for notice in notices] == [(7, 5), (8, 5)]
+
+
 def test_plan_draws_an_svg(cli, write_recipe, tmp_path):
     assert cli("plan", write_recipe(), "--svg", "snake.svg").exit_code == 0
     assert "<svg" in (tmp_path / "snake.svg").read_text(encoding="utf-8")
@@ -111,3 +124,17 @@ def test_bench_measures_the_experiment_of_the_thesis_up_to_a_whole_balloon(cli, 
     rows = [line.split() for line in result.stdout.splitlines()[2:]]
     assert [row[0] for row in rows] == ["20", "40", "80", "150"]
     assert rows[0][3] == "1602"
+
+
+def test_plan_shows_what_is_made_after_a_step(cli, write_recipe):
+    result = cli("plan", write_recipe(), "--step", "1")
+    assert result.exit_code == 0
+    assert "after step 1 of" in result.stdout
+    assert "left: " in result.stdout
+
+
+def test_a_step_beyond_the_last_is_refused_before_anything_is_told(cli, write_recipe):
+    result = cli("plan", write_recipe(), "--step", "99")
+    assert result.exit_code == 2
+    assert "has no step 99, expected 1 to " in result.stderr
+    assert result.stdout == ""

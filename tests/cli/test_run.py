@@ -43,6 +43,19 @@ def test_the_stage_says_what_it_shows(cli, solver, write_recipe):
     assert root.GetAttribute("balloon_usd:step").Get(1) == "inflate: main"
 
 
+def test_a_run_tells_of_older_words_once_a_place_also_where_all_is_there_already(cli, solver, write_recipe):
+    text = (
+        "format: 1\nname: old\nunits: cm\nballoons: {main: {size: 260, tail: 10}}\n"
+        "steps:\n  - bubbles: {a: 10}\n  - push: {bubble: a, depth: 1}\n"
+    )
+    recipe = write_recipe("old", text=text)
+    for _ in range(2):
+        result = cli("run", recipe, "-o", "out", "--no-preview", "--no-report")
+        assert result.exit_code == 0, result.output
+        assert result.stderr.count("old.yaml:7:5: push is called press now: press: {...}\n") == 1
+    assert "already there and whole" in result.stderr
+
+
 def test_no_preview_draws_none(cli, solver, write_recipe, left):
     assert cli("run", write_recipe(), "-o", "out", "--no-preview").exit_code == 0
     assert left() == [*REPORT, *ASSET]

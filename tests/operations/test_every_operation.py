@@ -10,6 +10,7 @@ from pathlib import Path
 import jsonschema
 import pytest
 import yaml
+from PIL import Image
 
 import balloon_usd
 from balloon_usd.operations.modifiers import MODIFIERS
@@ -21,6 +22,7 @@ from balloon_usd.recipe import Recipe, RecipeError, recipe_schema
 
 SCHEMA = recipe_schema()
 ROOMS = Path(balloon_usd.__file__).parent
+DOCS = Path(__file__).parents[2] / "docs"
 VALUES = {"balloon": "main", "point": "up", "turns": 2.5, "seconds": 1.5, "note": "gently"}
 
 each_operation = pytest.mark.parametrize("operation", OPERATIONS, ids=WORDS)
@@ -60,6 +62,35 @@ def test_its_example_is_read_written_back_and_planned(operation: type[Operation]
 
 
 @each_operation
+def test_it_says_where_it_is_described(operation: type[Operation]) -> None:
+    assert operation.sources
+    assert all(len(source) > 10 for source in operation.sources)
+
+
+@each_operation
+def test_it_has_a_page_that_shows_its_picture_and_what_its_code_knows(operation: type[Operation]) -> None:
+    page = (DOCS / "reference" / "operations" / f"{operation.word}.md").read_text(encoding="utf-8")
+    assert page.startswith(f"# {operation.word}: ")
+    assert f"](../../pictures/operations/{operation.word}.png)" in page
+    assert f"```{{operation}} {operation.word}\n```" in page
+    assert "\n## What is checked\n\n- " in page
+
+
+@each_operation
+def test_its_picture_is_one_of_three_frames_and_small(operation: type[Operation]) -> None:
+    file = DOCS / "pictures" / "operations" / f"{operation.word}.png"
+    with Image.open(file) as picture:
+        assert picture.width > 3 * 300
+        assert len(picture.convert("RGB").getcolors(picture.width * picture.height)) > 100
+    assert file.stat().st_size < 60_000
+
+
+@pytest.mark.parametrize("folder", [("reference", "operations"), ("pictures", "operations")])
+def test_no_page_and_no_picture_is_of_another_operation(folder: tuple[str, str]) -> None:
+    assert {file.stem for file in DOCS.joinpath(*folder).iterdir()} - {"index"} == set(WORDS)
+
+
+@each_operation
 def test_the_schema_takes_its_example_and_no_modifier_that_makes_no_sense(operation: type[Operation]) -> None:
     data = yaml.safe_load(operation.example)
     jsonschema.validate(data, SCHEMA)
@@ -82,7 +113,15 @@ def test_what_it_names_is_the_same_in_a_file_and_in_python(operation: type[Opera
     entry = step.entry("cm")
     raw = {*operation.makes(entry), *operation.uses(entry)}
     assert {name.partition(".")[0] for name in step.names} <= raw
-    assert set(step.lengths) == set(operation.makes(entry)) - {step.named_rest}
+
+
+@each_operation
+def test_it_makes_what_it_says_and_has_a_length_for_all_but_a_rest(operation: type[Operation]) -> None:
+    recipe = Recipe.parse(operation.example)
+    for index, step in enumerate(recipe.steps):
+        made = {name: made.last for name, made in recipe.piece.bubbles.items() if made.step == index}
+        assert set(made) == set(step.makes(step.entry("cm")))
+        assert set(step.lengths) == {name for name, last in made.items() if not last}
 
 
 @each_operation

@@ -11,7 +11,7 @@ CHAIN = f"{HEAD}- bubbles: {{b: 8, c: 8, d: 8}}\n"
 
 
 def loose_in(figure) -> list[str]:
-    return [str(loose.end) for loose in figure.holding.loose]
+    return [str(loose.end) for loose in figure.loose]
 
 
 def test_every_joint_of_a_chain_is_loose(planned):
@@ -19,7 +19,7 @@ def test_every_joint_of_a_chain_is_loose(planned):
 
 
 def test_a_loose_joint_knows_what_turns_on_either_side(planned):
-    middle = planned(CHAIN).holding.loose[1]
+    middle = planned(CHAIN).loose[1]
     assert middle.before == {"b", "c"}
     assert middle.beyond == {"d", "a_rest"}
 
@@ -48,7 +48,7 @@ def test_what_another_balloon_is_locked_to_turns_with_it(planned):
           balloon: o
         - lock: {joints: [c.end, x.end]}
         """)
-    (loose,) = figure.holding.loose
+    (loose,) = figure.loose
     assert str(loose.end) == "b.end"
     assert loose.before == {"b"}
     assert loose.beyond == {"c", "a_rest", "x", "o_rest"}

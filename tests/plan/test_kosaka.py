@@ -27,7 +27,7 @@ def test_every_recipe_of_the_thesis_plans_without_cautions(path):
 
 def test_the_experiments_of_the_thesis_are_shipped():
     titles = {path.stem for path in RECIPES}
-    assert titles >= {"diffusion", "push", "bubble", "bubbles", "bend", "loop", "lock", "dog"}
+    assert titles >= {"diffusion", "press", "bubble", "bubbles", "bend", "loop", "lock", "dog"}
 
 
 def test_balloons_start_blown_up_and_their_air_spreads(planned):

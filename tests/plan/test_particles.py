@@ -10,9 +10,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from balloon_usd.balloon.capsule_mesh import EXPERIMENT_RADIUS
 from balloon_usd.plan import plan
 from balloon_usd.plan.blown import blown_shape
-from balloon_usd.plan.particles import EXPERIMENT_RADIUS, experiment_spacing, start_particles
+from balloon_usd.plan.particles import experiment_spacing, start_particles
 from balloon_usd.recipe import Recipe
 
 RECIPES = sorted((Path(__file__).parents[2] / "recipes" / "kosaka").glob("*.yaml"))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from inspect import signature
 from pathlib import Path
 from typing import Any
 
@@ -14,9 +15,10 @@ from pydantic import ValidationError
 from balloon_usd.language.quantities import METRES, angle_entry, length_entry, metres, radians
 from balloon_usd.operations.bubbles import Bubbles
 from balloon_usd.operations.lock import Lock
-from balloon_usd.operations.push import PushedBubble
+from balloon_usd.operations.operation import Operation
+from balloon_usd.operations.press import PressedBubble
 from balloon_usd.operations.rest import Rest
-from balloon_usd.operations.table import WORDS
+from balloon_usd.operations.table import OPERATIONS, WORDS
 from balloon_usd.recipe import LATEX_COLORS, Balloon, Joint, Recipe, RecipeBuilder, RecipeError
 
 RECIPES = sorted((Path(__file__).parents[2] / "recipes").rglob("*.yaml"))
@@ -60,8 +62,8 @@ def full() -> RecipeBuilder:
         .lock(joints=["a.start", "d.end"], seconds=2, note="cross over")
         .rest("one_end", balloon="one", seconds=1)
         .bend(a=60, b="0.3 rad", point="forward", seconds=1.5)
-        .push("b", at="1 in", depth=0.012, point="down", balloon="one", seconds=2, note="poke")
-        .push("two_rest", force="500 mN")
+        .press("b", at="1 in", depth=0.012, point="down", balloon="one", seconds=2, note="poke")
+        .press("two_rest", force="500 mN")
         .wait(2, note="look")
         .physics(rubber="gent", softening=False, gravity=9.81)
         .physics(substeps=100)
@@ -79,7 +81,6 @@ def test_a_built_recipe_tells_that_it_was_built() -> None:
 
 def test_the_builder_knows_every_operation_and_manner() -> None:
     recipe = full().build()
-    assert {step.word for step in recipe.steps} == set(WORDS)
     assert recipe.title == 'a "title": #1\nline two'
     assert recipe.fps == 30.0
     assert recipe.balloons["one"].color.rgb == (0.1, 0.2, 1.0)
@@ -90,8 +91,8 @@ def test_the_builder_knows_every_operation_and_manner() -> None:
     assert recipe.steps[3].note == "5"
     assert recipe.steps[5].ends == (Joint("a", "start"), Joint("d", "end"))
     assert recipe.steps[7].bend == {"a": math.radians(60), "b": 0.3}
-    assert recipe.steps[8].push == PushedBubble(bubble="b", at=0.0254, depth=0.012)
-    assert recipe.steps[9].push == PushedBubble(bubble="two_rest", force=0.5)
+    assert recipe.steps[8].press == PressedBubble(bubble="b", at=0.0254, depth=0.012)
+    assert recipe.steps[9].press == PressedBubble(bubble="two_rest", force=0.5)
     assert recipe.steps[10].wait == 2.0
     assert (recipe.physics.rubber, recipe.physics.softening, recipe.physics.substeps) == ("gent", False, 100)
 
@@ -179,8 +180,8 @@ def test_a_time_is_written_in_the_largest_unit_in_which_it_is_whole(leak: float,
 @given(force=st.floats(1e-6, 100.0))
 @EXAMPLES
 def test_a_written_force_reads_back_bit_for_bit(force: float) -> None:
-    builder = RecipeBuilder("f").balloon("main", size=260, tail=0.1).push("main_rest", force=force)
-    again = Recipe.parse(builder.build().to_yaml()).steps[0].push
+    builder = RecipeBuilder("f").balloon("main", size=260, tail=0.1).press("main_rest", force=force)
+    again = Recipe.parse(builder.build().to_yaml()).steps[0].press
     assert again is not None
     assert again.force == force
 
@@ -278,3 +279,46 @@ def test_whatever_is_built_reads_back_equal(builder: RecipeBuilder) -> None:
     again = Recipe.parse(recipe.to_yaml())
     assert again == recipe
     assert again.to_yaml() == recipe.to_yaml()
+
+
+def test_every_operation_is_a_method_with_its_own_arguments_and_modifiers() -> None:
+    builder = RecipeBuilder("f")
+    for operation in OPERATIONS:
+        method = getattr(builder, operation.word)
+        takes = signature(method).parameters
+        assert set(operation.modifiers()) < set(takes)
+        assert method.__doc__ == operation.__doc__
+
+
+def test_a_step_can_be_added_by_its_word_or_as_a_whole() -> None:
+    by_word = RecipeBuilder("dog", title="Classic dog").balloon("main", size="260", color="red", tail=0.10)
+    by_word.add("bubbles", nose=0.10, left_ear=0.10, right_ear=0.10)
+    by_word.add("lock", "left_ear", "right_ear", point="up").add("rest", "tail")
+    assert by_word.to_yaml() == DOG
+    again = RecipeBuilder("dog", title="Classic dog").balloon("main", size="260", color="red", tail=0.10)
+    for step in dog().build().steps:
+        again.add(step)
+    assert again.to_yaml() == DOG
+
+
+@pytest.mark.parametrize("operation", OPERATIONS, ids=WORDS)
+def test_the_builder_writes_the_steps_of_every_example(operation: type[Operation]) -> None:
+    recipe = Recipe.parse(operation.example)
+    balloon = recipe.balloons["main"]
+    builder = RecipeBuilder("f", units="in")
+    builder.balloon("main", size=balloon.size, tail=balloon.tail, length=balloon.length)
+    for step in recipe.steps:
+        builder.add(step)
+    assert builder.build().steps == recipe.steps
+
+
+def test_an_unknown_word_and_unknown_arguments_are_refused_at_once() -> None:
+    builder = RecipeBuilder("f")
+    with pytest.raises(ValueError, match='unknown operation "bubble", did you mean "bubbles"'):
+        builder.add("bubble", a=0.1)
+    with pytest.raises(TypeError, match="point"):
+        builder.rest("b", point="up")
+    with pytest.raises(AttributeError):
+        builder.bubble(a=0.1)
+    with pytest.raises(TypeError):
+        builder.add(dog().build().steps[0], turns=2)

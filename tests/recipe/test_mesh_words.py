@@ -76,7 +76,7 @@ def test_entries_that_do_not_go_together_are_told(entry: str, message: str) -> N
     [
         ("bubbles: {nose: 3}", "steps[0].bubbles"),
         ("lock: [a, b]", "steps[0].lock"),
-        ("push: {bubble: heart, depth: 1}", "steps[0].push"),
+        ("press: {bubble: heart, depth: 1}", "steps[0].press"),
         ("rest: tip", "steps[0].rest"),
         ("note: hm", "steps[0]"),
     ],

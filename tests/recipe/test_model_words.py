@@ -1,4 +1,4 @@
-"""The words of the particle model and of pushing: what they mean, and what does not go together."""
+"""The words of the particle model and of pressing: what they mean, and what does not go together."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ def messages(text: str) -> list[str]:
     return str(caught.value).splitlines()
 
 
-def push_of(written: str):
-    return Recipe.parse(f"{TUBE}{AB}  - push: {written}\n").steps[1].push
+def press_of(written: str):
+    return Recipe.parse(f"{TUBE}{AB}  - press: {written}\n").steps[1].press
 
 
 def test_the_particle_model_is_read_with_its_constants_in_si_units() -> None:
@@ -48,59 +48,62 @@ def test_a_capsule_is_a_balloon_without_knot_and_tail() -> None:
     assert (balloon.capsule, balloon.tail, balloon.inflated) == (0.2, None, None)
 
 
-def test_a_push_has_a_place_and_a_depth_or_a_force() -> None:
-    push = push_of("{bubble: a, at: 3, depth: 12 mm}")
-    assert (push.bubble, push.at, push.depth, push.force) == ("a", 0.03, 0.012, None)
+def test_a_press_has_a_place_and_a_depth_or_a_force() -> None:
+    press = press_of("{bubble: a, at: 3, depth: 12 mm}")
+    assert (press.bubble, press.at, press.depth, press.force) == ("a", 0.03, 0.012, None)
 
 
 @pytest.mark.parametrize(
     ("written", "newton"), [("2", 2.0), ("0.5", 0.5), ("2 N", 2.0), ("500 mN", 0.5), ("'2N'", 2.0)]
 )
 def test_forces_are_newtons_unless_they_say_millinewtons(written: str, newton: float) -> None:
-    assert push_of(f"{{bubble: a, force: {written}}}").force == newton
+    assert press_of(f"{{bubble: a, force: {written}}}").force == newton
 
 
-PUSHES = [
-    ("{bubble: a}", "push: does not say how deep or how hard, expected one of depth, force"),
+PRESSES = [
+    ("{bubble: a}", "press: does not say how deep or how hard, expected one of depth, force"),
     (
         "{bubble: a, depth: 1, force: 2}",
-        "push.force: stands beside depth, expected exactly one of depth, force",
+        "press.force: stands beside depth, expected exactly one of depth, force",
     ),
-    ("{depth: 1}", "push.bubble: is missing, expected the bubble that is pushed"),
-    ("{bubble: c, depth: 1}", 'push.bubble: unknown bubble "c", expected one of a, b, main_rest'),
-    ("{bubble: main_rset, depth: 1}", 'push.bubble: unknown bubble "main_rset", did you mean "main_rest"?'),
-    ("{bubble: a, dept: 1, depth: 1}", 'push.dept: unknown key "dept", did you mean "depth"?'),
-    ("{bubble: a, depth: 0}", "push.depth: 0 is out of range, expected more than 0 and at most 5 m"),
-    ("{bubble: a, at: -1, depth: 1}", "push.at: -1 cm is out of range, expected more than 0 and at most 5 m"),
-    ("{bubble: a, force: 2 kg}", 'push.force: unknown force unit "kg", expected one of N, mN'),
+    ("{depth: 1}", "press.bubble: is missing, expected the bubble that is pressed"),
+    ("{bubble: c, depth: 1}", 'press.bubble: unknown bubble "c", expected one of a, b, main_rest'),
+    ("{bubble: main_rset, depth: 1}", 'press.bubble: unknown bubble "main_rset", did you mean "main_rest"?'),
+    ("{bubble: a, dept: 1, depth: 1}", 'press.dept: unknown key "dept", did you mean "depth"?'),
+    ("{bubble: a, depth: 0}", "press.depth: 0 is out of range, expected more than 0 and at most 5 m"),
+    (
+        "{bubble: a, at: -1, depth: 1}",
+        "press.at: -1 cm is out of range, expected more than 0 and at most 5 m",
+    ),
+    ("{bubble: a, force: 2 kg}", 'press.force: unknown force unit "kg", expected one of N, mN'),
     (
         "{bubble: a, force: 200}",
-        "push.force: 200 N is out of range, expected more than 0 and at most 100 N",
+        "press.force: 200 N is out of range, expected more than 0 and at most 100 N",
     ),
-    ("{bubble: a, force: hard}", 'push.force: "hard" is no force, expected 2 or "2 N"'),
-    ("3", "push: 3 does not fit, expected entries such as key: value"),
+    ("{bubble: a, force: hard}", 'press.force: "hard" is no force, expected 2 or "2 N"'),
+    ("3", "press: 3 does not fit, expected entries such as key: value"),
 ]
 
 
-@pytest.mark.parametrize(("written", "message"), PUSHES)
-def test_a_wrong_push_gives_one_message_at_its_line(written: str, message: str) -> None:
-    (found,) = messages(f"{TUBE}{AB}  - push: {written}\n")
+@pytest.mark.parametrize(("written", "message"), PRESSES)
+def test_a_wrong_press_gives_one_message_at_its_line(written: str, message: str) -> None:
+    (found,) = messages(f"{TUBE}{AB}  - press: {written}\n")
     assert found.startswith("dog.yaml:8:")
     assert found.partition(" ")[2] == f"steps[1].{message}"
 
 
-def test_turns_make_no_sense_beside_a_push() -> None:
-    (found,) = messages(f"{TUBE}{AB}  - push: {{bubble: a, depth: 1}}\n    turns: 2\n")
+def test_turns_make_no_sense_beside_a_press() -> None:
+    (found,) = messages(f"{TUBE}{AB}  - press: {{bubble: a, depth: 1}}\n    turns: 2\n")
     assert found.endswith(
-        "steps[1].turns: makes no sense with push, expected one of balloon, point, seconds, note"
+        "steps[1].turns: makes no sense with press, expected one of balloon, point, seconds, note"
     )
 
 
-def test_the_rest_that_no_step_names_can_be_pushed_and_bent() -> None:
+def test_the_rest_that_no_step_names_can_be_pressed_and_bent() -> None:
     steps = Recipe.parse(
-        f"{TUBE}{AB}  - push: {{bubble: main_rest, depth: 1}}\n  - bend: {{main_rest: 30}}\n"
+        f"{TUBE}{AB}  - press: {{bubble: main_rest, depth: 1}}\n  - bend: {{main_rest: 30}}\n"
     ).steps
-    assert [step.word for step in steps] == ["bubbles", "push", "bend"]
+    assert [step.word for step in steps] == ["bubbles", "press", "bend"]
 
 
 def test_a_recipe_may_make_nothing_at_all() -> None:
@@ -108,21 +111,21 @@ def test_a_recipe_may_make_nothing_at_all() -> None:
 
 
 def test_the_unnamed_rest_exists_when_nothing_more_is_made_of_its_balloon() -> None:
-    (found,) = messages(f"{TUBE}  - push: {{bubble: main_rest, depth: 1}}\n{AB}")
+    (found,) = messages(f"{TUBE}  - press: {{bubble: main_rest, depth: 1}}\n{AB}")
     assert found == (
-        'dog.yaml:7:20: steps[0].push.bubble: bubble "main_rest" does not exist yet, steps[1] makes more of "main":'
+        'dog.yaml:7:21: steps[0].press.bubble: bubble "main_rest" does not exist yet, steps[1] makes more of "main":'
         " expected this step after that one"
     )
 
 
 def test_a_rest_with_a_name_has_no_other() -> None:
-    (found,) = messages(f"{TUBE}  - rest: tail\n  - push: {{bubble: main_rest, depth: 1}}\n")
+    (found,) = messages(f"{TUBE}  - rest: tail\n  - press: {{bubble: main_rest, depth: 1}}\n")
     assert 'unknown bubble "main_rest", expected tail' in found
 
 
-def test_a_push_stays_on_the_balloon_that_it_names() -> None:
+def test_a_press_stays_on_the_balloon_that_it_names() -> None:
     two = TUBE.replace("steps:", "  other: {size: 160, tail: 5}\nsteps:")
-    (found,) = messages(f"{two}  - push: {{bubble: other_rest, depth: 1}}\n    balloon: main\n")
+    (found,) = messages(f"{two}  - press: {{bubble: other_rest, depth: 1}}\n    balloon: main\n")
     assert 'bubble "other_rest" is on balloon "other", expected no other balloon named' in found
 
 

@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
-import pytest
+from typing import Annotated
 
+import pytest
+from pydantic import BaseModel, Field, ValidationError
+
+from balloon_usd.language.names import Name
 from balloon_usd.language.problem import Problem
+from balloon_usd.operations.table import WORDS
 from balloon_usd.recipe import Recipe, RecipeError
+from balloon_usd.recipe.translation import validation_complaints
 
 HEAD = "format: 1\nname: dog\nunits: cm\nballoons:\n  main: {size: 260, tail: 10}\nsteps:\n"
 TWO = HEAD.replace("steps:", "  other: {size: 160, tail: 5}\nsteps:")
@@ -103,7 +109,7 @@ ONE_STEP = [
     (
         "{note: x}",
         5,
-        "steps[0]: no operation, expected one of bubbles, lock, loop, fold, ear, rest, bend, push, wait",
+        f"steps[0]: no operation, expected one of {', '.join(WORDS)}",
     ),
 ]
 
@@ -308,9 +314,7 @@ def test_missing_keys_are_named_with_an_example() -> None:
         "dog.yaml:1:1: name: is missing, expected a name for the file such as dog",
         "dog.yaml:1:1: balloons: is missing, expected balloons such as {main: {size: 260, color: red,"
         " tail: 10}}",
-        "dog.yaml:1:1: steps: is missing, expected a list of steps, each with one of bubbles, lock,"
-        " loop, fold,"
-        " ear, rest, bend, push, wait",
+        f"dog.yaml:1:1: steps: is missing, expected a list of steps, each with one of {', '.join(WORDS)}",
     ]
 
 
@@ -527,3 +531,18 @@ def test_a_later_room_finds_the_place_of_a_step_or_of_what_encloses_it() -> None
     )
     assert str(recipe.problem(("steps", 1, "turns"), "too few")) == "dog.yaml:8:5: steps[1].turns: too few"
     assert str(recipe.problem((), "odd")) == "dog.yaml:1:1: odd"
+
+
+def test_too_few_and_too_many_entries_are_counted() -> None:
+    class Pair(BaseModel):
+        pair: Annotated[tuple[Name, ...], Field(min_length=2, max_length=2)]
+
+    def told(value: object) -> list[str]:
+        with pytest.raises(ValidationError) as caught:
+            Pair.model_validate({"pair": value})
+        return [found.text for found in validation_complaints(caught.value, {"pair": value}, Pair)]
+
+    assert told([]) == ["is empty, expected at least one entry"]
+    assert told(["a"]) == ["1 entry here, expected at least 2"]
+    assert told(["a", "b", "c"]) == ["3 entries here, expected at most 2"]
+    assert len(told(["a", 5])) == 1

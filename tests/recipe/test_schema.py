@@ -11,7 +11,7 @@ from typing import Any, cast
 import pytest
 
 from balloon_usd.language.yaml_reader import read_yaml
-from balloon_usd.operations.push import PushedBubble
+from balloon_usd.operations.press import PressedBubble
 from balloon_usd.operations.table import OPERATIONS
 from balloon_usd.recipe import Balloon, Physics, Recipe, RecipeError, recipe_schema
 from balloon_usd.recipe.kosaka import Kosaka
@@ -113,7 +113,7 @@ EVERYTHING = (
     "steps:\n  - bubbles: {a: 4, b: '4\"', c: 5}\n    balloon: m\n    turns: 2.5\n    seconds: 1\n    note: n\n"
     "  - loop: {d: 8}\n    point: up\n  - fold: {e: 8}\n  - ear: {f: 1.5}\n  - lock: [a, b]\n"
     "  - lock: {joints: [b.start, c.end]}\n  - rest: g\n  - bend: {g: 60 deg, a: 30}\n"
-    "  - push: {bubble: a, at: 2, depth: 1 cm}\n  - push: {bubble: g, force: 2 N}\n  - wait: 1\n"
+    "  - press: {bubble: a, at: 2, depth: 1 cm}\n  - press: {bubble: g, force: 2 N}\n  - wait: 1\n"
     "physics: {model: latex, rubber: gent, softening: false, gravity: 9.8, friction: 1, substeps: 40, burst: stop,"
     " hold: 1, leak: 2 days, mass_scaling: none}\n"
 )
@@ -171,11 +171,11 @@ WRONG = [
     HEAD + "  - bubbles: {a: 1}\n    turns: 2.3\n",
     HEAD + "  - loop: {a: 1}\n    point: sideways\n",
     HEAD + "  - wait: 0.1\n",
-    HEAD + ABC + "  - push: {depth: 1}\n",
-    HEAD + ABC + "  - push: {bubble: a, depth: 0}\n",
-    HEAD + ABC + "  - push: {bubble: a, force: 2 kN}\n",
-    HEAD + ABC + "  - push: {bubble: a, force: 101}\n",
-    HEAD + ABC + "  - push: {bubble: a, depth: 1, deep: 2}\n",
+    HEAD + ABC + "  - press: {depth: 1}\n",
+    HEAD + ABC + "  - press: {bubble: a, depth: 0}\n",
+    HEAD + ABC + "  - press: {bubble: a, force: 2 kN}\n",
+    HEAD + ABC + "  - press: {bubble: a, force: 101}\n",
+    HEAD + ABC + "  - press: {bubble: a, depth: 1, deep: 2}\n",
     HEAD + ABC + "physics: {model: springs}\n",
     HEAD + ABC + "physics: {model: kosaka, kosaka: {ks: 0}}\n",
     HEAD + ABC + "physics: {model: kosaka, kosaka: {re: 1 yd}}\n",
@@ -205,7 +205,7 @@ def test_the_schema_and_the_reader_refuse_the_same_slips(text: str) -> None:
         *((SCHEMA["$defs"][each.__name__], each) for each in OPERATIONS),
         (SCHEMA["$defs"]["Physics"], Physics),
         (SCHEMA["$defs"]["Kosaka"], Kosaka),
-        (SCHEMA["$defs"]["PushedBubble"], PushedBubble),
+        (SCHEMA["$defs"]["PressedBubble"], PressedBubble),
     ],
 )
 def test_the_schema_describes_every_key_and_forbids_others(found: dict[str, Any], model: type) -> None:

@@ -41,7 +41,7 @@ units: cm
 balloons:
   main: {size: 260, capsule: 20}
 steps:
-  - push: {bubble: main_rest, depth: 1}
+  - press: {bubble: main_rest, depth: 1}
 physics: {model: kosaka}
 """
 UNDONE, UNDONE_FROM = ("nose.end",), 30
@@ -135,7 +135,7 @@ def test_steps_are_marked_where_they_begin_by_what_they_do():
 
 
 def test_a_push_is_marked_by_its_bubble():
-    assert [mark.text for mark in step_marks(flat(CAPSULE)[0])][1] == "push: main_rest"
+    assert [mark.text for mark in step_marks(flat(CAPSULE)[0])][1] == "press: main_rest"
 
 
 def test_a_range_of_frames_has_the_steps_that_are_seen_in_it():

@@ -10,7 +10,7 @@ import numpy as np
 from balloon_usd.balloon.rubber import BURST_STRETCH
 from balloon_usd.check import check_file, text_of
 from balloon_usd.operations.moves import Weld
-from balloon_usd.solver.crossing import deepest_crossing
+from tests.crossing import deepest_crossing
 
 EXAMPLES = Path(__file__).parents[2] / "docs/examples"
 DEEPEST = 1.0e-3

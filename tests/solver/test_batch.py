@@ -82,9 +82,9 @@ def test_hands_do_not_reach_for_what_has_flown_apart():
     plans = small(), small(head=5)
     batch = batch_of(*plans, ahead=True)
     acted, frames = [], frames_from(batch)
-    for maker in batch.model.makers:
-        act = maker.act
-        maker.act = lambda *now, act=act, maker=maker: (acted.append(maker), act(*now))
+    for performer in batch.model.performers:
+        act = performer.act
+        performer.act = lambda *now, act=act, who=performer: (acted.append(who), act(*now))
     given = [next(frames) for _ in range(5)]
     places = batch.model.scene.x.numpy().copy()
     places[: len(given[0][0].points[0])] = np.nan
@@ -93,8 +93,8 @@ def test_hands_do_not_reach_for_what_has_flown_apart():
     failed = [outcomes[0] for outcomes in given if isinstance(outcomes[0], SimulationFailed)]
     assert len(failed) == 1
     assert "flown apart" in str(failed[0])
-    assert acted.count(batch.model.makers[0]) <= failed[0].frame
-    assert acted.count(batch.model.makers[1]) == len(given) - 1
+    assert acted.count(batch.model.performers[0]) <= failed[0].frame
+    assert acted.count(batch.model.performers[1]) == len(given) - 1
     alone = [bits(outcomes[0]) for outcomes in frames_from(batch_of(plans[1], ahead=False))]
     assert [bits(outcomes[1]) for outcomes in given] == alone
 
@@ -158,7 +158,7 @@ def test_threads_share_out_the_sculptures_of_the_kosaka_model_to_none(monkeypatc
     monkeypatch.setattr("balloon_usd.solver.simulation.usable_cores", lambda: 2)
     plans = [small(physics="model: kosaka"), small(head=5, physics="model: kosaka")]
     model = simulate_many(plans, device="cpu").model
-    assert len(model.makers) == 2
+    assert len(model.performers) == 2
 
 
 def test_a_read_back_is_valid_for_two_more():

@@ -24,7 +24,7 @@ steps:
   - bubbles: {nose: 3, left_ear: 4, right_ear: 4}
   - lock: [left_ear, right_ear]
     point: up
-  - push: {bubble: nose, depth: 0.3}
+  - press: {bubble: nose, depth: 0.3}
     seconds: 0.3
   - rest: tail
 physics: {hold: 0.1}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from balloon_usd.operations.moves import Push
+from balloon_usd.operations.moves import Press
 from balloon_usd.plan import plan
 from balloon_usd.recipe import Recipe, RecipeBuilder
 from balloon_usd.solver.errors import DeviceUnavailable, SimulationFailed
@@ -43,14 +43,14 @@ def last_frames(plans, device="cpu"):
     return last
 
 
-PUSHED = """
+PRESSED = """
 format: 1
-name: pushed
+name: pressed
 units: cm
 balloons:
   main: {size: 260, length: 9, tail: 3, color: red}
 steps:
-  - push: {bubble: main_rest, depth: 1}
+  - press: {bubble: main_rest, depth: 1}
     seconds: 1
 physics: {model: MODEL, hold: 0.2}
 """
@@ -58,17 +58,17 @@ physics: {model: MODEL, hold: 0.2}
 
 @pytest.mark.parametrize("model", ["latex", "kosaka"])
 def test_a_finger_stays_on_its_balloon_beside_another_sculpture(model):
-    pushed = plan(Recipe.parse(PUSHED.replace("MODEL", model)))
-    other = plan(Recipe.parse(PUSHED.replace("MODEL", model).replace("depth: 1", "depth: 0.1")))
-    (push,) = (move for move in pushed.choreography.moves if isinstance(move, Push))
+    pressed = plan(Recipe.parse(PRESSED.replace("MODEL", model)))
+    other = plan(Recipe.parse(PRESSED.replace("MODEL", model).replace("depth: 1", "depth: 0.1")))
+    (press,) = (move for move in pressed.choreography.moves if isinstance(move, Press))
 
     def dent(plans):
         frames = [f[0].points[0] for f in simulate_many(plans, detail="draft").frames() if f[0] is not None]
-        begin = round(pushed.recipe.fps * push.start)
+        begin = round(pressed.recipe.fps * press.start)
         return max(float((frames[begin] - points)[:, 2].max()) for points in frames[begin:])
 
-    assert dent([pushed, other]) == pytest.approx(dent([pushed]), abs=1e-3)
-    assert dent([pushed, other]) > dent([other]) + 3e-3
+    assert dent([pressed, other]) == pytest.approx(dent([pressed]), abs=1e-3)
+    assert dent([pressed, other]) > dent([other]) + 3e-3
 
 
 def test_frames_are_counted_from_one_and_announced_in_advance():

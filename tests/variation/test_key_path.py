@@ -17,7 +17,7 @@ steps:
     balloon: main
   - lock: {joints: [a.end, b.end]}
   - bend: {b: 60}
-  - push: {bubble: a, depth: 1}
+  - press: {bubble: a, depth: 1}
 physics: {kosaka: {swell: 0.1}}
 """,
     "",
@@ -57,7 +57,7 @@ def test_a_path_leads_to_its_place_also_where_that_is_empty(text, path):
         ("steps[1].lock.joints[1]", ("steps", 1, "lock", "joints", 1)),
         ("steps.2.bend.b", ("steps", 2, "bend", "b")),
         ("steps.b.bend.b", ("steps", 2, "bend", "b")),
-        ("steps.a.push.force", ("steps", 3, "push", "force")),
+        ("steps.a.press.force", ("steps", 3, "press", "force")),
         ("physics.kosaka.re", ("physics", "kosaka", "re")),
     ],
 )

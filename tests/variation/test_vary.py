@@ -290,3 +290,17 @@ def test_odd_words_stand_in_the_provenance_without_harm(tmp_path):
     assert lines[0] == '# variation of: "do\\U0000000Ag\\U0000DC80 #.yaml"'
     assert lines[2] == '# title: "a\\U0000000Ab: # \\U0000202E"'
     assert Recipe.load(made.file).title == "a\nb: # \u202e"
+
+
+def test_a_recipe_with_an_older_word_is_varied_by_the_new_one_and_keeps_its_text(tmp_path):
+    recipe = tmp_path / "old.yaml"
+    recipe.write_text(
+        "format: 1\nname: old\nunits: cm\nballoons: {main: {size: 260, tail: 10}}\n"
+        "steps:\n  - bubbles: {a: 10}\n  - push: {bubble: a, depth: 1}  # gently\n"
+    )
+    made = vary_recipe(recipe, {"steps.1.press.depth": "1,2"}, tmp_path / "out")
+    assert [Recipe.load(each.file).steps[1].press.depth for each in made.written] == [0.01, 0.02]
+    assert "  - push: {bubble: a, depth: 2}  # gently\n" in made.written[1].file.read_text()
+    assert [str(notice)[-41:] for notice in made.notices] == [
+        "7:5: push is called press now: press: {...}"[-41:]
+    ]

@@ -29,7 +29,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
 
 FOLDER = Path(__file__).parents[2] / "recipes" / "kosaka"
-EXPERIMENTS = ("diffusion", "push", "bubble", "bubbles", "bend")
+EXPERIMENTS = ("diffusion", "press", "bubble", "bubbles", "bend")
 """Recipes of the experiments 4.2.1 to 4.2.4."""
 NEAR = 0.015
 """Distance within which the solid angle of a face is taken exactly, m: three widths of a face."""

@@ -7,10 +7,10 @@ import pytest
 import warp as wp
 
 from balloon_usd.balloon.bubble_shape import bubble_of_length
-from balloon_usd.operations.moves import Pinch, Push
+from balloon_usd.operations.moves import Pinch, Press
 from balloon_usd.plan.choreography import SPREAD_SECONDS
 from balloon_usd.solver.body import NECK_RADIUS
-from balloon_usd.solver.push import RELEASING
+from balloon_usd.solver.motions.press import RELEASING
 from tests.verification.kosaka_experiments import (
     EXPERIMENTS,
     bend_recipe,
@@ -59,8 +59,8 @@ def diffusion():
 
 
 @pytest.fixture(scope="module")
-def push():
-    return performed(recipe("push"))
+def press():
+    return performed(recipe("press"))
 
 
 @pytest.fixture(scope="module")
@@ -139,27 +139,27 @@ def test_a_free_capsule_stays_where_it_is(verify, diffusion):
 # --- K2: 4.2.2, a force from above
 
 
-def test_the_shape_returns_when_the_finger_is_gone(verify, push):
-    begin = push.frame_at(push.move(Push).start)
-    before = push.points[begin - FEW + 1 : begin + 1].mean(axis=0)
-    after = push.points[-FEW:].mean(axis=0)
+def test_the_shape_returns_when_the_finger_is_gone(verify, press):
+    begin = press.frame_at(press.move(Press).start)
+    before = press.points[begin - FEW + 1 : begin + 1].mean(axis=0)
+    after = press.points[-FEW:].mean(axis=0)
     off, shape = (1e3 * np.linalg.norm(x - before, axis=1) for x in (after, moved_back(after, before)))
     told = (
         f"rms {np.sqrt((off**2).mean()):.2f} mm; moved back as a rigid body {shape.max():.2f} mm, "
         f"rms {np.sqrt((shape**2).mean()):.2f} mm"
     )
-    verify("K2", "after the push, farthest vertex, mm", off.max(), 0.0, 1.0, told)
+    verify("K2", "after the press, farthest vertex, mm", off.max(), 0.0, 1.0, told)
 
 
-def test_the_finger_makes_a_dent(verify, push):
-    move = push.move(Push)
-    ring = rings(push, push.points[0])[push.mesh.ring_at(move.along)]
+def test_the_finger_makes_a_dent(verify, press):
+    move = press.move(Press)
+    ring = rings(press, press.points[0])[press.mesh.ring_at(move.along)]
     arm = (ring - ring.mean(axis=0)) @ np.array(move.point)
-    first = push.mesh.ring_start[push.mesh.ring_at(move.along)]
+    first = press.mesh.ring_start[press.mesh.ring_at(move.along)]
     under, opposite = first + arm.argmin(), first + arm.argmax()
-    apart = np.linalg.norm(push.points[:, under] - push.points[:, opposite], axis=1)
-    begin = push.frame_at(move.start)
-    pressed = slice(begin, push.frame_at(move.start + RELEASING * move.seconds) + 1)
+    apart = np.linalg.norm(press.points[:, under] - press.points[:, opposite], axis=1)
+    begin = press.frame_at(move.start)
+    pressed = slice(begin, press.frame_at(move.start + RELEASING * move.seconds) + 1)
     whole = apart[begin - FEW + 1 : begin + 1].mean()
     dent = whole - apart[pressed]
     told = f"deepest {1e3 * dent.max():.1f} mm, {1e3 * dent[-1]:.1f} mm when the finger leaves"
@@ -226,7 +226,7 @@ def bend_angle(run, k):
 
 
 def test_a_larger_force_bends_further(bends, note):
-    moves = [run.move(Push) for run in bends]
+    moves = [run.move(Press) for run in bends]
     pressed = [
         bend_angle(run, run.frame_at(m.start + RELEASING * m.seconds))
         for run, m in zip(bends, moves, strict=True)
@@ -245,7 +245,7 @@ def test_a_larger_force_bends_further(bends, note):
 
 def test_bending_neither_tears_nor_empties_a_bubble(verify, bends):
     for run in bends:
-        move = run.move(Push)
+        move = run.move(Press)
         name, begin = f"bent by {move.force:g} N", run.frame_at(move.start)
         longest = max(frame.stretch[0].max() for frame in run.frames) / (1.0 + run.law.elongation_limit)
         verify("K4b", f"{name}, springs longer than allowed", max(longest - 1.0, 0.0), 0.0, 0.05)

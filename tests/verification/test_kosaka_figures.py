@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from balloon_usd.operations.moves import Weld
-from balloon_usd.solver.crossing import deepest_crossing
+from tests.crossing import deepest_crossing
 from tests.verification.kosaka_experiments import (
     joints,
     middle,

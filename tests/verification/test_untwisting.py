@@ -85,7 +85,7 @@ def test_lone_twists_come_undone_and_all_becomes_one_bubble(verify, turns):
     last = seen[-1].frame
     assert set(last.undone) == BOTH
     assert last.doing == "hold"
-    wound = simulation.model.makers[0].torsion.joints.values()
+    wound = simulation.model.performers[0].sculpture.torsion.joints.values()
     assert not any(joint.held or joint.torque for joint in wound)
     name = f"twists of {turns:g} turns let go"
     verify(
@@ -123,7 +123,7 @@ def test_it_unwinds_in_about_a_second_and_the_lesser_part_turns_more(verify, not
     simulation, seen = performed(3)
     begin = let_go(simulation)
     moments = {name: next(s.time for s in seen if name in s.frame.undone) - begin for name in BOTH}
-    torque = simulation.model.makers[0].torsion.joints[2].stiffness * 6.0 * math.pi
+    torque = simulation.model.performers[0].sculpture.torsion.joints[2].stiffness * 6.0 * math.pi
     told = ", ".join(f"{name} after {time:.2f} s" for name, time in sorted(moments.items()))
     note("V25", f"three turns spring back with {1e3 * torque:.1f} mN m; open: {told}")
     assert all(0.1 < time < 2.0 for time in moments.values())
@@ -143,7 +143,7 @@ def test_a_lock_of_enough_turns_holds_everything(verify, turns, lock):
     simulation, seen = performed(turns, lock, hold=1.5)
     held = [s for s in seen if s.time >= let_go(simulation)]
     assert held[-1].frame.undone == ()
-    wound = simulation.model.makers[0].torsion.joints.values()
+    wound = simulation.model.performers[0].sculpture.torsion.joints.values()
     assert all(joint.held and joint.torque > 0.0 for joint in wound)
     name = f"twists of {turns:g} turns, lock of {lock:g}"
     drift = np.ptp([s.amount for s in held], axis=0) / held[0].amount

@@ -1,9 +1,9 @@
-"""The thesis's model of some plans: bodies, makers and stepper in one flat state."""
+"""The thesis's model of some plans: bodies, performers and stepper in one flat state."""
 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -14,11 +14,14 @@ from balloon_usd.solver.frame_arrays import FrameArrays
 from balloon_usd.solver.hands import Hands
 from balloon_usd.solver.kosaka.body import KosakaBody, kosaka_body
 from balloon_usd.solver.kosaka.clusters import Clusters
-from balloon_usd.solver.kosaka.maker import KosakaMaker
+from balloon_usd.solver.kosaka.motions.table import KOSAKA_MOTIONS
 from balloon_usd.solver.kosaka.parameters import RUBBER_DRAG, SUBSTEPS
 from balloon_usd.solver.kosaka.scene import KosakaScene, kosaka_scene
+from balloon_usd.solver.kosaka.sculpture import KosakaSculpture
 from balloon_usd.solver.kosaka.stepper import KosakaStepper
 from balloon_usd.solver.layout import Layout
+from balloon_usd.solver.model import Model
+from balloon_usd.solver.performer import Performer
 from balloon_usd.solver.readback import Readback
 from balloon_usd.solver.settings import SceneSettings
 
@@ -30,7 +33,6 @@ if TYPE_CHECKING:
     from balloon_usd.balloon.detail import Detail
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
-    from balloon_usd.solver.model import Status
 
 READ_BACK = (
     "x",
@@ -71,7 +73,7 @@ class _ClusterState(NamedTuple):
     """Cluster of every particle, (P,)."""
 
 
-class KosakaModel:
+class KosakaModel(Model):
     """Sculptures of springs and air particles."""
 
     def __init__(
@@ -82,10 +84,10 @@ class KosakaModel:
         substeps: int,
         device: str,
     ) -> None:
-        self._bodies = body_ranges([len(m) for m in meshes])
+        runs = body_ranges([len(m) for m in meshes])
         dt = 1.0 / (fps * substeps)
         bodies = [body for plan, m in zip(plans, meshes, strict=True) for body in _bodies(plan, m, dt)]
-        worlds = [world for world, run in enumerate(self._bodies) for _ in run]
+        worlds = [world for world, run in enumerate(runs) for _ in run]
         settings = SceneSettings(
             dt=dt,
             gravity=plans[0].recipe.physics.gravity,
@@ -93,41 +95,33 @@ class KosakaModel:
             contact_offset=min(b.parameters.contact_offset for b in bodies),
         )
         self.scene = kosaka_scene(bodies, worlds, settings, device)
-        self.scene.stretch_limit.assign(stretch_limits(plans, self._bodies))
-        self._readback = Readback(self.scene, READ_BACK)
-        self.stepper = KosakaStepper(self.scene, substeps, _quad_half(bodies), self._readback)
+        self.scene.stretch_limit.assign(stretch_limits(plans, runs))
+        readback = Readback(self.scene, READ_BACK)
+        self.stepper = KosakaStepper(self.scene, substeps, _quad_half(bodies), readback)
         self.hands = _hands(self.scene)
         self.clusters = Clusters(self.scene)
-        self.makers = [
-            KosakaMaker(plan, self.scene, self.hands, run.start)
-            for plan, run in zip(plans, self._bodies, strict=True)
-        ]
-        self._state: dict[str, NDArray[Any]] = {}
+        self._lengths = [plan.choreography.seconds for plan in plans]
         starts = self.scene.air_start
-        self.layout = Layout(self.scene, self._bodies, np.diff(starts).tolist())
-        sizes = [starts[run.stop] - starts[run.start] for run in self._bodies]
-        self._first_bubble = np.repeat([place.bubbles.start for place in self.layout.places], sizes)
+        layout = Layout(self.scene, runs, np.diff(starts).tolist())
+        sizes = [starts[run.stop] - starts[run.start] for run in runs]
+        self._first_bubble = np.repeat([place.bubbles.start for place in layout.places], sizes)
         """First bubble of the sculpture of every particle."""
-        self.statuses: list[Status] = []
-        """Status of every sculpture when the state was read back."""
         self._read_clusters = self._cluster_state()
         self._frames = 0
         self._moved = 0.0
         """Way of the fastest air since the last rebuild of the neighbour lists, in their margin."""
+        performers = [
+            Performer(KosakaSculpture(plan, self.scene, self.hands, run.start), KOSAKA_MOTIONS)
+            for plan, run in zip(plans, runs, strict=True)
+        ]
+        super().__init__(self.hands, performers, runs, layout, readback)
 
     @staticmethod
     def usual_substeps(_detail: Detail) -> int:
         """Return the substeps of a frame at 24 frames per second."""
         return SUBSTEPS
 
-    def advance(self, begin: float, end: float) -> None:
-        """Let the makers act and start the physics from `begin` to `end` (s)."""
-        middle = self._state["ring_middle"].copy()
-        self.hands.update(self._state)
-        self.hands.lift_fingers()
-        for maker, lost in zip(self.makers, self.layout.astray(middle), strict=True):
-            if not lost:
-                maker.act(begin, end, middle)
+    def _start_physics(self, begin: float, end: float, _middle: NDArray[np.float32]) -> None:
         self.hands.upload()
         handled = self.hands.pressing or bool(self.hands.mode.any())
         self._frames += 1
@@ -161,7 +155,7 @@ class KosakaModel:
         """How often leaked air is searched for in this frame: what was brought back where a sculpture ends
         must not have come through another wall.
         """
-        if any(begin < m.plan.choreography.seconds < end + 0.5 * (end - begin) for m in self.makers):
+        if any(begin < seconds < end + 0.5 * (end - begin) for seconds in self._lengths):
             return LAST_PASSES
         return int(handled or self._frames % LEAK_SEARCH_EVERY == 0)
 
@@ -171,16 +165,11 @@ class KosakaModel:
         """
         if self._frames == 0:
             self.stepper.start_readback()
-        self._state = self._readback.arrays()
+        super().read_back()
         self._read_clusters = self._cluster_state()
-        self.statuses = [maker.status for maker in self.makers]
 
     def _cluster_state(self) -> _ClusterState:
         return _ClusterState(self.clusters.of_segment, self.clusters.of_air)
-
-    def rest(self) -> None:
-        """Wait for the pending read-back, and so for all work before it."""
-        self._readback.wait()
 
     @property
     def frame_arrays(self) -> FrameArrays:
@@ -197,20 +186,10 @@ class KosakaModel:
             cluster=cluster.astype(np.int32),
         )
 
-    @property
-    def suspects(self) -> NDArray[np.int32]:
-        """1 for every sculpture with walls that went too far or are stretched too much, (W,)."""
-        suspects: NDArray[np.int32] = self._state["suspects"]
-        return suspects
-
     def failures(self) -> dict[int, str]:
         """Return failures that the frames do not show, by sculpture."""
         most_near = self._state["most_near"]
         return {world: _too_near(int(most_near[world])) for world in np.flatnonzero(most_near).tolist()}
-
-    def give_up(self, world: int) -> None:
-        """Leave a sculpture alone whose run has failed."""
-        self.hands.give_up(self._bodies[world])
 
 
 def _too_near(near: int) -> str:

@@ -17,7 +17,8 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from balloon_usd.plan.particles import EXPERIMENT_RADIUS, experiment_spacing
+from balloon_usd.balloon.capsule_mesh import EXPERIMENT_RADIUS
+from balloon_usd.plan.particles import experiment_spacing
 from balloon_usd.solver.kernels.kosaka.offset_regions import REACHES_OVER
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ from balloon_usd.solver.hands import Floats, Hands, fill_row
 from balloon_usd.solver.kernels.physics.gas import OPEN_PASSAGE, WIDE_OPEN
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Mapping
 
     from numpy.typing import NDArray
 
@@ -52,9 +52,10 @@ class LatexControls(Hands):
     def _rarely_changed(self) -> tuple[str, ...]:
         return (*super()._rarely_changed(), "amount")
 
-    def update(self, state: Mapping[str, NDArray[Any]]) -> None:
-        """Take over the state read back last, by the names of arrays of the scene."""
-        super().update(state)
+    def begin_frame(self, state: Mapping[str, NDArray[Any]]) -> None:
+        """Take over the state read back last, lift all fingers and stop all spins."""
+        super().begin_frame(state)
+        self.stop_turning()
         self.amount, self.volume = state["amount"].copy(), state["volume"]
 
     def squeeze(self, joint: int, radius: float, passage: float) -> None:
@@ -88,12 +89,11 @@ class LatexControls(Hands):
         fill_row(self.spins, balloon, fields)
         self._turning.add(balloon)
 
-    def stop_turning(self, balloons: Iterable[int]) -> None:
-        """End the spins of balloons."""
-        if self._turning:
-            for balloon in self._turning.intersection(balloons):
-                self._turning.remove(balloon)
-                fill_row(self.spins, balloon, {})
+    def stop_turning(self) -> None:
+        """End the spins of all balloons."""
+        for balloon in self._turning:
+            fill_row(self.spins, balloon, {})
+        self._turning.clear()
 
     def split_gas(self, joint: int) -> None:
         """Share the gas of the open chambers by volume, before a neck between them begins to close."""

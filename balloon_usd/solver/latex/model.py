@@ -1,8 +1,8 @@
-"""The latex model of some plans: bodies, makers and stepper in one flat state."""
+"""The latex model of some plans: bodies, performers and stepper in one flat state."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,12 +15,15 @@ from balloon_usd.solver.kernels.arrays.rows import HITS
 from balloon_usd.solver.latex.body import LatexBody, tube_body
 from balloon_usd.solver.latex.controls import LatexControls
 from balloon_usd.solver.latex.leak import Leak
-from balloon_usd.solver.latex.maker import LatexMaker
+from balloon_usd.solver.latex.motions.table import LATEX_MOTIONS
 from balloon_usd.solver.latex.scene import build_scene
+from balloon_usd.solver.latex.sculpture import LatexSculpture
 from balloon_usd.solver.latex.shape_body import shape_body
 from balloon_usd.solver.latex.stepper import Stepper
 from balloon_usd.solver.latex.struts import StrutLaw, Struts
 from balloon_usd.solver.layout import Layout
+from balloon_usd.solver.model import Model
+from balloon_usd.solver.performer import Performer
 from balloon_usd.solver.readback import Readback
 from balloon_usd.solver.settings import SceneSettings
 
@@ -32,7 +35,6 @@ if TYPE_CHECKING:
     from balloon_usd.balloon.detail import Detail
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan, Strip
-    from balloon_usd.solver.model import Status
 
 SEALED_KNOT = 0.7
 """Pressure in the knot bead, in Maxwell pressures of its balloon."""
@@ -54,7 +56,7 @@ READ_BACK = (
 """Arrays that are read back for every frame."""
 
 
-class LatexModel:
+class LatexModel(Model):
     """Sculptures of hyperelastic rubber and real gas."""
 
     def __init__(
@@ -65,9 +67,9 @@ class LatexModel:
         substeps: int,
         device: str,
     ) -> None:
-        self._bodies = body_ranges([len(m) for m in meshes])
+        runs = body_ranges([len(m) for m in meshes])
         bodies = [body for plan, m in zip(plans, meshes, strict=True) for body in _bodies(plan, m)]
-        worlds = [world for world, run in enumerate(self._bodies) for _ in run]
+        worlds = [world for world, run in enumerate(runs) for _ in run]
         physics = plans[0].recipe.physics
         settings = SceneSettings(
             dt=1.0 / (fps * substeps),
@@ -77,22 +79,22 @@ class LatexModel:
         )
         rings = sum(len(b.rings) for b in bodies)
         self.scene = build_scene(bodies, worlds, settings, device, rings, STRUTS_PER_JOINT * rings)
-        self.scene.stretch_limit.assign(stretch_limits(plans, self._bodies))
+        self.scene.stretch_limit.assign(stretch_limits(plans, runs))
         self.stepper = Stepper(self.scene, substeps)
         self.hands = LatexControls(self.scene)
         self._struts = Struts(self.scene, StrutLaw())
-        self.makers = [
-            LatexMaker(plan, self.scene, self.hands, self._struts, run.start)
-            for plan, run in zip(plans, self._bodies, strict=True)
+        self._sculptures = [
+            LatexSculpture(plan, self.scene, self.hands, self._struts, run.start)
+            for plan, run in zip(plans, runs, strict=True)
         ]
-        self._leak = Leak(plans, self.scene, self.hands, self._bodies)
-        self._readback = Readback(self.scene, READ_BACK)
-        self.layout = Layout(self.scene, self._bodies)
-        self._state: dict[str, NDArray[Any]] = {}
-        self.statuses: list[Status] = []
-        """Status of every sculpture when the state was read back."""
+        self._leak = Leak(plans, self.scene, self.hands, runs)
+        self._reached = 0.0
+        """End of the latest frame, s."""
         self._inflated: list[int] = []
-        """Sculptures whose last balloon had just got its gas then."""
+        """Balloons that had just got their gas when the state was read back."""
+        performers = [Performer(sculpture, LATEX_MOTIONS) for sculpture in self._sculptures]
+        readback = Readback(self.scene, READ_BACK)
+        super().__init__(self.hands, performers, runs, Layout(self.scene, runs), readback)
         self._start_readback()
 
     @staticmethod
@@ -100,15 +102,8 @@ class LatexModel:
         """Return the substeps of a frame at 24 frames per second: a finer mesh needs more."""
         return detail.substeps
 
-    def advance(self, begin: float, end: float) -> None:
-        """Let the makers act and start the physics from `begin` to `end` (s)."""
-        middle = self._state["ring_middle"].copy()
-        self.hands.update(self._state)
-        self.hands.lift_fingers()
-        astray = self.layout.astray(middle)
-        for maker, lost in zip(self.makers, astray, strict=True):
-            if not lost:
-                maker.act(begin, end, middle)
+    def _start_physics(self, begin: float, end: float, middle: NDArray[np.float32]) -> None:
+        self._reached = end
         self._leak.advance(begin, end, self._state)
         self._struts.put(middle)
         self.hands.upload()
@@ -124,13 +119,10 @@ class LatexModel:
         """Wait for the read-back of the latest state: what follows is of that state, until the next
         read-back.
         """
-        self._state = self._readback.arrays()
-        self.statuses = [maker.status for maker in self.makers]
-        self._inflated = [world for world, m in enumerate(self.makers) if m.just_inflated]
-
-    def rest(self) -> None:
-        """Wait for the pending read-back, and so for all work before it."""
-        self._readback.wait()
+        super().read_back()
+        self._inflated = [
+            b for s in self._sculptures for b, at in s.inflated_at.items() if at == self._reached
+        ]
 
     @property
     def frame_arrays(self) -> FrameArrays:
@@ -139,32 +131,21 @@ class LatexModel:
         gas = (state[name][bubbles] for name in ("pressure", "volume", "wall_load"))
         return FrameArrays(state["x"], state["stretch"], *gas)
 
-    @property
-    def suspects(self) -> NDArray[np.int32]:
-        """1 for every sculpture with walls that went too far or are stretched too much, (W,)."""
-        suspects: NDArray[np.int32] = self._state["suspects"]
-        return suspects
-
     def failures(self) -> dict[int, str]:
         """Return failures that the frames do not show, by sculpture."""
-        found = {world: cause for world in self._inflated if (cause := self._short_of_gas(world))}
+        found = {self.scene.worlds[b]: cause for b in self._inflated if (cause := self._short_of_gas(b))}
         most_hits = self._state["most_hits"]
         return found | {
             world: crowded(int(most_hits[world])) for world in np.flatnonzero(most_hits > HITS).tolist()
         }
 
-    def give_up(self, world: int) -> None:
-        """Leave a sculpture alone whose run has failed."""
-        self.hands.give_up(self._bodies[world])
-
-    def _short_of_gas(self, world: int) -> str | None:
+    def _short_of_gas(self, balloon: int) -> str | None:
         """Tell when inflating has ended without the gas that the plan asks for."""
-        for b in self._bodies[world]:
-            got = float(self._state["amount"][self.scene.bubbles_of(b)].sum())
-            if got < SHORT_OF_GAS * self.hands.pump_goal[b]:
-                share = got / self.hands.pump_goal[b]
-                return f"the pump brought only {share:.0%} of the gas: give it more seconds"
-        return None
+        goal = self.hands.pump_goal[balloon]
+        got = float(self._state["amount"][self.scene.bubbles_of(balloon)].sum())
+        if got >= SHORT_OF_GAS * goal:
+            return None
+        return f"the pump brought only {got / goal:.0%} of the gas: give it more seconds"
 
 
 def _bodies(plan: Plan, meshes: Sequence[BalloonMesh]) -> list[LatexBody]:

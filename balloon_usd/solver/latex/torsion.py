@@ -162,7 +162,7 @@ class Torsion:
         slipping = [move for move in welds if move.turns < HOLDING_TURNS]
         if slipping:
             self._slip(slipping, [move for move in welds if move.turns >= HOLDING_TURNS], struts)
-        found = [self._loosened(loose) for loose in self.plan.holding.loose]
+        found = [self._loosened(loose) for loose in self.plan.loose]
         # One after another: those of the fewest turns first, and those nearest to the tip.
         # Turns are added up frame by frame: rounding must not decide.
         found.sort(key=lambda loose: (round(abs(self.joints[loose.ring].turns), 3), -loose.ring))

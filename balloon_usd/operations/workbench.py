@@ -1,0 +1,170 @@
+"""The workbench: steps are tried on a workpiece, with complaints of what cannot be done."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from balloon_usd.language.choices import one_of, unknown
+from balloon_usd.language.joint import Joint
+from balloon_usd.language.names import NAME_LIMIT
+from balloon_usd.language.problem import PROBLEMS_SHOWN, Complaint, Path, path_text, quoted
+from balloon_usd.operations.workpiece import Workpiece
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping, Sequence
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a step stands, and what it works on."""
+
+    path: Path
+    """Of the step in the recipe."""
+    balloon: str | None
+    """The balloon worked on, None when that cannot be known."""
+
+    @property
+    def index(self) -> int:
+        """Number of the step, from 0."""
+        return int(self.path[1])
+
+
+@dataclass(frozen=True)
+class UnnamedRest:
+    """What is left of a balloon to which no step gives a name."""
+
+    balloon: str
+    last: int
+    """Index of the last step that makes something of the balloon."""
+
+
+class Workbench:
+    """A workpiece in the making, and complaints about steps that cannot be done to it."""
+
+    def __init__(
+        self, balloons: Iterable[str], made_ever: Mapping[str, Path], rests: Mapping[str, UnnamedRest]
+    ) -> None:
+        """Begin with balloons of which nothing is made.
+
+        Args:
+            balloons: their names.
+            made_ever: where each bubble is made that any step makes, for words about steps in a wrong order.
+            rests: what is left of balloons in the end, by the names that it gets.
+        """
+        self.complaints: list[Complaint] = []
+        self._balloons = tuple(balloons)
+        self.piece = Workpiece(self._balloons)
+        self._made_at: dict[str, Path] = {}
+        self._ended: dict[str, Path] = {}
+        self._made_ever, self._rests = made_ever, rests
+
+    @property
+    def full(self) -> bool:
+        """More complaints than anybody reads."""
+        return len(self.complaints) > PROBLEMS_SHOWN
+
+    def complain(self, path: Path, text: str) -> None:
+        """Note that something makes no sense."""
+        self.complaints.append(Complaint(path, text))
+
+    def balloon_of(self, path: Path, named: str | None, *, makes: bool) -> str | None:
+        """Return the balloon a step works on; None when that cannot be known.
+
+        Args:
+            path: of the step.
+            named: the balloon that it names.
+            makes: whether it makes something and names no balloon at all.
+        """
+        known = self._balloons
+        if named is not None:
+            if named in known:
+                return named
+            if known:
+                self.complain((*path, "balloon"), unknown("balloon", named, known))
+            return None
+        if len(known) > 1 and makes:
+            self.complain(path, f"does not say on which balloon, expected balloon: {one_of(known)}")
+        return known[0] if len(known) == 1 else None
+
+    def make(self, name: str, path: Path, balloon: str | None, *, last: bool = False) -> bool:
+        """Make a bubble behind those that are there, and say whether it is new.
+
+        `last`: nothing more is made of the balloon.
+        """
+        if name in self._made_at:
+            first = path_text(self._made_at[name])
+            self.complain(path, f"bubble {quoted(name)} was made at {first}, expected a new name")
+            return False
+        self._made_at[name] = path
+        if balloon is None:
+            return True
+        if balloon in self._ended:
+            end = path_text(self._ended[balloon])
+            what = f"balloon {quoted(balloon)} has ended at {end}, expected nothing made of it after its rest"
+            self.complain(path, what)
+        if last:
+            self._ended.setdefault(balloon, path)
+        self.piece.make(int(path[1]), name, balloon, last=last)
+        return True
+
+    def close(self, name: str, path: Path) -> None:
+        """Let the two ends of a new bubble become one."""
+        if name in self.piece.bubbles:
+            self.piece.join(int(path[1]), (Joint(name, "start"), Joint(name, "end")))
+
+    def find(self, name: str, path: Path, rests: Iterable[str] = ()) -> bool:
+        """Say whether a bubble exists by now, and complain if it does not; `rests` could be meant, too."""
+        if name in self._made_at:
+            return True
+        later = self._made_ever.get(name)
+        if later is not None:
+            what = f"bubble {quoted(name)} does not exist yet, it is made at {path_text(later)}"
+            self.complain(path, f"{what}: expected this step after that one")
+        elif len(name) <= NAME_LIMIT and not self.full:
+            self.complain(path, unknown("bubble", name, [*self._made_at, *rests]))
+        elif not self.full:
+            self.complain(path, f"unknown bubble {quoted(name)}")
+        return False
+
+    def find_whole(self, name: str, place: Place, path: Path) -> None:
+        """Complain if a bubble, which may be an unnamed rest, does not exist by now."""
+        if name not in self._rests:
+            self.find(name, path, (rest for rest, found in self._rests.items() if found.last <= place.index))
+            return
+        rest = self._rests[name]
+        if rest.last > place.index:
+            what = f"bubble {quoted(name)} does not exist yet"
+            later = f"steps[{rest.last}] makes more of {quoted(rest.balloon)}"
+            self.complain(path, f"{what}, {later}: expected this step after that one")
+
+    def check_owner(self, path: Path, balloon: str | None, names: Iterable[str]) -> None:
+        """Complain of bubbles on another balloon than the one that a step names."""
+        if balloon not in self._balloons:
+            return
+        for name in names:
+            if (owner := self._owner(name)) and owner != balloon:
+                what = f"bubble {quoted(name)} is on balloon {quoted(owner)}, expected no other balloon named"
+                self.complain((*path, "balloon"), what)
+
+    def _owner(self, name: str) -> str | None:
+        if made := self.piece.bubbles.get(name):
+            return made.balloon
+        return self._rests[name].balloon if name in self._rests else None
+
+    def knows(self, names: Iterable[str]) -> bool:
+        """Whether it is known on which balloon each of these bubbles is."""
+        return all(name in self.piece.bubbles for name in names)
+
+    def join(self, path: Path, ends: Sequence[Joint], names: Sequence[str]) -> None:
+        """Let joints become one; where two of them are already one, something else was meant."""
+        if self.piece.are_one(ends):
+            what = f"{', '.join(names)}: these joints are already one, expected different joints"
+            self.complain(path, what)
+        self.piece.join(int(path[1]), ends)
+
+    def finished(self, steps: int) -> Workpiece:
+        """Return the workpiece, with the unnamed rests of its balloons, made after so many steps."""
+        for name, rest in self._rests.items():
+            self.piece.make(steps, name, rest.balloon, last=True)
+        return self.piece

@@ -1,0 +1,68 @@
+"""What operations ask of the balloons that are laid out: their rings and bubbles, by name."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from balloon_usd.language.joint import Joint
+    from balloon_usd.plan.rings import PlannedRing, RingTable
+    from balloon_usd.plan.strip import PlannedBubble, Strip
+
+
+@dataclass(frozen=True)
+class _Placed:
+    """A bubble on its strip."""
+
+    strip: Strip
+    planned: PlannedBubble
+
+    @property
+    def balloon(self) -> str:
+        return self.strip.balloon
+
+    @property
+    def length(self) -> float:
+        return self.planned.length
+
+    @property
+    def width(self) -> float:
+        return 2.0 * self.strip.inflated_radius
+
+    @property
+    def size(self) -> str:
+        return self.strip.size.name
+
+    def rest_place(self, at: float) -> float:
+        return self.strip.rest_place(self.planned, at)
+
+
+class LaidOut:
+    """Rings and bubbles of laid strips, as operations ask for them; see `operations.score.Layout`."""
+
+    def __init__(self, strips: Mapping[str, Strip], table: RingTable) -> None:
+        self._table = table
+        self._bubbles = {b.name: _Placed(strip, b) for strip in strips.values() for b in strip.bubbles}
+
+    def ring(self, index: int) -> PlannedRing:
+        """Return a ring by its number, in order along the balloons."""
+        return self._table.rings[index]
+
+    def bubble(self, name: str) -> _Placed:
+        """Return a bubble."""
+        return self._bubbles[name]
+
+    def joint(self, end: Joint) -> int | None:
+        """Return the ring of a bubble's end, None for the tip, which has none."""
+        return self._table.joint(end)
+
+    def ends(self, bubble: str) -> tuple[int, int | None]:
+        """Return the rings of a bubble's start and end."""
+        return self._table.ends(bubble)
+
+    def guides(self, bubble: str) -> tuple[int, ...]:
+        """Return the guide rings inside a bubble, from its start to its end."""
+        return self._table.guides(bubble)

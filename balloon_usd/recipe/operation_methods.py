@@ -1,0 +1,63 @@
+"""Methods of the builder, one for each operation of the table."""
+
+from __future__ import annotations
+
+import warnings
+from inspect import Parameter, Signature, getdoc, signature
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from balloon_usd.operations.table import BY_WORD, OPERATIONS
+
+from .upgrades import OLDER_WORDS
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from balloon_usd.operations.operation import Operation
+
+Builder = TypeVar("Builder")
+
+
+def with_operations(builder: type[Builder]) -> type[Builder]:
+    """Give a class with a method `add` a method for each operation, and for each older word of one."""
+    for operation in OPERATIONS:
+        _put(builder, operation.word, signature_of(operation), _method(operation))
+    for older, word in OLDER_WORDS.items():
+        if older not in BY_WORD:
+            _put(builder, older, signature_of(BY_WORD[word]), _older_method(older, word))
+    return builder
+
+
+def signature_of(operation: type[Operation]) -> Signature:
+    """Return what the method of an operation takes: what makes up its value, and its modifiers."""
+    _units, *value = signature(operation.value_of).parameters.values()
+    beside = [Parameter(key, Parameter.KEYWORD_ONLY, default=None) for key in operation.modifiers()]
+    last = [each for each in value if each.kind is Parameter.VAR_KEYWORD]
+    first = [each for each in value if each.kind is not Parameter.VAR_KEYWORD]
+    itself = Parameter("self", Parameter.POSITIONAL_ONLY)
+    return Signature([itself, *first, *beside, *last], return_annotation="Self")
+
+
+def _method(operation: type[Operation]) -> Callable[..., Any]:
+    def method(self: Any, /, *what: Any, **keys: Any) -> Any:
+        return self.add(operation.word, *what, **keys)
+
+    method.__doc__ = getdoc(operation)
+    return method
+
+
+def _older_method(older: str, word: str) -> Callable[..., Any]:
+    def method(self: Any, /, *what: Any, **keys: Any) -> Any:
+        warnings.warn(f"{older} is called {word} now", DeprecationWarning, stacklevel=2)
+        return self.add(word, *what, **keys)
+
+    method.__doc__ = f"Do what `{word}` does: its older name."
+    return method
+
+
+def _put(builder: type[Any], name: str, takes: Signature, method: Callable[..., Any]) -> None:
+    method.__name__, method.__qualname__ = name, f"{builder.__name__}.{name}"
+    # For help texts and documentation.
+    method.__annotations__ = {"return": takes.return_annotation}
+    method.__signature__ = takes  # type: ignore[attr-defined]
+    setattr(builder, name, method)

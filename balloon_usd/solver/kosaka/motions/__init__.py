@@ -1,0 +1,1 @@
+"""Motions of the thesis's model, and its table of them."""

@@ -1,0 +1,32 @@
+"""Motions of the thesis's model, by kind of move."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from balloon_usd.operations import moves
+from balloon_usd.solver.kosaka.motions.bend import KosakaBend
+from balloon_usd.solver.kosaka.motions.draw import Draw
+from balloon_usd.solver.kosaka.motions.weld import KosakaWeld
+from balloon_usd.solver.motions.bring import Bring
+from balloon_usd.solver.motions.gather import Gather
+from balloon_usd.solver.motions.let_go import LetGo
+from balloon_usd.solver.motions.press import Press
+from balloon_usd.solver.motions.wait import Wait
+
+if TYPE_CHECKING:
+    from balloon_usd.solver.motions.motion import Motions
+
+KOSAKA_MOTIONS: Motions = {
+    moves.Move: Wait,
+    # Capsules start blown up, and rings freeze instead of being wound.
+    moves.Inflate: Wait,
+    moves.Spin: Wait,
+    moves.Pinch: Draw,
+    moves.Gather: Gather,
+    moves.Bring: Bring,
+    moves.Bend: KosakaBend,
+    moves.Press: Press,
+    moves.Weld: KosakaWeld,
+    moves.LetGo: LetGo,
+}

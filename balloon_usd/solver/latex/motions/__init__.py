@@ -1,0 +1,1 @@
+"""Motions of the latex model, and its table of them."""

@@ -1,0 +1,79 @@
+"""Blowing up a balloon of latex with a pump."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from balloon_usd.balloon.tube_theory import pressure_maximum
+from balloon_usd.solver.latex.motions.tail import Tail
+from balloon_usd.solver.motions.motion import Motion
+
+if TYPE_CHECKING:
+    from balloon_usd.operations import moves
+    from balloon_usd.plan.shaped import Shaped
+    from balloon_usd.solver.latex.sculpture import LatexSculpture
+
+PUMP_RESERVE = 1.15
+"""Pressure of the pump over the pressure at which the flat tube gives way."""
+PUMP_TIME = 0.985
+"""Share of the time given to inflating in which the pump has done its work."""
+PUMP_RAMP = 0.2
+"""Share of that time in which the pump starts, and stops."""
+SOFTENING_SECONDS = 0.1
+"""Time in which stretched rubber softens, s: longer than the waves that hands send through a heavy mesh."""
+
+
+class Inflate(Motion):
+    """A pump at a balloon: at a tube, whose knot is held and whose flat tail is led, or at any shape."""
+
+    def __init__(self, move: moves.Inflate, sculpture: LatexSculpture) -> None:
+        """Put the pump on."""
+        self._sculpture, self._seconds = sculpture, move.seconds
+        self._body = sculpture.body[move.balloon]
+        # What the mesh's artificial inertia adds to the stretch behind the front must not soften it.
+        sculpture.hands.set_softening(self._body, 0.0)
+        shape = sculpture.plan.strips[move.balloon].shape
+        self._tail: Tail | None = None
+        if shape is None:
+            self._hold_tube(move.balloon)
+            self._tail = Tail(sculpture, move.balloon)
+        else:
+            self._pump_shape(shape)
+
+    def _hold_tube(self, balloon: str) -> None:
+        scene, hands, b = self._sculpture.scene, self._sculpture.hands, self._body
+        strip, budget = self._sculpture.plan.strips[balloon], self._sculpture.plan.budgets[balloon]
+        scale = strip.size.thickness / strip.size.radius
+        n = scene.bodies[b].rings[0].around
+        # The polygon holds more than the circle that it is drawn about.
+        hands.pump_goal[b] = budget.gas_amount * n * math.tan(math.pi / n) / math.pi
+        hands.pump_limit[b] = PUMP_RESERVE * pressure_maximum(strip.rubber).p_star * scale
+        hands.grip(int(scene.joint_start[b]) + 1, self._sculpture.frame.middle)
+        hands.set_drag(b, 0.0)
+
+    def _pump_shape(self, shape: Shaped) -> None:
+        scene, hands, b = self._sculpture.scene, self._sculpture.hands, self._body
+        atmosphere = scene.settings.atmosphere
+        hands.pump_goal[b] = (atmosphere + shape.pressure) * shape.volume / float(scene.air.molar_energy)
+        # No wall is so stiff: the pump gives its air in time whatever the shape is.
+        hands.pump_limit[b] = atmosphere
+        hands.touch([b])
+
+    def advance(self, share: float) -> None:
+        """Pump: it starts and stops gently, as a tube is pushed along by its own front."""
+        hands, b = self._sculpture.hands, self._body
+        gentle = min(1.0, share / PUMP_RAMP, (1.0 - share) / PUMP_RAMP)
+        flow = hands.pump_goal[b] / (PUMP_TIME * (1.0 - PUMP_RAMP) * self._seconds)
+        hands.pump_flow[b] = flow * max(gentle, 0.0)
+        if self._tail is not None:
+            self._tail.lead(float(hands.pump_flow[b]))
+        if share >= 1.0:
+            self._take_pump_off()
+
+    def _take_pump_off(self) -> None:
+        settings, hands = self._sculpture.scene.settings, self._sculpture.hands
+        if self._tail is not None:
+            hands.set_drag(self._body, settings.drag)
+        hands.set_softening(self._body, settings.dt / SOFTENING_SECONDS)
+        self._sculpture.inflated_at[self._body] = self._sculpture.frame.end

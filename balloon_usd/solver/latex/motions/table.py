@@ -1,0 +1,33 @@
+"""Motions of the latex model, by kind of move."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from balloon_usd.operations import moves
+from balloon_usd.solver.latex.motions.bend import LatexBend
+from balloon_usd.solver.latex.motions.inflate import Inflate
+from balloon_usd.solver.latex.motions.let_go import LatexLetGo
+from balloon_usd.solver.latex.motions.pinch import Pinch
+from balloon_usd.solver.latex.motions.spin import Spin
+from balloon_usd.solver.motions.bring import Bring
+from balloon_usd.solver.motions.gather import Gather
+from balloon_usd.solver.motions.press import Press
+from balloon_usd.solver.motions.wait import Wait
+from balloon_usd.solver.motions.weld import Weld
+
+if TYPE_CHECKING:
+    from balloon_usd.solver.motions.motion import Motions
+
+LATEX_MOTIONS: Motions = {
+    moves.Move: Wait,
+    moves.Inflate: Inflate,
+    moves.Pinch: Pinch,
+    moves.Spin: Spin,
+    moves.Gather: Gather,
+    moves.Bring: Bring,
+    moves.Bend: LatexBend,
+    moves.Press: Press,
+    moves.Weld: Weld,
+    moves.LetGo: LatexLetGo,
+}

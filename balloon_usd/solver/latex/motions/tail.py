@@ -1,0 +1,48 @@
+"""Leading the flat tail of a tube while the tube is blown up."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from balloon_usd.balloon.bubble_shape import tail_volume_per_rest_length, tube_volume_per_rest_length
+from balloon_usd.balloon.tube_theory import maxwell_state
+from balloon_usd.solver.sculpture import ALONG
+
+if TYPE_CHECKING:
+    from balloon_usd.solver.latex.sculpture import LatexSculpture
+
+TAIL_STIFFNESS = 200.0
+"""Stiffness of the hand that leads the flat tail while the balloon is blown up, N/m: soft, it only steers."""
+
+
+class Tail:
+    """A flat tail that a hand keeps straight and as fast as the front behind it."""
+
+    def __init__(self, sculpture: LatexSculpture, balloon: str) -> None:
+        """Take hold of its end."""
+        self._sculpture, hands = sculpture, sculpture.hands
+        plan, scene, strip = sculpture.plan, sculpture.scene, sculpture.plan.strips[balloon]
+        self._tip = sculpture.joints[plan.table.guides(strip.bubbles[-1].name)[-1]]
+        hands.lead(self._tip, sculpture.frame.middle)
+        hands.stiffness[self._tip] = TAIL_STIFFNESS
+        gained = tube_volume_per_rest_length(strip.size, strip.rubber) - tail_volume_per_rest_length(
+            strip.size, strip.rubber
+        )
+        pressure = scene.settings.atmosphere + plan.budgets[balloon].pressure
+        state = maxwell_state(strip.rubber)
+        longer = float(scene.air.molar_energy) * (state.bulged.b - state.thin.b)
+        self._step = longer / (pressure * gained * plan.recipe.fps)
+        """How far (m) a flow of one mol/s drives it in a frame along with the front."""
+
+    def lead(self, flow: float) -> None:
+        """Lead it for a frame; `flow`: of the gas that drives the front along, mol/s."""
+        tip, hands = self._tip, self._sculpture.hands
+        start, goal = hands.start[tip], hands.goal[tip]
+        start[:] = goal
+        # Forward is the first coordinate.
+        start[0] += self._sculpture.frame.middle[tip, 0] - goal[0]
+        goal[0] = start[0] + np.float32(flow * self._step)
+        if flow == 0.0:
+            hands.free[tip] = ALONG

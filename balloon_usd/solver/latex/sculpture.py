@@ -1,0 +1,42 @@
+"""One sculpture of the latex model, with what its welds and wound joints hold."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from balloon_usd.solver.latex.friction import Friction
+from balloon_usd.solver.latex.torsion import Torsion
+from balloon_usd.solver.sculpture import Sculpture
+
+if TYPE_CHECKING:
+    from balloon_usd.plan import Plan
+    from balloon_usd.solver.latex.controls import LatexControls
+    from balloon_usd.solver.latex.scene import LatexScene
+    from balloon_usd.solver.latex.struts import Struts
+
+
+class LatexSculpture(Sculpture):
+    """A plan, its balloons in a scene of the latex model, and the hands on them."""
+
+    scene: LatexScene
+    hands: LatexControls
+
+    def __init__(
+        self, plan: Plan, scene: LatexScene, hands: LatexControls, struts: Struts, first_body: int
+    ) -> None:
+        super().__init__(plan, scene, hands, first_body)
+        self.struts = struts
+        self.friction = Friction(plan, self.joints)
+        self.torsion = Torsion(plan, scene, hands, self.joints, self.body, self.friction)
+        self.inflated_at: dict[int, float] = {}
+        """Time at which each body had its gas, s."""
+
+    @property
+    def unwinding(self) -> str | None:
+        """Name of the joint that is coming undone, or None."""
+        return self.torsion.unwinding
+
+    @property
+    def undone(self) -> tuple[str, ...]:
+        """Locks that have slipped and joints that have come undone so far."""
+        return self.torsion.undone

@@ -1,0 +1,57 @@
+"""What hangs on a ring: all that goes with it when hands move it."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+from balloon_usd.operations.disjoint_sets import DisjointSets
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+
+def hanging_on(
+    held: Sequence[int], balloons: Sequence[str], welds: Iterable[Sequence[int]]
+) -> tuple[tuple[int, ...], ...]:
+    """Return for every held ring the rings that hang on it alone, on all balloons, in order.
+
+    A ring hangs on a held one if bubbles and welds connect both on a way that passes no other held ring.
+    What is welded to a held ring lies on no side of it and hangs on it. What hangs on several is drawn by all
+    of these, and so is given to none.
+
+    Args:
+        held: rings that hands hold or move.
+        balloons: balloon of every ring, in order along the balloons.
+        welds: rings that are one joint.
+    """
+    joint = _joints(len(balloons), welds)
+    holder = {joint[ring]: k for k, ring in reversed(list(enumerate(held)))}
+    pieces: DisjointSets[int] = DisjointSets()
+    beside: list[tuple[int, int]] = []
+    for before, after in pairwise(range(len(balloons))):
+        if balloons[before] != balloons[after]:
+            continue
+        ends = joint[before], joint[after]
+        free = [end for end in ends if end not in holder]
+        if len(free) == 2:
+            pieces.merge(free)
+        elif free:
+            beside += [(end, holder[other]) for end, other in (ends, ends[::-1]) if other in holder]
+    holders: dict[int, set[int]] = {at: {k} for at, k in holder.items()}
+    for end, k in beside:
+        holders.setdefault(pieces.root(end), set()).add(k)
+    found: list[list[int]] = [[] for _ in held]
+    for ring, at in enumerate(joint):
+        of = holders.get(pieces.root(at), ())
+        if len(of) == 1 and ring not in held:
+            found[next(iter(of))].append(ring)
+    return tuple(map(tuple, found))
+
+
+def _joints(rings: int, welds: Iterable[Sequence[int]]) -> list[int]:
+    """Return for every ring the one that stands for all that are one joint with it."""
+    joints: DisjointSets[int] = DisjointSets()
+    for weld in welds:
+        joints.merge(weld)
+    return [joints.root(ring) for ring in range(rings)]

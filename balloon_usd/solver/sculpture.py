@@ -1,0 +1,130 @@
+"""One sculpture in a scene, as the motions of hands see it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from balloon_usd.solver.motions.carried import Carried
+from balloon_usd.solver.motions.hanging import hanging_on
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from balloon_usd.plan import Plan
+    from balloon_usd.plan.strip import Strip
+    from balloon_usd.solver.hands import Hands
+    from balloon_usd.solver.scene import Scene
+
+Floats = NDArray[np.float32]
+
+ALONG = np.array([1.0, 0.0, 0.0])
+"""Direction from the knot to the tip."""
+
+
+class ComingFrame(NamedTuple):
+    """The frame that is about to be simulated."""
+
+    begin: float
+    """When it begins, s."""
+    end: float
+    """When it ends, s."""
+    middle: Floats
+    """Where all rings of the scene are when it begins, (J, 3), m."""
+
+
+class Sculpture:
+    """A plan, its balloons in a scene, and the hands on them."""
+
+    frame: ComingFrame
+    """The frame that motions set goals for; none before the first."""
+
+    def __init__(self, plan: Plan, scene: Scene, hands: Hands, first_body: int) -> None:
+        self.plan = plan
+        self.scene = scene
+        self.hands = hands
+        self.body = {name: first_body + k for k, name in enumerate(plan.strips)}
+        """Body of every balloon."""
+        self.joints = self._joints()
+        """Joint of the scene of every ring of the plan."""
+        self.all_joints = np.array(self.joints, dtype=np.int64)
+        rests = {strip.bubbles[-1].name for strip in plan.strips.values()}
+        self._led = [ring.joint or ring.bubble in rests for ring in plan.table.rings]
+        """Whether hands lead a ring when they carry what it is of: a joint, or one in an open rest."""
+
+    def _joints(self) -> list[int]:
+        """Joint of every planned ring: a body's rings are its plan's, after its spare ones."""
+        place = {
+            name: int(self.scene.joint_start[b]) + self.scene.bodies[b].spare_rings
+            for name, b in self.body.items()
+        }
+        found = []
+        for ring in self.plan.table.rings:
+            found.append(place[ring.balloon])
+            place[ring.balloon] += 1
+        return found
+
+    @property
+    def unwinding(self) -> str | None:
+        """Name of the joint that is coming undone, or None."""
+        return None
+
+    @property
+    def undone(self) -> tuple[str, ...]:
+        """Locks that have slipped and joints that have come undone so far."""
+        return ()
+
+    @property
+    def bodies(self) -> Sequence[int]:
+        """Bodies of all its balloons."""
+        return tuple(self.body.values())
+
+    def strip_of(self, ring: int) -> Strip:
+        """Return the balloon of a ring of the plan."""
+        return self.plan.strips[self.plan.table.rings[ring].balloon]
+
+    def hanging_on(self, rings: Sequence[int]) -> list[list[int]]:
+        """Return for each of some rings of the plan the joints by which hands lead what hangs on it, on all
+        balloons.
+        """
+        ring_of = {joint: ring for ring, joint in enumerate(self.joints)}
+        welds = [[ring_of[joint] for joint in weld] for weld in self.hands.welds_of(self.joints)]
+        hanging = hanging_on(rings, [ring.balloon for ring in self.plan.table.rings], welds)
+        return [[self.joints[ring] for ring in each if self._led[ring]] for each in hanging]
+
+    def carry(self, rings: Sequence[int]) -> Carried:
+        """Begin to lead what hangs on some rings of the plan: on the last one, which is held, it stays."""
+        middle, hanging = self.frame.middle, self.hanging_on(rings)
+        for joint in (joint for each in hanging for joint in each):
+            self.hands.lead(joint, middle)
+        moved = hanging[:-1]
+        joints = np.array([joint for each in moved for joint in each], dtype=np.int64)
+        by = np.repeat(np.arange(len(moved)), [len(each) for each in moved])
+        return Carried(joints, by, middle[joints].astype(np.float64))
+
+    def ring_width(self, joint: int) -> float:
+        """Return the mean distance of a ring's vertices from their middle, m."""
+        first, n = (int(values[joint]) for values in self.hands.rings)
+        ring = self.hands.places[first : first + n]
+        return float(np.linalg.norm(ring - ring.mean(axis=0), axis=1).mean())
+
+    def faces(self, bubble: str) -> tuple[int, NDArray[np.int64]]:
+        """Return the body of a bubble, and its faces in order round each ring, numbered within the body.
+
+        Raises:
+            KeyError: no bubble of this name.
+        """
+        for name, strip in self.plan.strips.items():
+            for index, planned in enumerate(strip.bubbles):
+                if planned.name == bubble:
+                    body = self.scene.bodies[self.body[name]]
+                    segment = index + body.spare_segments
+                    first = body.segment_ends[segment - 1] if segment else 0
+                    last = body.segment_ends[segment]
+                    cap = (body.rings[0].around // 4) ** 2
+                    first += cap if segment == 0 else 0
+                    last -= cap if index == len(strip.bubbles) - 1 else 0
+                    return self.body[name], np.arange(first, last)
+        raise KeyError(bubble)

@@ -1,0 +1,75 @@
+"""Draw the pictures of operations from their examples, on the CPU.
+
+`python docs/pictures.py` draws all of them, `python docs/pictures.py press lock` only some.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
+
+from PIL import Image
+
+from balloon_usd.cli import main
+from balloon_usd.operations.moves import LetGo, Move
+from balloon_usd.operations.table import BY_WORD, WORDS
+from balloon_usd.plan import plan
+from balloon_usd.recipe import Recipe
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from balloon_usd.plan import Plan
+
+PICTURES = Path(__file__).parent / "pictures" / "operations"
+SIZE = ("300", "220")
+"""Width and height of one frame, pixels."""
+COLORS, PASSES = 256, 4
+"""In the palette of a picture, and passes that choose them: small files without steps in the shadows."""
+
+
+def draw(words: Sequence[str], folder: Path) -> None:
+    """Simulate the examples of operations in a folder, and draw three frames of each."""
+    plans = {}
+    for word in words:
+        file = folder / f"{word}.yaml"
+        file.write_text(BY_WORD[word].example, encoding="utf-8")
+        plans[word] = plan(Recipe.load(file))
+    recipes = [str(folder / f"{word}.yaml") for word in words]
+    _call("run", *recipes, "-o", str(folder), "--device", "cpu", "--no-report", "--no-preview")
+    PICTURES.mkdir(exist_ok=True)
+    for word in words:
+        sheet = folder / f"{word}.png"
+        frames = ",".join(map(str, frames_of(plans[word], word)))
+        shown = ("--frames", frames, "--columns", "3", "--size", *SIZE, "--device", "cpu")
+        _call("preview", str(folder / plans[word].recipe.name), "-o", str(sheet), *shown)
+        with Image.open(sheet) as image:
+            few = image.convert("RGB").quantize(COLORS, kmeans=PASSES)
+            few.save(PICTURES / f"{word}.png", optimize=True)
+
+
+def frames_of(plan: Plan, word: str) -> tuple[int, int, int]:
+    """Return the frames before and during the last step with a word, and when all is made but still held."""
+    moves = plan.choreography.moves
+    finished = next(move.start for move in moves if isinstance(move, LetGo) and move.for_good)
+    index = max(at for at, step in enumerate(plan.recipe.steps) if step.word == word)
+    own = [move for move in moves if move.step == index and move.seconds > 0.0]
+    begin = min((move.start for move in own), default=0.0)
+    # Of several bubbles the middle one, while hands do what takes longest.
+    work = [move for move in own if type(move) is not Move] or own
+    longest = [move for move in work if move.seconds == max(each.seconds for each in work)]
+    middle = longest[len(longest) // 2] if longest else None
+    during = 0.5 * finished if middle is None else middle.start + 0.5 * middle.seconds
+    first, second, third = (1 + round(plan.recipe.fps * time) for time in (begin, during, finished))
+    return first, second, third
+
+
+def _call(*words: str) -> None:
+    main(list(words), standalone_mode=False)
+
+
+if __name__ == "__main__":
+    with TemporaryDirectory() as scratch:
+        draw(sys.argv[1:] or WORDS, Path(scratch))

@@ -1,0 +1,348 @@
+"""Motions alone: the goals that each sets for the hands, on sculptures in which nothing is simulated."""
+
+from __future__ import annotations
+
+from functools import cache
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from balloon_usd.balloon.detail import detail_named
+from balloon_usd.operations import moves
+from balloon_usd.plan import plan as plan_of
+from balloon_usd.plan.meshing import mesh_of
+from balloon_usd.recipe import Recipe
+from balloon_usd.solver.kernels.physics.joints import GRIP_MODE, LEAD_MODE
+from balloon_usd.solver.kosaka.motions.draw import CLOSED_EARLY, Draw
+from balloon_usd.solver.kosaka.motions.table import KOSAKA_MOTIONS
+from balloon_usd.solver.latex.motions.pinch import Pinch
+from balloon_usd.solver.latex.motions.spin import Spin
+from balloon_usd.solver.latex.motions.table import LATEX_MOTIONS
+from balloon_usd.solver.motions.bring import Bring
+from balloon_usd.solver.motions.gather import Gather
+from balloon_usd.solver.motions.motion import Motion
+from balloon_usd.solver.motions.press import Press, press_profile
+from balloon_usd.solver.motions.wait import Wait
+from balloon_usd.solver.performer import Performer
+from balloon_usd.solver.sculpture import ALONG, ComingFrame
+from balloon_usd.solver.simulation import NOMINAL_RATE, model_named
+
+RECIPE = """
+format: 1
+name: three
+units: cm
+balloons:
+  red: {{size: 260, {long}}}
+  blue: {{size: 260, {long}}}
+  green: {{size: 260, {long}}}
+steps:
+  - {{bubbles: {{nose: 4, left: 6, right: 6}}, balloon: red}}
+  - {{bubbles: {{arm: 4}}, balloon: blue}}
+  - {{bubbles: {{hand: 4}}, balloon: green}}
+  - {{rest: red_rest, balloon: red}}
+  - {{rest: blue_rest, balloon: blue}}
+  - {{rest: green_rest, balloon: green}}
+physics: {{model: {model}}}
+"""
+LONG = {"latex": "length: 15, tail: 5", "kosaka": "capsule: 30"}
+BESIDE = {"red": 0.0, "blue": 0.1, "green": 0.2}
+"""How far to the side each balloon lies, m."""
+DONE = {"start": 0.0, "seconds": 2.0, "step": 0, "text": "moved"}
+
+
+@cache
+def plan_in(model):
+    return plan_of(Recipe.parse(RECIPE.format(model=model, long=LONG[model])))
+
+
+class Room:
+    """Three straight balloons side by side, whose rings lie where they are said to."""
+
+    def __init__(self, model="latex"):
+        self.plan = plan_in(model)
+        meshes = [mesh_of(strip, detail_named("draft")) for strip in self.plan.strips.values()]
+        self.model = model_named(model)([self.plan], [meshes], NOMINAL_RATE, 12, "cpu")
+        self.sculpture, self.hands = self.model.performers[0].sculpture, self.model.hands
+        self.hands.volume = np.ones(int(self.model.scene.segment_start[-1]), dtype=np.float32)
+        self.middle = np.zeros((len(self.hands.mode), 3), dtype=np.float32)
+        for ring, joint in zip(self.plan.table.rings, self.sculpture.joints, strict=True):
+            self.middle[joint] = 4.0 * ring.along, BESIDE[ring.balloon], 0.0
+        self.sculpture.frame = ComingFrame(0.0, 1.0 / 24.0, self.middle)
+
+    def ring(self, name):
+        return next(k for k, ring in enumerate(self.plan.table.rings) if ring.name == name)
+
+    def joint(self, name):
+        return self.sculpture.joints[self.ring(name)]
+
+    def weld(self, *names):
+        self.hands.weld(tuple(self.joint(name) for name in names))
+
+    def moved(self, name):
+        """How far a ring is brought from where it was, m."""
+        self.hands.settle()
+        joint = self.joint(name)
+        return self.hands.goal[joint].astype(float) - self.middle[joint]
+
+    def gather(self):
+        """A chain of two bubbles that is closed."""
+        corners = tuple(self.ring(f"{name}.end") for name in ("nose", "left", "right"))
+        return Gather(moves.Gather(**DONE, corners=corners), self.sculpture)
+
+    def bring(self, name, to):
+        return Bring(moves.Bring(**DONE, ring=self.ring(name), to=self.ring(to)), self.sculpture)
+
+
+def kinds_of_moves():
+    return {kind for kind in vars(moves).values() if isinstance(kind, type) and issubclass(kind, moves.Move)}
+
+
+@pytest.mark.parametrize("motions", [LATEX_MOTIONS, KOSAKA_MOTIONS], ids=["latex", "kosaka"])
+def test_every_move_of_a_plan_has_a_motion(motions):
+    assert set(motions) == kinds_of_moves()
+    assert len(motions) > 9
+
+
+def test_hands_wait_while_nothing_moves_and_in_model_kosaka_where_nothing_is_blown_up_or_wound():
+    assert [kind for kind, motion in LATEX_MOTIONS.items() if motion is Wait] == [moves.Move]
+    waits = {kind for kind, motion in KOSAKA_MOTIONS.items() if motion is Wait}
+    assert waits == {moves.Move, moves.Inflate, moves.Spin}
+
+
+def test_a_chain_begins_to_close_where_it_is():
+    room = Room()
+    room.gather().advance(0.0)
+    for name in ("nose.end", "left.end", "right.end", "red.knot"):
+        assert room.moved(name) == pytest.approx(np.zeros(3), abs=1e-5)
+
+
+def test_a_closed_chain_has_its_ends_together_and_what_hangs_on_the_first_went_along():
+    room = Room()
+    room.gather().advance(1.0)
+    apart = (
+        room.moved("nose.end") + room.middle[room.joint("nose.end")] - room.middle[room.joint("right.end")]
+    )
+    assert np.linalg.norm(apart) < 3.0 * room.hands.neck[room.joint("right.end")]
+    assert room.moved("red.knot") == pytest.approx(room.moved("nose.end"), abs=1e-6)
+    assert room.moved("right.end") == pytest.approx(np.zeros(3), abs=1e-6)
+
+
+def test_what_is_welded_to_the_moving_end_of_a_chain_is_carried_with_all_that_hangs_on_it():
+    room = Room()
+    room.weld("nose.end", "arm.end")
+    room.weld("blue.knot", "hand.end")
+    room.gather().advance(0.7)
+    assert np.linalg.norm(room.moved("nose.end")) > 0.02
+    for name in ("arm.end", "blue.knot", "blue_rest.1", "green.knot", "hand.end", "green_rest.1"):
+        assert room.hands.mode[room.joint(name)] == LEAD_MODE
+        assert room.moved(name) == pytest.approx(room.moved("nose.end"), abs=1e-6)
+
+
+def test_what_is_welded_inside_a_chain_is_carried_by_its_corner():
+    room = Room()
+    room.weld("left.end", "arm.end")
+    room.gather().advance(0.7)
+    assert room.moved("left.end")[2] > 0.02
+    for name in ("arm.end", "blue.knot", "blue_rest.0"):
+        assert room.moved(name) == pytest.approx(room.moved("left.end"), abs=1e-6)
+
+
+def test_what_is_welded_to_the_held_end_of_a_chain_is_kept_where_it_is():
+    room = Room()
+    room.weld("right.end", "arm.end")
+    room.gather().advance(0.7)
+    for name in ("arm.end", "blue.knot", "blue_rest.1", "red_rest.1"):
+        assert room.hands.mode[room.joint(name)] == LEAD_MODE
+        assert room.moved(name) == pytest.approx(np.zeros(3), abs=1e-6)
+
+
+def test_a_balloon_that_hangs_on_nothing_is_left_alone():
+    room = Room()
+    room.gather().advance(0.7)
+    assert not room.hands.mode[[room.joint("arm.end"), room.joint("blue_rest.1")]].any()
+
+
+def test_a_joint_is_brought_to_that_of_another_balloon_and_its_balloon_comes_to_lie_beside():
+    room = Room()
+    room.bring("arm.end", "nose.end").advance(1.0)
+    gap = 2.0 * room.hands.neck[room.joint("nose.end")]
+    reached = room.middle[room.joint("arm.end")] + room.moved("arm.end")
+    assert np.linalg.norm(reached - room.middle[room.joint("nose.end")]) == pytest.approx(gap, rel=1e-4)
+    width = sum(room.plan.strips[name].inflated_radius for name in ("red", "blue"))
+    for name in ("blue.knot", "blue_rest.0", "blue_rest.1"):
+        assert room.moved(name) == pytest.approx([room.moved("arm.end")[0], width - 0.1, 0.0], abs=1e-4)
+    for name in ("red.knot", "left.end", "red_rest.1"):
+        assert room.moved(name) == pytest.approx(np.zeros(3), abs=1e-6)
+
+
+def test_a_balloon_that_is_welded_to_the_one_that_is_brought_comes_along():
+    room = Room()
+    room.weld("blue.knot", "hand.end")
+    room.bring("arm.end", "nose.end").advance(1.0)
+    assert np.linalg.norm(room.moved("hand.end")) > 0.04
+    for name in ("green.knot", "hand.end", "green_rest.1"):
+        assert room.moved(name) == pytest.approx(room.moved("blue.knot"), abs=1e-6)
+
+
+def test_a_second_joint_of_two_balloons_is_brought_while_what_hangs_on_both_follows_by_itself():
+    room = Room()
+    room.weld("red.knot", "blue.knot")
+    room.bring("arm.end", "nose.end").advance(1.0)
+    assert not room.hands.mode[[room.joint("red.knot"), room.joint("blue.knot")]].any()
+    assert room.hands.mode[room.joint("arm.end")] == GRIP_MODE
+    assert np.linalg.norm(room.moved("blue_rest.1")) > 0.04
+
+
+@pytest.mark.parametrize(("model", "motions"), [("latex", LATEX_MOTIONS), ("kosaka", KOSAKA_MOTIONS)])
+def test_a_bent_bubble_takes_a_balloon_along_that_hangs_on_its_start(model, motions):
+    room = Room(model)
+    room.weld("red.knot", "arm.end")
+    rings = tuple(room.ring(name) for name in ("nose.end", "left.0", "left.end"))
+    bend = motions[moves.Bend](moves.Bend(**DONE, rings=rings, angle=1.5), room.sculpture)
+    bend.advance(0.9)
+    assert room.moved("nose.end")[2] > 0.01
+    for name in ("red.knot", "arm.end", "blue.knot", "blue_rest.1"):
+        assert room.moved(name) == pytest.approx(room.moved("nose.end"), abs=1e-6)
+    assert room.moved("red_rest.1") == pytest.approx(np.zeros(3), abs=1e-6)
+
+
+def test_a_pinched_neck_closes_and_all_that_hangs_on_its_knots_side_is_steadied():
+    room = Room()
+    room.weld("nose.end", "arm.end")
+    joint = room.joint("left.end")
+    pinch = Pinch(moves.Pinch(**DONE, ring=room.ring("left.end")), room.sculpture)
+    radii = []
+    for share in (0.0, 0.5, 1.0):
+        pinch.advance(share)
+        radii.append(float(room.hands.radius_goal[joint]))
+    assert radii[0] > radii[1] > radii[2] == pytest.approx(room.hands.neck[joint])
+    assert room.hands.passage_goal[joint] == pytest.approx(0.0, abs=1e-12)
+    for name in ("nose.end", "red.knot", "arm.end", "blue.knot"):
+        assert room.hands.mode[room.joint(name)] == LEAD_MODE
+        assert room.hands.free[room.joint(name)] == pytest.approx(ALONG)
+    assert not room.hands.mode[room.joint("right.end")]
+
+
+def test_a_pump_starts_and_stops_gently_and_is_taken_off_in_the_end():
+    room = Room()
+    body, hands = room.sculpture.body["red"], room.hands
+    pump = LATEX_MOTIONS[moves.Inflate](moves.Inflate(**DONE, balloon="red"), room.sculpture)
+    assert (hands.drag[body], hands.softening[body]) == (0.0, 0.0)
+    flows = []
+    for share in (0.0, 0.1, 0.5, 0.9, 1.0):
+        pump.advance(share)
+        flows.append(float(hands.pump_flow[body]))
+    assert flows == pytest.approx([0.0, 0.5 * flows[2], flows[2], 0.5 * flows[2], 0.0], rel=1e-5)
+    assert hands.drag[body] > 0.0 < hands.softening[body]
+    assert room.sculpture.inflated_at == {body: room.sculpture.frame.end}
+
+
+def test_a_spin_winds_the_neck_by_its_turns_in_frames_of_any_length():
+    room = Room()
+    ring = room.ring("nose.end")
+    move = moves.Spin(**DONE, ring=ring, turns=3.0)
+    room.sculpture.torsion.pinch(ring, 0.01)
+    spin = Spin(move, room.sculpture)
+    for begin, end in pairwise((-0.1, 0.3, 1.2, 2.5)):
+        room.sculpture.frame = ComingFrame(begin, end, room.middle)
+        spin.advance(min(1.0, end / move.seconds))
+    assert room.sculpture.torsion.joints[ring].turns == pytest.approx(3.0)
+    assert room.hands.spins["rate"][1:] == pytest.approx(0.0)
+    room.hands.stop_turning()
+    assert not room.hands.spins["rate"].any()
+
+
+def test_a_ring_of_a_net_is_drawn_together_before_its_time_is_over():
+    room = Room("kosaka")
+    joint = room.joint("nose.end")
+    draw = Draw(moves.Pinch(**DONE, ring=room.ring("nose.end")), room.sculpture)
+    draw.advance(0.5 * CLOSED_EARLY)
+    assert room.hands.radius_goal[joint] > room.hands.neck[joint]
+    draw.advance(CLOSED_EARLY)
+    assert room.hands.radius_goal[joint] == pytest.approx(room.hands.neck[joint])
+
+
+def test_two_fingers_on_two_balloons_each_press_as_far_as_their_own_time_tells():
+    room = Room()
+    first, second = (
+        Press(moves.Press(**DONE, balloon=name, along=0.02, depth=0.01), room.sculpture)
+        for name in ("red", "blue")
+    )
+    first.advance(0.2)
+    first.advance(0.5)
+    second.advance(0.2)
+    deeper = (room.hands.fingers["start"] - room.hands.fingers["end"])[:2, 2]
+    later, now = press_profile(0.5), press_profile(0.2)
+    assert later > now > 0.0
+    assert deeper == pytest.approx([0.01 * (later - now), 0.01 * now], abs=1e-6)
+
+
+def test_a_weld_joins_and_letting_go_frees_all_rings():
+    room = Room()
+    names = ("nose.end", "arm.end")
+    LATEX_MOTIONS[moves.Weld](moves.Weld(**DONE, rings=tuple(map(room.ring, names))), room.sculpture)
+    assert room.hands.welds == [tuple(sorted(map(room.joint, names)))]
+    room.gather()
+    assert room.hands.mode.any()
+    LATEX_MOTIONS[moves.LetGo](moves.LetGo(**DONE), room.sculpture)
+    assert not room.hands.mode.any()
+
+
+class Told(Motion):
+    """A motion that tells what it is told."""
+
+    def __init__(self, move, sculpture):
+        self.told = sculpture.told
+        self.text = move.text
+        self.told.append((self.text, "begins"))
+
+    @property
+    def ended(self):
+        return self.text != "lasting" or len(self.told) > 8
+
+    def advance(self, share):
+        self.told.append((self.text, round(share, 3)))
+
+
+class Stub:
+    """A sculpture of which only moves are known."""
+
+    unwinding, undone = None, ()
+
+    def __init__(self, *timeline):
+        self.told = []
+        self.plan = self.choreography = self.hands = self
+        self.moves = tuple(moves.Move(start, seconds, 0, text) for start, seconds, text in timeline)
+
+    def settle(self):
+        self.told.append("settled")
+
+
+def performed(*timeline, frames=3):
+    stub = Stub(*timeline)
+    performer = Performer(stub, {moves.Move: Told})
+    for frame in range(frames):
+        performer.act(float(frame), frame + 1.0, None)
+        stub.told.append(performer.status.doing)
+    return stub.told
+
+
+def test_moves_begin_one_after_another_each_where_others_have_brought_the_rings():
+    assert performed((0.0, 2.5, "fold"), (2.5, 0.0, "weld"), (2.5, 1.0, "rest")) == [
+        *("settled", ("fold", "begins"), ("fold", 0.4), "fold"),
+        *(("fold", 0.8), "fold"),
+        ("fold", 1.0),
+        *("settled", ("weld", "begins"), ("weld", 1.0)),
+        *("settled", ("rest", "begins"), ("rest", 0.5), "rest"),
+    ]
+
+
+def test_moves_at_the_same_time_end_each_at_its_own():
+    told = performed((0.0, 1.0, "short"), (0.0, 2.0, "long"))
+    assert told[-5:] == [("long", 0.5), "long", ("long", 1.0), "long", "long"]
+
+
+def test_a_motion_with_something_left_to_do_goes_on_when_its_move_is_over():
+    told = performed((0.0, 0.0, "lasting"), frames=6)
+    assert told.count(("lasting", 1.0)) == 4
