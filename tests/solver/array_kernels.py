@@ -44,9 +44,9 @@ def compare_readings(
     count += wp.where(vec3_at(three, i) == three[i], 1, 0)
     count += wp.where(vec4_at(four, i) == four[i], 1, 0)
     count += wp.where(mat22_at(matrix, i) == matrix[i], 1, 0)
-    count += wp.where(coherent_float(number, i) == number[i], 1, 0)
-    count += wp.where(coherent_vec2(two, i) == two[i], 1, 0)
-    count += wp.where(coherent_vec3(three, i) == three[i], 1, 0)
+    count += wp.where(coherent_float(number, i, 0) == number[i], 1, 0)
+    count += wp.where(coherent_vec2(two, i, 0) == two[i], 1, 0)
+    count += wp.where(coherent_vec3(three, i, 0) == three[i], 1, 0)
     same[i] = count
 
 
@@ -66,4 +66,4 @@ def through_soa(given: wp.array2d[wp.vec3], planes: wp.array2d[float], found: wp
         store_soa(planes, item, k, given[item, k])
     for k in range(given.shape[1]):
         last = given.shape[1] - 1 - k
-        found[item, last] = load_soa(planes, item, last)
+        found[item, last] = load_soa(planes, item, last, 0)

@@ -9,10 +9,9 @@ import warp as wp
 from balloon_usd.plan import plan
 from balloon_usd.recipe import Recipe
 from balloon_usd.solver.flatten import chunks_of
-from balloon_usd.solver.kernels.device.coherent_load import SINGLE_BLOCK_LANES
 from balloon_usd.solver.kernels.physics.sculpture import advance_sculptures
 from balloon_usd.solver.latex.kernel_variants import kernel_variant, shared_memory_bytes
-from balloon_usd.solver.latex.launch_shape import RESIDENT_LANES
+from balloon_usd.solver.latex.launch_shape import RESIDENT_LANES, SINGLE_BLOCK_LANES
 from balloon_usd.solver.simulation import simulate_many
 
 HEAD = """
@@ -54,7 +53,12 @@ def performed(device, *, copies=1, blocks=None, alone=None):
 def kernel_on(device, lanes):
     """The kernel for blocks of so many lanes; on a CPU there is but one."""
     return (
-        kernel_variant(lanes, shared_memory_bytes(device) if lanes == RESIDENT_LANES else 0, cores=False)
+        kernel_variant(
+            lanes,
+            shared=False,
+            resident_bytes=shared_memory_bytes(device) if lanes == RESIDENT_LANES else 0,
+            cores=False,
+        )
         if device.is_cuda
         else advance_sculptures
     )

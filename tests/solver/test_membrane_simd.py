@@ -29,7 +29,7 @@ def one_by_one(mesh: Mesh, rubber: Rubber, chambers: Chambers, forces: Forces, s
     c = wp.tid()
     for q in range(mesh.chunk_quad[c], mesh.chunk_quad[c + 1]):
         chambers.chunk_share[c] = chambers.chunk_share[c] + wall_of_quad(
-            q, state.x[mesh.chunk_origin[c]], mesh, rubber, forces, state
+            q, state.x[mesh.chunk_origin[c]], 0, mesh, rubber, forces, state
         )
 
 

@@ -14,10 +14,10 @@ from balloon_usd.solver.kernels.physics.membrane import wall_of_quad
 def quad_forces(mesh: Mesh, rubber: Rubber, chambers: Chambers, forces: Forces, state: State):
     """Write the force (N) of wall and gas on the four corners of every quad."""
     q = wp.tid()
-    wall_of_quad(q, wp.vec3(0.0), mesh, rubber, forces, state)
+    wall_of_quad(q, wp.vec3(0.0), 0, mesh, rubber, forces, state)
     for k in range(4):
-        push = chambers.pressure[mesh.quad_segment[q]] * load_soa(forces.volume_gradient, q, k)
-        store_soa(forces.corner_force, q, k, load_soa(forces.corner_force, q, k) + push)
+        push = chambers.pressure[mesh.quad_segment[q]] * load_soa(forces.volume_gradient, q, k, 0)
+        store_soa(forces.corner_force, q, k, load_soa(forces.corner_force, q, k, 0) + push)
 
 
 @wp.kernel

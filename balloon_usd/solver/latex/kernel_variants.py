@@ -23,15 +23,16 @@ def shared_memory_bytes(device: wp.Device) -> int:
 
 
 @cache
-def kernel_variant(lanes: int, resident_bytes: int, *, cores: bool, joint_lanes: int = WARP) -> Any:
+def kernel_variant(
+    lanes: int, *, shared: bool, resident_bytes: int, cores: bool, joint_lanes: int = WARP
+) -> Any:
     """Return the kernel with approximate divisions and roots: half of the code of exact ones is for numbers
     that cannot occur, and a GPU has to fetch it all in every substep.
 
-    `lanes`: threads of a block; blocks of one SM share its registers. `resident_bytes`: shared memory that a
-    block reserves where its sculpture is resident, else 0. `cores`: whether any neck may pack.
-    `joint_lanes`: lanes that move a joint, a warp or half of one.
+    `lanes`: threads of a block; blocks of one SM share its registers. The others: see `substep_kernel`.
     """
     return substep_kernel(
+        shared=shared,
         cores=cores,
         joint_lanes=joint_lanes,
         resident_bytes=resident_bytes,

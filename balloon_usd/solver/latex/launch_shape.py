@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 import warp as wp
 
-from balloon_usd.solver.kernels.device.coherent_load import SINGLE_BLOCK_LANES
 from balloon_usd.solver.kernels.device.shared_memory import QUAD_BYTES, VERTEX_BYTES
 from balloon_usd.solver.kernels.device.warp_reduce import HALF_WARP, WARP
 from balloon_usd.solver.kernels.physics.sculpture import advance_sculptures
@@ -26,6 +25,8 @@ LANES = 160
 """Threads of a block that shares its sculpture with others: few, so that each has much of its SM, and as many
 as let the blocks of a figure in full detail have an SM each.
 """
+SINGLE_BLOCK_LANES = 256
+"""Threads of a block that has a sculpture for itself."""
 RESIDENT_LANES = 512
 """Threads of a block whose sculpture is resident in shared memory."""
 
@@ -44,7 +45,8 @@ class SculptureLaunch:
             around = int(scene.joint_around.numpy().max())
             self._kernel = kernel_variant(
                 self.lanes,
-                shared_memory_bytes(device) if resident else 0,
+                shared=self.blocks > 1,
+                resident_bytes=shared_memory_bytes(device) if resident else 0,
                 cores=any(body.packs for body in scene.bodies),
                 joint_lanes=HALF_WARP if around <= HALF_WARP else WARP,
             )

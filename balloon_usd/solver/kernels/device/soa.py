@@ -7,7 +7,7 @@ item's vectors together instead.
 
 import warp as wp
 
-from balloon_usd.solver.kernels.device.coherent_load import COHERENT_LOAD, MULTI_BLOCK
+from balloon_usd.solver.kernels.device.coherent_load import COHERENT_LOAD
 from balloon_usd.solver.kernels.device.native import native
 
 _ADDRESS = """
@@ -42,14 +42,15 @@ _LOAD = "wp::vec_t<3, float> value;\n" + " ".join(
 @native(
     _ADDRESS
     + f"""
-#if {MULTI_BLOCK}
-{_LOAD}
-return value;
-#else
-return wp::vec_t<3, float>(place[0], place[step], place[2 * step]);
+#if defined(__CUDA_ARCH__)
+if (shared) {{
+    {_LOAD}
+    return value;
+}}
 #endif
+return wp::vec_t<3, float>(place[0], place[step], place[2 * step]);
 """
 )
-def load_soa(planes: wp.array2d[float], item: int, k: int) -> wp.vec3:
-    """Return vector `k` of an item, coherently: another block may have written it before the last barrier."""
+def load_soa(planes: wp.array2d[float], item: int, k: int, shared: int) -> wp.vec3:  # noqa: ARG001
+    """Return vector `k` of an item; coherently where `shared` is 1."""
     return wp.vec3(planes[item, k])

@@ -187,82 +187,84 @@ def distance_beside(
     return distance
 
 
+@wp.struct
+class Seeker:
+    """A vertex that looks for walls that it may touch."""
+
+    balloon: int
+    bubble: int
+    """Its segment; a ring between two bubbles belongs to neither."""
+    place: wp.vec3
+    """Its unstressed place, m."""
+    apart: float
+    """Unstressed distance within which the wall of its bubble never meets it, m."""
+    position: wp.vec3
+    """m"""
+    normal: wp.vec3
+    """Its outward unit normal."""
+    depth: float
+    """Deepest overlap taken for a contact on its side, m."""
+    reach: float
+    """Distance within which it looks at the middles of quads, m."""
+
+
 @wp.func
-def may_meet(
-    q: int,
-    mine: int,
-    bubble: int,
-    place: wp.vec3,
-    apart: float,
-    quad_segment: wp.array[int],
-    quad_place: wp.array[wp.vec3],
-    quad_balloon: wp.array[int],
-):
-    """Return whether a quad may ever touch a vertex, given its balloon, bubble and place."""
-    elsewhere = int_at(quad_balloon, q) != mine or wp.max(wp.abs(vec3_at(quad_place, q) - place)) > apart
-    return elsewhere or (bubble >= 0 and int_at(quad_segment, q) != bubble)
+def seeker_of(i: int, touch: Touch, mesh: Mesh, balloons: Balloons):
+    """Return a vertex with where it belongs; it looks nowhere yet."""
+    seeker = Seeker()
+    seeker.balloon = mesh.vertex_balloon[i]
+    seeker.bubble = mesh.vertex_segment[i]
+    seeker.place = mesh.vertex_place[i]
+    seeker.apart = touch.apart * balloons.balloon_radius[seeker.balloon]
+    return seeker
+
+
+@wp.func
+def may_meet(q: int, seeker: Seeker, mesh: Mesh):
+    """Return whether a quad may ever touch a vertex."""
+    elsewhere = (
+        int_at(mesh.quad_balloon, q) != seeker.balloon
+        or wp.max(wp.abs(vec3_at(mesh.quad_place, q) - seeker.place)) > seeker.apart
+    )
+    return elsewhere or (seeker.bubble >= 0 and int_at(mesh.quad_segment, q) != seeker.bubble)
 
 
 @wp.kernel
 def find_own_walls(touch: Touch, mesh: Mesh, balloons: Balloons, contacts: Contacts):
     """Write for every vertex the first and the end of a run of quads about it that it never touches."""
     i = wp.tid()
-    mine = mesh.vertex_balloon[i]
-    bubble = mesh.vertex_segment[i]
-    place = mesh.vertex_place[i]
-    apart = touch.apart * balloons.balloon_radius[mine]
+    seeker = seeker_of(i, touch, mesh, balloons)
     middle = wp.max(mesh.corners[i][0], 0) // 4
     first = wp.max(middle - OWN, 0)
     begin = int(middle)
-    while begin > first and not may_meet(
-        wp.max(begin - 1, first),
-        mine,
-        bubble,
-        place,
-        apart,
-        mesh.quad_segment,
-        mesh.quad_place,
-        mesh.quad_balloon,
-    ):
+    while begin > first and not may_meet(wp.max(begin - 1, first), seeker, mesh):
         begin -= 1
     last = wp.min(middle + OWN, mesh.quads.shape[0]) - 1
     end = int(middle)
-    while end <= last and not may_meet(
-        wp.min(end, last), mine, bubble, place, apart, mesh.quad_segment, mesh.quad_place, mesh.quad_balloon
-    ):
+    while end <= last and not may_meet(wp.min(end, last), seeker, mesh):
         end += 1
     contacts.vertex_own[i] = wp.vec2i(begin, end)
 
 
 @wp.func
 def distance_of_wall(
-    q: int,
-    d: wp.vec3,
-    mine: int,
-    bubble: int,
-    place: wp.vec3,
-    apart: float,
-    depth: float,
-    n: wp.vec3,
-    p: wp.vec3,
-    touch: Touch,
-    mesh: Mesh,
-    contacts: Contacts,
-    state: State,
+    q: int, d: wp.vec3, seeker: Seeker, touch: Touch, mesh: Mesh, contacts: Contacts, state: State
 ):
     """Return the distance (m) of a vertex from a quad that faces it, or FAR where the two never touch.
 
-    `d`: from the quad's middle to the vertex, m; `mine`, `bubble`, `place`: its balloon, bubble and place.
+    `d`: from the quad's middle to the vertex, m.
     """
     distance = float(FAR)
-    if may_meet(q, mine, bubble, place, apart, mesh.quad_segment, mesh.quad_place, mesh.quad_balloon):
+    if may_meet(q, seeker, mesh):
         a = vec3_at(contacts.quad_area, q)
         size = wp.length(a)
         face = a / wp.max(size, 1.0e-12)
         height = wp.dot(d, face)
-        limit = wp.min(depth, DEPTH_LIMIT * float_at(contacts.ring_radius, int_at(mesh.quad_ring, q)))
-        if wp.dot(face, n) < FACING and height > -limit and height < touch.offset + touch.margin:
-            distance = distance_beside(q, face, SIDE_SLIP * wp.sqrt(size), p, mesh.quads, state.x)
+        limit = wp.min(seeker.depth, DEPTH_LIMIT * float_at(contacts.ring_radius, int_at(mesh.quad_ring, q)))
+        near = height > -limit and height < touch.offset + touch.margin
+        if wp.dot(face, seeker.normal) < FACING and near:
+            beside = SIDE_SLIP * wp.sqrt(size)
+            distance = distance_beside(q, face, beside, seeker.position, mesh.quads, state.x)
     return distance
 
 
@@ -271,21 +273,15 @@ def weigh_wall(
     q: int,
     near: wp.vec2,
     nearest: wp.vec2i,
-    mine: int,
-    bubble: int,
-    place: wp.vec3,
-    apart: float,
-    depth: float,
-    n: wp.vec3,
-    p: wp.vec3,
+    seeker: Seeker,
     touch: Touch,
     mesh: Mesh,
     contacts: Contacts,
     state: State,
 ):
     """Return the distances (m) of the two nearest quads of different bubbles, and these, after one more."""
-    d = p - vec3_at(contacts.quad_middle, q)
-    distance = distance_of_wall(q, d, mine, bubble, place, apart, depth, n, p, touch, mesh, contacts, state)
+    d = seeker.position - vec3_at(contacts.quad_middle, q)
+    distance = distance_of_wall(q, d, seeker, touch, mesh, contacts, state)
     other = nearest[0] >= 0 and int_at(mesh.quad_segment, wp.max(nearest[0], 0)) != int_at(
         mesh.quad_segment, q
     )
@@ -313,6 +309,44 @@ def close_quads(base: int, first: int, end: int, p: wp.vec3, reach: float, quad_
         if wp.dot(d, d) < reach * reach:
             bits |= 1 << (q - base)
     return bits
+
+
+@wp.func
+def chunk_in_box(chunk: int, low: wp.vec3, high: wp.vec3, own: wp.vec2i, mesh: Mesh, contacts: Contacts):
+    """Return 1 where a chunk reaches into a box (m) and has other quads than a run of own ones."""
+    found = int(0)
+    chunk_l = vec3_at(contacts.chunk_low, chunk)
+    chunk_h = vec3_at(contacts.chunk_high, chunk)
+    # The first axis already culls most chunks.
+    if chunk_l[0] < high[0] and chunk_h[0] > low[0]:
+        if chunk_l[1] < high[1] and chunk_h[1] > low[1] and chunk_l[2] < high[2] and chunk_h[2] > low[2]:
+            if own[0] > int_at(mesh.chunk_quad, chunk) or own[1] < int_at(mesh.chunk_quad, chunk + 1):
+                found = 1
+    return found
+
+
+@wp.func
+def close_quads_of_chunk(chunk: int, own: wp.vec2i, seeker: Seeker, mesh: Mesh, contacts: Contacts):
+    """Return the bits of those quads of a chunk whose middles are within a vertex's reach, but for a run of
+    its own ones.
+    """
+    base = int_at(mesh.chunk_quad, chunk)
+    first = int(base)
+    end = int_at(mesh.chunk_quad, chunk + 1)
+    # Trim the vertex's own neighbourhood from either end of the chunk.
+    if own[0] <= base:
+        first = wp.max(first, own[1])
+    if own[1] >= end:
+        end = wp.min(end, own[0])
+    p = seeker.position
+    off = wp.max(
+        wp.max(vec3_at(contacts.chunk_low, chunk) - p, p - vec3_at(contacts.chunk_high, chunk)),
+        wp.vec3(0.0),
+    )
+    close = int(0)
+    if wp.dot(off, off) < seeker.reach * seeker.reach:
+        close = close_quads(base, first, end, p, seeker.reach, contacts.quad_middle)
+    return close
 
 
 @wp.func
@@ -358,29 +392,25 @@ def find_walls(
     i = group * wp.block_dim() + lane
     spare = i >= state.x.shape[0]
     i = wp.min(i, state.x.shape[0] - 1)
-    p = state.x[i]
-    mine = mesh.vertex_balloon[i]
-    # The bubble of a vertex; a ring between two bubbles belongs to neither.
-    bubble = mesh.vertex_segment[i]
-    place = mesh.vertex_place[i]
-    own = contacts.vertex_own[i]
-    apart = touch.apart * balloons.balloon_radius[mine]
-    depth = DEPTH_LIMIT * contacts.ring_radius[mesh.vertex_ring[i]]
-    world = balloons.balloon_world[mine]
     outward, size = surface_of_vertex(i, mesh.corners, contacts.quad_area)
-    n = wp.normalize(outward)
-    contacts.normal[i] = n
+    seeker = seeker_of(i, touch, mesh, balloons)
+    seeker.position = state.x[i]
+    seeker.normal = wp.normalize(outward)
+    seeker.depth = DEPTH_LIMIT * contacts.ring_radius[mesh.vertex_ring[i]]
+    seeker.reach = REACH * wp.sqrt(size) + touch.offset + touch.margin
+    contacts.normal[i] = seeker.normal
     contacts.area[i] = size
-    reach = REACH * wp.sqrt(size) + touch.offset + touch.margin
-    near = wp.vec2(reach, reach)
+    own = contacts.vertex_own[i]
+    world = balloons.balloon_world[seeker.balloon]
+    near = wp.vec2(seeker.reach, seeker.reach)
     nearest = wp.vec2i(-1, -1)
     first = sculptures.world_chunk[world]
     last = sculptures.world_chunk[world + 1]
     # Bounding box of the warp: what is within reach of any of its lanes.
-    low = p - wp.vec3(ROUNDED * reach)
-    high = p + wp.vec3(ROUNDED * reach)
+    low = seeker.position - wp.vec3(ROUNDED * seeker.reach)
+    high = seeker.position + wp.vec3(ROUNDED * seeker.reach)
     own_of_all = own
-    if spare or balloons.touching[mine] == 0:
+    if spare or balloons.touching[seeker.balloon] == 0:
         first = NONE
         last = -NONE
         low = wp.vec3(FAR)
@@ -392,67 +422,30 @@ def find_walls(
     begin = -warp_max(-first)
     end = warp_max(last)
     while begin < end:
-        some = int(0)
+        # Broad phase: every lane tests one chunk.
+        found = int(0)
         if begin + lane < end:
-            chunk_l = vec3_at(contacts.chunk_low, begin + lane)
-            chunk_h = vec3_at(contacts.chunk_high, begin + lane)
-            # Broad phase: the first axis already culls most chunks.
-            if chunk_l[0] < high[0] and chunk_h[0] > low[0]:
-                if (
-                    chunk_l[1] < high[1]
-                    and chunk_h[1] > low[1]
-                    and chunk_l[2] < high[2]
-                    and chunk_h[2] > low[2]
-                ):
-                    if own_of_all[0] > int_at(mesh.chunk_quad, begin + lane) or own_of_all[1] < int_at(
-                        mesh.chunk_quad, begin + lane + 1
-                    ):
-                        some = 1
-        chunks = warp_ballot(some)
+            found = chunk_in_box(begin + lane, low, high, own_of_all, mesh, contacts)
+        chunks = warp_ballot(found)
         while chunks != 0:
             chunk = begin + lowest_bit(chunks)
             chunks &= chunks - 1
-            base = int_at(mesh.chunk_quad, chunk)
-            first_quad = int(base)
-            end_quad = int_at(mesh.chunk_quad, chunk + 1)
-            # Trim the vertex's own neighbourhood from either end of the chunk.
-            if own[0] <= base:
-                first_quad = wp.max(first_quad, own[1])
-            if own[1] >= end_quad:
-                end_quad = wp.min(end_quad, own[0])
-            off = wp.max(
-                wp.max(vec3_at(contacts.chunk_low, chunk) - p, p - vec3_at(contacts.chunk_high, chunk)),
-                wp.vec3(0.0),
-            )
             close = int(0)
-            if chunk >= first and chunk < last and wp.dot(off, off) < reach * reach:
-                close = close_quads(base, first_quad, end_quad, p, reach, contacts.quad_middle)
+            if chunk >= first and chunk < last:
+                close = close_quads_of_chunk(chunk, own, seeker, mesh, contacts)
+            base = int_at(mesh.chunk_quad, chunk)
             # Narrow phase: every lane tests one candidate a round, until no lane has any left.
             while warp_ballot(wp.where(close != 0, 1, 0)) != 0:
                 if close != 0:
-                    near, nearest = weigh_wall(
-                        base + lowest_bit(close),
-                        near,
-                        nearest,
-                        mine,
-                        bubble,
-                        place,
-                        apart,
-                        depth,
-                        n,
-                        p,
-                        touch,
-                        mesh,
-                        contacts,
-                        state,
-                    )
+                    q = base + lowest_bit(close)
+                    near, nearest = weigh_wall(q, near, nearest, seeker, touch, mesh, contacts, state)
                     close &= close - 1
         begin += wp.block_dim()
     before = wp.vec2i(int_in(contacts.target, i, 0), int_in(contacts.target, i, 1))
     # Most vertices touch nothing, and did not before.
     if spare or (nearest[0] < 0 and before[0] < 0 and before[1] < 0):
         return
-    enter_walls(i, p, nearest, before, mesh, contacts, state)
+    enter_walls(i, seeker.position, nearest, before, mesh, contacts, state)
     for k in range(2):
         if nearest[k] >= 0:
             contacts.pairs[
@@ -516,7 +509,14 @@ def limits_of_pair(pair: int, touch: Touch, dt: float, mesh: Mesh, balloons: Bal
 
 @wp.func
 def press_wall(
-    pair: int, c: wp.vec4i, limits: wp.vec4, offset: float, dt: float, contacts: Contacts, state: State
+    pair: int,
+    c: wp.vec4i,
+    limits: wp.vec4,
+    offset: float,
+    dt: float,
+    shared: int,
+    contacts: Contacts,
+    state: State,
 ):
     """Write the contact force (N) on a vertex that touches a quad, and where on the quad.
 
@@ -524,17 +524,17 @@ def press_wall(
     """
     i = pair >> 1
     k = pair & 1
-    p = coherent_vec3(state.x, i)
-    x0 = coherent_vec3(state.x, c[0])
-    x1 = coherent_vec3(state.x, c[1])
-    x2 = coherent_vec3(state.x, c[2])
-    x3 = coherent_vec3(state.x, c[3])
+    p = coherent_vec3(state.x, i, shared)
+    x0 = coherent_vec3(state.x, c[0], shared)
+    x1 = coherent_vec3(state.x, c[1], shared)
+    x2 = coherent_vec3(state.x, c[2], shared)
+    x3 = coherent_vec3(state.x, c[3], shared)
     # Prefetch: loaded before the test that may not need them.
-    velocity = coherent_vec3(state.v, i)
-    v0 = coherent_vec3(state.v, c[0])
-    v1 = coherent_vec3(state.v, c[1])
-    v2 = coherent_vec3(state.v, c[2])
-    v3 = coherent_vec3(state.v, c[3])
+    velocity = coherent_vec3(state.v, i, shared)
+    v0 = coherent_vec3(state.v, c[0], shared)
+    v1 = coherent_vec3(state.v, c[1], shared)
+    v2 = coherent_vec3(state.v, c[2], shared)
+    v3 = coherent_vec3(state.v, c[3], shared)
     slipped = contacts.slip[i, k]
     # Warm start: it slides little in a substep, so one iteration is enough.
     place = nearer_on_patch(x0, x1, x2, x3, p, vec2_at(contacts.contact_place, pair))
@@ -577,14 +577,14 @@ def balancing_turn(r0: wp.vec3, r1: wp.vec3, r2: wp.vec3, r3: wp.vec3, couple: w
 
 
 @wp.func
-def press_quad_back(q: int, mesh: Mesh, contacts: Contacts, forces: Forces, state: State):
+def press_quad_back(q: int, shared: int, mesh: Mesh, contacts: Contacts, forces: Forces, state: State):
     """Take from the corners of a quad what the vertices that touch it felt, forces and torques."""
     count = int_at(contacts.hit_count, q)
     c = vec4i_at(mesh.quads, q)
-    x0 = coherent_vec3(state.x, c[0])
-    x1 = coherent_vec3(state.x, c[1])
-    x2 = coherent_vec3(state.x, c[2])
-    x3 = coherent_vec3(state.x, c[3])
+    x0 = coherent_vec3(state.x, c[0], shared)
+    x1 = coherent_vec3(state.x, c[1], shared)
+    x2 = coherent_vec3(state.x, c[2], shared)
+    x3 = coherent_vec3(state.x, c[3], shared)
     middle = 0.25 * (x0 + x1 + x2 + x3)
     r0 = x0 - middle
     r1 = x1 - middle
@@ -597,16 +597,24 @@ def press_quad_back(q: int, mesh: Mesh, contacts: Contacts, forces: Forces, stat
     couple = wp.vec3(0.0)
     for k in range(count):
         hit = int_in(contacts.hits, q, k)
-        f = load_soa(contacts.contact_force, hit // 2, hit % 2)
-        share = patch_shares(coherent_vec2(contacts.contact_place, hit))
+        f = load_soa(contacts.contact_force, hit // 2, hit % 2, shared)
+        share = patch_shares(coherent_vec2(contacts.contact_place, hit, shared))
         f0 += share[0] * f
         f1 += share[1] * f
         f2 += share[2] * f
         f3 += share[3] * f
         touched = middle + share[0] * r0 + share[1] * r1 + share[2] * r2 + share[3] * r3
-        couple += wp.cross(coherent_vec3(state.x, hit // 2) - touched, f)
+        couple += wp.cross(coherent_vec3(state.x, hit // 2, shared) - touched, f)
     turn = balancing_turn(r0, r1, r2, r3, couple)
-    store_soa(forces.corner_force, q, 0, load_soa(forces.corner_force, q, 0) - f0 - wp.cross(turn, r0))
-    store_soa(forces.corner_force, q, 1, load_soa(forces.corner_force, q, 1) - f1 - wp.cross(turn, r1))
-    store_soa(forces.corner_force, q, 2, load_soa(forces.corner_force, q, 2) - f2 - wp.cross(turn, r2))
-    store_soa(forces.corner_force, q, 3, load_soa(forces.corner_force, q, 3) - f3 - wp.cross(turn, r3))
+    store_soa(
+        forces.corner_force, q, 0, load_soa(forces.corner_force, q, 0, shared) - f0 - wp.cross(turn, r0)
+    )
+    store_soa(
+        forces.corner_force, q, 1, load_soa(forces.corner_force, q, 1, shared) - f1 - wp.cross(turn, r1)
+    )
+    store_soa(
+        forces.corner_force, q, 2, load_soa(forces.corner_force, q, 2, shared) - f2 - wp.cross(turn, r2)
+    )
+    store_soa(
+        forces.corner_force, q, 3, load_soa(forces.corner_force, q, 3, shared) - f3 - wp.cross(turn, r3)
+    )

@@ -45,12 +45,12 @@ def thin_between(m: int, cores: Cores, contacts: Contacts):
 
 
 @wp.func
-def ring_mean(first: int, n: int, lane: int, lanes: int, x: wp.array[wp.vec3]):
+def ring_mean(first: int, n: int, lane: int, lanes: int, x: wp.array[wp.vec3], shared: int):
     """Return the middle (m) of a ring's vertices."""
-    origin = coherent_vec3(x, first)
+    origin = coherent_vec3(x, first, shared)
     c = wp.vec3(0.0)
     for k in range(lane, n, lanes):
-        c += coherent_vec3(x, first + k) - origin
+        c += coherent_vec3(x, first + k, shared) - origin
     return origin + warp_sum3(c, lanes) / float(n)
 
 
@@ -66,6 +66,7 @@ def keep_order(
     ring_cos_sin: wp.array[wp.vec2],
     x: wp.array[wp.vec3],
     core_order: wp.array[wp.vec3],
+    shared: int,
 ):
     """Write the forces (N) that draw a ring to the nearest regular polygon of its own size, more the more its
     rubber is packed: what is packed passes nothing beside it.
@@ -75,7 +76,7 @@ def keep_order(
     a = wp.vec3(0.0)
     b = wp.vec3(0.0)
     for k in range(lane, n, lanes):
-        arm = coherent_vec3(x, first + k) - middle
+        arm = coherent_vec3(x, first + k, shared) - middle
         at = vec2_at(ring_cos_sin, first + k)
         a += at[0] * arm
         b += at[1] * arm
@@ -93,12 +94,20 @@ def keep_order(
     for k in range(lane, n, lanes):
         i = first + k
         at = vec2_at(ring_cos_sin, i)
-        put_vec3(core_order, i, pull * (at[0] * u + at[1] * w - (coherent_vec3(x, i) - middle)))
+        put_vec3(core_order, i, pull * (at[0] * u + at[1] * w - (coherent_vec3(x, i, shared) - middle)))
 
 
 @wp.func
 def press_core(
-    m: int, lane: int, lanes: int, dt: float, mesh: Mesh, cores: Cores, contacts: Contacts, state: State
+    m: int,
+    lane: int,
+    lanes: int,
+    dt: float,
+    shared: int,
+    mesh: Mesh,
+    cores: Cores,
+    contacts: Contacts,
+    state: State,
 ):
     """Write the forces (N) that keep the order of a ring, those of the core between it and the next ring on
     the middles between their vertices, and the force (N) on every vertex of the next that keeps them apart.
@@ -113,7 +122,7 @@ def press_core(
     ring = int_at(cores.core_ring, m)
     n = int_at(mesh.ring_around, ring)
     first = int_at(mesh.ring_first, ring)
-    c = ring_mean(first, n, lane, lanes, state.x)
+    c = ring_mean(first, n, lane, lanes, state.x, shared)
     stiffness = STIFF * float_at(mesh.mass, first) / (dt * dt)
     if mine == 1:
         keep_order(
@@ -127,17 +136,21 @@ def press_core(
             mesh.ring_cos_sin,
             state.x,
             cores.core_order,
+            shared,
         )
     if between == 1:
         beyond = int_at(mesh.ring_first, int_at(cores.core_ring, m + 1))
         row = float_at(cores.core_row, m)
         stiffness = wp.min(stiffness, STIFF * float_at(mesh.mass, beyond) / (dt * dt))
-        d = ring_mean(beyond, n, lane, lanes, state.x)
+        d = ring_mean(beyond, n, lane, lanes, state.x, shared)
         gap = wp.max(wp.length(d - c), LEAST * row)
         radius = float_at(cores.core_radius, m) * wp.sqrt(row / gap)
         pressed = float(0.0)
         for k in range(lane, n, lanes):
-            arm = 0.5 * ((coherent_vec3(state.x, first + k) - c) + (coherent_vec3(state.x, beyond + k) - d))
+            arm = 0.5 * (
+                (coherent_vec3(state.x, first + k, shared) - c)
+                + (coherent_vec3(state.x, beyond + k, shared) - d)
+            )
             far = wp.max(wp.length(arm), 1.0e-9)
             push = stiffness * wp.max(radius - far, 0.0)
             put_vec3(cores.core_push, first + k, arm * (push / far))
@@ -157,23 +170,32 @@ def force_of_cores(
     off_last: int,
     core_order: wp.array[wp.vec3],
     core_push: wp.array[wp.vec3],
+    shared: int,
 ):
     """Return the force (N) of cores on a vertex: half of those on the middles between it and its neighbours
     on the rings beside its own, of which `before` is that on the last ring.
     """
     f = wp.vec3(0.0)
     if keeps == 1:
-        f += coherent_vec3(core_order, i)
+        f += coherent_vec3(core_order, i, shared)
     if off_next == 1:
-        f += 0.5 * coherent_vec3(core_push, i)
+        f += 0.5 * coherent_vec3(core_push, i, shared)
     if off_last == 1:
-        f += 0.5 * coherent_vec3(core_push, before)
+        f += 0.5 * coherent_vec3(core_push, before, shared)
     return f
 
 
 @wp.func
 def yield_to_core(
-    m: int, lane: int, lanes: int, dt: float, mesh: Mesh, cores: Cores, contacts: Contacts, state: State
+    m: int,
+    lane: int,
+    lanes: int,
+    dt: float,
+    shared: int,
+    mesh: Mesh,
+    cores: Cores,
+    contacts: Contacts,
+    state: State,
 ):
     """Add to the velocity (m/s) of a ring's vertices what the cores in it and on both sides give them.
 
@@ -191,17 +213,17 @@ def yield_to_core(
     last = first
     thrust = wp.vec3(0.0)
     if off_next == 1:
-        thrust -= coherent_vec3(cores.core_thrust, m)
+        thrust -= coherent_vec3(cores.core_thrust, m, shared)
     if off_last == 1:
-        thrust += coherent_vec3(cores.core_thrust, m - 1)
+        thrust += coherent_vec3(cores.core_thrust, m - 1, shared)
         last = int_at(mesh.ring_first, int_at(cores.core_ring, m - 1))
     total = wp.vec3(0.0)
     for k in range(lane, n, lanes):
         total += force_of_cores(
-            first + k, last + k, keeps, off_next, off_last, cores.core_order, cores.core_push
+            first + k, last + k, keeps, off_next, off_last, cores.core_order, cores.core_push, shared
         )
     thrust -= warp_sum3(total, lanes) / float(n)
     for k in range(lane, n, lanes):
         i = first + k
-        f = force_of_cores(i, last + k, keeps, off_next, off_last, cores.core_order, cores.core_push)
-        put_vec3(state.v, i, coherent_vec3(state.v, i) + (f + thrust) * (dt / float_at(mesh.mass, i)))
+        f = force_of_cores(i, last + k, keeps, off_next, off_last, cores.core_order, cores.core_push, shared)
+        put_vec3(state.v, i, coherent_vec3(state.v, i, shared) + (f + thrust) * (dt / float_at(mesh.mass, i)))

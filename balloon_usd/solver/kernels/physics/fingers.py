@@ -18,6 +18,7 @@ def press_finger(
     fraction: float,
     x: wp.array[wp.vec3],
     v: wp.array[wp.vec3],
+    shared: int,
 ):
     """Add to the velocity (m/s) of a vertex under a finger what the finger's force gives it in a substep."""
     share = float_at(finger_share, i)
@@ -25,8 +26,10 @@ def press_finger(
         finger = fingers[int_at(vertex_balloon, i)]
         load = share * wp.lerp(finger.load_start, finger.load_end, fraction) * (dt / float_at(mass, i))
         tip = finger.start + fraction * (finger.end - finger.start)
-        behind = wp.max(wp.dot(tip - coherent_vec3(x, i), finger.along), 0.0)
-        put_vec3(v, i, coherent_vec3(v, i) + (load + share * finger.stiff * behind / dt) * finger.along)
+        behind = wp.max(wp.dot(tip - coherent_vec3(x, i, shared), finger.along), 0.0)
+        put_vec3(
+            v, i, coherent_vec3(v, i, shared) + (load + share * finger.stiff * behind / dt) * finger.along
+        )
 
 
 @wp.kernel
@@ -41,4 +44,4 @@ def press_fingers(
     v: wp.array[wp.vec3],
 ):
     """Let fingers press on every vertex for a substep."""
-    press_finger(wp.tid(), vertex_balloon, mass, fingers, finger_share, dt, fraction, x, v)
+    press_finger(wp.tid(), vertex_balloon, mass, fingers, finger_share, dt, fraction, x, v, 0)

@@ -25,6 +25,7 @@ def volume_of_fans(
     ring_middle: wp.array[wp.vec3],
     ring_area: wp.array[wp.vec3],
     o: wp.vec3,
+    shared: int,
 ):
     """Return the volume (m3) between a point and the flat fans that close a segment's ends."""
     start = int_at(start_joint, s)
@@ -32,19 +33,19 @@ def volume_of_fans(
     # Branch-free: clamp the index, load, then mask; the loads need not wait for the test.
     first = wp.max(start, 0)
     last = wp.max(end, 0)
-    begins = wp.dot(coherent_vec3(ring_middle, first) - o, coherent_vec3(ring_area, first))
-    ends = wp.dot(coherent_vec3(ring_middle, last) - o, coherent_vec3(ring_area, last))
+    begins = wp.dot(coherent_vec3(ring_middle, first, shared) - o, coherent_vec3(ring_area, first, shared))
+    ends = wp.dot(coherent_vec3(ring_middle, last, shared) - o, coherent_vec3(ring_area, last, shared))
     return (wp.where(end >= 0, ends, 0.0) - wp.where(start >= 0, begins, 0.0)) / 3.0
 
 
 @wp.func
-def shares_of_chunks(c: int, apart: int, end: int, chunk_share: wp.array[float]):
+def shares_of_chunks(c: int, apart: int, end: int, chunk_share: wp.array[float], shared: int):
     """Return the volume (m3) of four chunks at a stride `apart`, those below `end`: four loads in flight."""
     # Branch-free, as above.
-    a = coherent_float(chunk_share, wp.min(c, end - 1))
-    b = coherent_float(chunk_share, wp.min(c + apart, end - 1))
-    d = coherent_float(chunk_share, wp.min(c + 2 * apart, end - 1))
-    e = coherent_float(chunk_share, wp.min(c + 3 * apart, end - 1))
+    a = coherent_float(chunk_share, wp.min(c, end - 1), shared)
+    b = coherent_float(chunk_share, wp.min(c + apart, end - 1), shared)
+    d = coherent_float(chunk_share, wp.min(c + 2 * apart, end - 1), shared)
+    e = coherent_float(chunk_share, wp.min(c + 3 * apart, end - 1), shared)
     total = wp.where(c < end, a, 0.0) + wp.where(c + apart < end, b, 0.0)
     return total + (wp.where(c + 2 * apart < end, d, 0.0) + wp.where(c + 3 * apart < end, e, 0.0))
 
@@ -71,7 +72,7 @@ def segment_volumes(mesh: Mesh, joints: Joints, state: State):
             state.volume,
             s,
             sums[0]
-            + volume_of_fans(s, mesh.start_joint, mesh.end_joint, joints.ring_middle, joints.ring_area, o),
+            + volume_of_fans(s, mesh.start_joint, mesh.end_joint, joints.ring_middle, joints.ring_area, o, 0),
         )
 
 

@@ -94,13 +94,15 @@ def closing_spin(
 
 
 @wp.func
-def ring_fan(first: int, n: int, c: wp.vec3, lane: int, lanes: int, x: wp.array[wp.vec3]):
+def ring_fan(first: int, n: int, c: wp.vec3, lane: int, lanes: int, x: wp.array[wp.vec3], shared: int):
     """Return a lane's share of the vector area (m2) of the fan between a ring's vertices and a point near
     them.
     """
     fan = wp.vec3(0.0)
     for k in range(lane, n, lanes):
-        fan += wp.cross(coherent_vec3(x, first + (k + n - 1) % n) - c, coherent_vec3(x, first + k) - c)
+        fan += wp.cross(
+            coherent_vec3(x, first + (k + n - 1) % n, shared) - c, coherent_vec3(x, first + k, shared) - c
+        )
     return 0.5 * fan
 
 
@@ -125,13 +127,14 @@ def joints_of_block(
 
 
 @wp.func
-def measure_open_ring(j: int, lane: int, lanes: int, joints: Joints, hands: Hands, state: State):
+def measure_open_ring(j: int, lane: int, lanes: int, shared: int, joints: Joints, hands: Hands, state: State):
     """Write the vector area (m2) of a ring that parts two chambers and is not being closed."""
     if int_at(joints.joint_parts, j) == 1 and float_at(hands.radius_to, j) == 0.0:
         first = int_at(joints.joint_first, j)
         n = int_at(joints.joint_around, j)
         area = warp_sum3(
-            ring_fan(first, n, coherent_vec3(joints.ring_middle, j), lane, lanes, state.x), lanes
+            ring_fan(first, n, coherent_vec3(joints.ring_middle, j, shared), lane, lanes, state.x, shared),
+            lanes,
         )
         if lane == 0:
             put_vec3(joints.ring_area, j, area)
@@ -154,6 +157,7 @@ def move_joint(
     dt: float,
     frame_seconds: float,
     fraction: float,
+    shared: int,
     mesh: Mesh,
     balloons: Balloons,
     rubber: Rubber,
@@ -187,12 +191,12 @@ def move_joint(
     wanted = (vec3_at(hands.hand_to, j) - start) / frame_seconds
     # Positions relative to the old middle: sums of small numbers keep their digits.
     old_middle = vec3_at(joints.ring_middle, j)
-    area = coherent_vec3(joints.ring_area, j)
+    area = coherent_vec3(joints.ring_area, j, shared)
     axes = joints.ring_axes[j]
     beside = vec2i_at(joints.joint_beside, j)
     side = beside[0]
-    inside = coherent_float(chambers.pressure, side)
-    outside = coherent_float(chambers.pressure, beside[1])
+    inside = coherent_float(chambers.pressure, side, shared)
+    outside = coherent_float(chambers.pressure, beside[1], shared)
     heavy = float_at(joints.joint_mass, j)
     grip = float_at(hands.hand_force, j)
     stiffness = float_at(hands.hand_stiffness, j)
@@ -202,7 +206,7 @@ def move_joint(
     # Prefetch: issued early to hide its latency.
     slots = struts.joint_struts.shape[1]
     strut = wp.where(lane < slots, int_in(struts.joint_struts, j, wp.min(lane, slots - 1)), 0)
-    pull = coherent_vec3(struts.strut_force, wp.max(wp.abs(strut) - 1, 0))
+    pull = coherent_vec3(struts.strut_force, wp.max(wp.abs(strut) - 1, 0), shared)
     # Position and velocity of a vertex; then sums over the ring: of positions and velocities (c, w), of the
     # same times cosines and sines (a, b, va, vb), and angular momentum (own).
     p = wp.vec3(0.0)
@@ -216,13 +220,13 @@ def move_joint(
     own = wp.vec3(0.0)
     for k in range(lane, mine, lanes):
         i = first + k
-        f = force_on_vertex(i, side, inside, outside, mesh, contacts, forces)
+        f = force_on_vertex(i, side, inside, outside, shared, mesh, contacts, forces)
         if parts == 1:
             chord = vec3_at(state.x, first + (k + 1) % n) - vec3_at(state.x, first + (k + n - 1) % n)
             f += (inside - outside) * fan_gradient(
                 vec3_at(state.x, i) - old_middle, chord, area, 1.0 / float(n)
             )
-        p, s = step_of_vertex(i, f, dt, mesh, balloons, rubber, hands, state)
+        p, s = step_of_vertex(i, f, dt, shared, mesh, balloons, rubber, hands, state)
         put_vec3(state.x_next, i, p)
         put_vec3(state.v, i, s)
         d = p - old_middle
@@ -237,7 +241,7 @@ def move_joint(
     force = pull_on_end(strut, pull)
     for k in range(lane + lanes, slots, lanes):
         strut = int_in(struts.joint_struts, j, k)
-        pull = coherent_vec3(struts.strut_force, wp.max(wp.abs(strut) - 1, 0))
+        pull = coherent_vec3(struts.strut_force, wp.max(wp.abs(strut) - 1, 0), shared)
         force += pull_on_end(strut, pull)
     sums = warp_sum8(force, c, w, a, b, va, vb, own, lanes)
     force = sums[0]
@@ -307,15 +311,15 @@ def measure_rings(
     n = int_at(joint_around, j)
     c = wp.vec3(0.0)
     for k in range(lane, n, lanes):
-        c += coherent_vec3(x, first + k)
+        c += coherent_vec3(x, first + k, 0)
     c = warp_sum3(c, lanes) / float(n)
     a = wp.vec3(0.0)
     b = wp.vec3(0.0)
     for k in range(lane, n, lanes):
-        a += vec2_at(ring_cos_sin, first + k)[0] * (coherent_vec3(x, first + k) - c)
-        b += vec2_at(ring_cos_sin, first + k)[1] * (coherent_vec3(x, first + k) - c)
+        a += vec2_at(ring_cos_sin, first + k)[0] * (coherent_vec3(x, first + k, 0) - c)
+        b += vec2_at(ring_cos_sin, first + k)[1] * (coherent_vec3(x, first + k, 0) - c)
     axes = nearest_axes(warp_sum3(a, lanes), warp_sum3(b, lanes))
-    area = warp_sum3(ring_fan(first, n, c, lane, lanes, x), lanes)
+    area = warp_sum3(ring_fan(first, n, c, lane, lanes, x, 0), lanes)
     if lane == 0:
         put_vec3(ring_middle, j, c)
         put_vec3(ring_area, j, area)
@@ -383,12 +387,14 @@ def shift_middle(j: int, weld_shift: wp.array[wp.vec3], ring_middle: wp.array[wp
 
 
 @wp.func
-def load_strut(s: int, joints: Joints, struts: Struts):
+def load_strut(s: int, shared: int, joints: Joints, struts: Struts):
     """Write the force (N) on the first end of a strut; beyond its yield force it gives way for good."""
     ends = vec2i_at(struts.strut_joint, s)
     pull = wp.vec3(0.0)
     if ends[0] >= 0:
-        d = coherent_vec3(joints.ring_middle, ends[1]) - coherent_vec3(joints.ring_middle, ends[0])
+        d = coherent_vec3(joints.ring_middle, ends[1], shared) - coherent_vec3(
+            joints.ring_middle, ends[0], shared
+        )
         now = wp.length(d)
         along = d / wp.max(now, 1.0e-6)
         tension = float_at(struts.strut_stiffness, s) * (now - float_at(struts.strut_length, s))
@@ -407,7 +413,9 @@ def load_strut(s: int, joints: Joints, struts: Struts):
             )
             tension = -float_at(struts.strut_yield, s)
         tension += float_at(struts.strut_damping, s) * wp.dot(
-            coherent_vec3(joints.ring_velocity, ends[1]) - coherent_vec3(joints.ring_velocity, ends[0]), along
+            coherent_vec3(joints.ring_velocity, ends[1], shared)
+            - coherent_vec3(joints.ring_velocity, ends[0], shared),
+            along,
         )
         pull = tension * along
     put_vec3(struts.strut_force, s, pull)

@@ -202,22 +202,24 @@ def volume_gradients_of_quad(x0: wp.vec3, x1: wp.vec3, x2: wp.vec3, x3: wp.vec3,
 
 
 @wp.func
-def wall_of_quad(q: int, origin: wp.vec3, mesh: Mesh, rubber: Rubber, forces: Forces, state: State):
+def wall_of_quad(
+    q: int, origin: wp.vec3, shared: int, mesh: Mesh, rubber: Rubber, forces: Forces, state: State
+):
     """Write the force (N) of the wall on the four corners of a quad and the gradient of the volume (m2) by
     them, and return the volume (m3) between the quad and an origin.
     """
     c = vec4i_at(mesh.quads, q)
     mine = int_at(rubber.quad_law, q)
     law = rubber.laws[mine]
-    x0 = coherent_vec3(state.x, c[0])
-    x1 = coherent_vec3(state.x, c[1])
-    x2 = coherent_vec3(state.x, c[2])
-    x3 = coherent_vec3(state.x, c[3])
+    x0 = coherent_vec3(state.x, c[0], shared)
+    x1 = coherent_vec3(state.x, c[1], shared)
+    x2 = coherent_vec3(state.x, c[2], shared)
+    x3 = coherent_vec3(state.x, c[3], shared)
     # Prefetch: loads of the velocities overlap those of the positions.
-    v0 = coherent_vec3(state.v, c[0])
-    v1 = coherent_vec3(state.v, c[1])
-    v2 = coherent_vec3(state.v, c[2])
-    v3 = coherent_vec3(state.v, c[3])
+    v0 = coherent_vec3(state.v, c[0], shared)
+    v1 = coherent_vec3(state.v, c[1], shared)
+    v2 = coherent_vec3(state.v, c[2], shared)
+    v3 = coherent_vec3(state.v, c[3], shared)
     b = mat22_at(rubber.rest_inverse, q)
     large2, small2 = stretches_of_quad(x0, x1, x2, x3, b)
     t = wp.vec3(0.0)

@@ -16,6 +16,7 @@ def force_of_further_quads(
     corners: wp.array[wp.vec4i],
     corner_force: wp.array2d[float],
     volume_gradient: wp.array2d[float],
+    shared: int,
 ):
     """Return the force (N) of the further quads at a vertex, with the gauge pressure (Pa) behind them.
 
@@ -29,21 +30,30 @@ def force_of_further_quads(
             if slots[k] >= 0:
                 q = slots[k] >> 2
                 corner = slots[k] & 3
-                f += load_soa(corner_force, q, corner) + inside * load_soa(volume_gradient, q, corner)
+                f += load_soa(corner_force, q, corner, shared) + inside * load_soa(
+                    volume_gradient, q, corner, shared
+                )
         more = -2 - slots[3]
     return f
 
 
 @wp.func
 def force_on_vertex(
-    i: int, side: int, inside: float, beyond: float, mesh: Mesh, contacts: Contacts, forces: Forces
+    i: int,
+    side: int,
+    inside: float,
+    beyond: float,
+    shared: int,
+    mesh: Mesh,
+    contacts: Contacts,
+    forces: Forces,
 ):
     """Return the force (N) of wall, gas and other walls on a vertex.
 
     `inside`, `beyond`: gauge pressures (Pa) in the segment `side` and in the other that it may border on.
     """
     slots = vec4i_at(mesh.corners, i)
-    f = load_soa(contacts.contact_force, i, 0) + load_soa(contacts.contact_force, i, 1)
+    f = load_soa(contacts.contact_force, i, 0, shared) + load_soa(contacts.contact_force, i, 1, shared)
     # Branch-free: an empty slot loads another quad of the vertex, and is masked.
     any_slot = wp.max(wp.max(slots[0], slots[1]), wp.max(slots[2], slots[3]))
     for k in range(4):
@@ -51,14 +61,24 @@ def force_on_vertex(
         q = slot >> 2
         corner = slot & 3
         p = wp.where(int_at(mesh.quad_segment, q) == side, inside, beyond)
-        g = load_soa(forces.corner_force, q, corner) + p * load_soa(forces.volume_gradient, q, corner)
+        g = load_soa(forces.corner_force, q, corner, shared) + p * load_soa(
+            forces.volume_gradient, q, corner, shared
+        )
         f += wp.where(slots[k] >= 0, g, wp.vec3(0.0))
     return f
 
 
 @wp.func
 def step_of_vertex(
-    i: int, f: wp.vec3, dt: float, mesh: Mesh, balloons: Balloons, rubber: Rubber, hands: Hands, state: State
+    i: int,
+    f: wp.vec3,
+    dt: float,
+    shared: int,
+    mesh: Mesh,
+    balloons: Balloons,
+    rubber: Rubber,
+    hands: Hands,
+    state: State,
 ):
     """Return where a force (N) moves a vertex (m) and its velocity there (m/s), by symplectic Euler
     (Kosaka 2008, eqs. 3.22 and 3.23).
@@ -67,10 +87,10 @@ def step_of_vertex(
     turn = hands.spin[b]
     along = float_at(mesh.vertex_along, i)
     pull = wp.vec3(0.0, 0.0, -float_at(balloons.gravity, b) * float_at(rubber.true_mass, i))
-    velocity = (coherent_vec3(state.v, i) + (f + pull) * (dt / float_at(mesh.mass, i))) * wp.max(
+    velocity = (coherent_vec3(state.v, i, shared) + (f + pull) * (dt / float_at(mesh.mass, i))) * wp.max(
         1.0 - float_at(balloons.drag, b) * dt, 0.0
     )
-    p = coherent_vec3(state.x, i) + velocity * dt
+    p = coherent_vec3(state.x, i, shared) + velocity * dt
     rate = turn.back_rate
     axis = turn.back_axis
     drift = turn.back_drift
@@ -90,6 +110,7 @@ def step_of_vertex(
 def move_vertex(
     i: int,
     dt: float,
+    shared: int,
     mesh: Mesh,
     balloons: Balloons,
     rubber: Rubber,
@@ -101,11 +122,13 @@ def move_vertex(
 ):
     """Move a vertex (m) that belongs to no ring by the forces on it, and write its velocity (m/s)."""
     segment = int_at(mesh.vertex_segment, i)
-    inside = coherent_float(chambers.pressure, segment)
-    f = force_on_vertex(i, segment, inside, inside, mesh, contacts, forces)
+    inside = coherent_float(chambers.pressure, segment, shared)
+    f = force_on_vertex(i, segment, inside, inside, shared, mesh, contacts, forces)
     last = vec4i_at(mesh.corners, i)[3]
     if last < -1:
-        f += force_of_further_quads(last, inside, mesh.corners, forces.corner_force, forces.volume_gradient)
-    p, velocity = step_of_vertex(i, f, dt, mesh, balloons, rubber, hands, state)
+        f += force_of_further_quads(
+            last, inside, mesh.corners, forces.corner_force, forces.volume_gradient, shared
+        )
+    p, velocity = step_of_vertex(i, f, dt, shared, mesh, balloons, rubber, hands, state)
     put_vec3(state.x, i, p)
     put_vec3(state.v, i, velocity)

@@ -75,6 +75,7 @@ def press_fingers_in(
             fraction,
             state.x,
             state.v,
+            threads.shared,
         )
 
 
@@ -100,8 +101,8 @@ def stretch_walls(
                 int_at(mesh.chunk_quad, c + 1),
                 threads.warp_lanes,
             ):
-                origin = coherent_vec3(state.x, int_at(mesh.chunk_origin, c))
-                share += wall_of_quad(q, origin, mesh, rubber, forces, state)
+                origin = coherent_vec3(state.x, int_at(mesh.chunk_origin, c), threads.shared)
+                share += wall_of_quad(q, origin, threads.shared, mesh, rubber, forces, state)
             share = warp_sum(share)
             if threads.warp_lane == 0:
                 put_float(chambers.chunk_share, c, share)
@@ -111,7 +112,7 @@ def stretch_walls(
 def measure_open_rings(threads: Threads, own: Ranges, joints: Joints, hands: Hands, state: State):
     """Write the vector areas of rings that are not being closed."""
     for j in range(own.joint_begin + threads.warps - 1 - threads.warp, own.joint_end, threads.warps):
-        measure_open_ring(j, threads.warp_lane, threads.warp_lanes, joints, hands, state)
+        measure_open_ring(j, threads.warp_lane, threads.warp_lanes, threads.shared, joints, hands, state)
 
 
 @wp.func
@@ -132,6 +133,7 @@ def press_contacts(
             vec4_at(forces.pair_limits, at),
             touch.offset,
             dt,
+            threads.shared,
             contacts,
             state,
         )
@@ -144,7 +146,7 @@ def press_quads_back(
     """Add the reactions of contacts to the forces on quads that are touched."""
     # Backwards: with one block the first threads are busy with the gas.
     for at in range(own.quad_begin + threads.others - 1 - threads.other, own.pressed_end, threads.others):
-        press_quad_back(int_at(contacts.pressed, at), mesh, contacts, forces, state)
+        press_quad_back(int_at(contacts.pressed, at), threads.shared, mesh, contacts, forces, state)
 
 
 @wp.func
@@ -153,7 +155,7 @@ def press_cores(
 ):
     """Write the forces of cores that pack."""
     for m in range(own.core_begin + threads.warp, own.core_end, threads.warps):
-        press_core(m, threads.warp_lane, threads.warp_lanes, dt, mesh, cores, contacts, state)
+        press_core(m, threads.warp_lane, threads.warp_lanes, dt, threads.shared, mesh, cores, contacts, state)
 
 
 @wp.func
@@ -162,7 +164,9 @@ def yield_to_cores(
 ):
     """Give vertices the speed that the forces of cores give them."""
     for m in range(own.core_begin + threads.warp, own.core_end, threads.warps):
-        yield_to_core(m, threads.warp_lane, threads.warp_lanes, dt, mesh, cores, contacts, state)
+        yield_to_core(
+            m, threads.warp_lane, threads.warp_lanes, dt, threads.shared, mesh, cores, contacts, state
+        )
 
 
 @wp.func
@@ -179,17 +183,18 @@ def measure_volumes(
             chunk = int_at(mesh.segment_chunk, s) + threads.lane % lanes
             last = int_at(mesh.segment_chunk, s + 1)
             # The first four loads together with those of the fans: most segments have no more chunks.
-            total = shares_of_chunks(chunk, lanes, last, chambers.chunk_share)
+            total = shares_of_chunks(chunk, lanes, last, chambers.chunk_share, threads.shared)
             fans = volume_of_fans(
                 s,
                 mesh.start_joint,
                 mesh.end_joint,
                 joints.ring_middle,
                 joints.ring_area,
-                coherent_vec3(state.x, int_at(mesh.segment_origin, s)),
+                coherent_vec3(state.x, int_at(mesh.segment_origin, s), threads.shared),
+                threads.shared,
             )
             for c in range(chunk + 4 * lanes, last, 4 * lanes):
-                total += shares_of_chunks(c, lanes, last, chambers.chunk_share)
+                total += shares_of_chunks(c, lanes, last, chambers.chunk_share, threads.shared)
         # Converged: every lane of the warp takes part in the shuffles.
         total = subwarp_sum(total)
         if s < own.segment_end and threads.lane % lanes == 0:
@@ -222,7 +227,7 @@ def load_struts(threads: Threads, own: Ranges, joints: Joints, struts: Struts):
     for at in range(own.joint_begin * slots + threads.other, own.joint_end * slots, threads.others):
         strut = int_in(struts.joint_struts, at // slots, at % slots)
         if strut > 0:
-            load_strut(strut - 1, joints, struts)
+            load_strut(strut - 1, threads.shared, joints, struts)
 
 
 @wp.func
@@ -274,6 +279,7 @@ def move_joints(
                 launch.dt,
                 launch.frame_seconds,
                 fraction,
+                threads.shared,
                 mesh,
                 balloons,
                 rubber,
@@ -304,7 +310,9 @@ def move_vertices(
     """Move the vertices that belong to no joint."""
     for i in range(own.vertex_begin + threads.threads - 1 - threads.thread, own.vertex_end, threads.threads):
         if int_at(mesh.vertex_joint, i) < 0:
-            move_vertex(i, dt, mesh, balloons, rubber, chambers, hands, contacts, forces, state)
+            move_vertex(
+                i, dt, threads.shared, mesh, balloons, rubber, chambers, hands, contacts, forces, state
+            )
 
 
 @wp.func

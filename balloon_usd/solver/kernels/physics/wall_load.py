@@ -23,13 +23,16 @@ def pressing_on(q: int, quads: wp.array[wp.vec4i], x: wp.array[wp.vec3], f: wp.v
 
 
 @wp.func
-def load_of_vertex(i: int, mesh: Mesh, contacts: Contacts, state: State):
+def load_of_vertex(i: int, shared: int, mesh: Mesh, contacts: Contacts, state: State):
     """Return the force (N) that presses on each of the quads round a vertex, by the walls that it touches."""
     load = float(0.0)
     for k in range(2):
         if int_in(contacts.target, i, k) >= 0:
             load += pressing_on(
-                int_in(contacts.target, i, k), mesh.quads, state.x, load_soa(contacts.contact_force, i, k)
+                int_in(contacts.target, i, k),
+                mesh.quads,
+                state.x,
+                load_soa(contacts.contact_force, i, k, shared),
             )
     beside = float(0.0)
     row = int(i)
@@ -54,10 +57,12 @@ def wall_loads(mesh: Mesh, contacts: Contacts, forces: Forces, state: State):
     for q in range(int_at(mesh.segment_quad, s) + lane, int_at(mesh.segment_quad_end, s), wp.block_dim()):
         for k in range(int_at(contacts.hit_count, q)):
             hit = int_in(contacts.hits, q, k)
-            total += pressing_on(q, mesh.quads, state.x, load_soa(contacts.contact_force, hit // 2, hit % 2))
+            total += pressing_on(
+                q, mesh.quads, state.x, load_soa(contacts.contact_force, hit // 2, hit % 2, 0)
+            )
         c = vec4i_at(mesh.quads, q)
         for k in range(4):
-            total += load_of_vertex(c[k], mesh, contacts, state)
+            total += load_of_vertex(c[k], 0, mesh, contacts, state)
     total = warp_sum(total)
     if lane == 0:
         put_float(forces.wall_load, s, total)

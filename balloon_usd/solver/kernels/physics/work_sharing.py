@@ -41,6 +41,8 @@ class Threads:
     CPU it has one lane.
     """
 
+    shared: int
+    """1 where other blocks write to the sculpture too, a constant of the kernel: see `coherent_load`."""
     blocks: int
     """Blocks of the sculpture."""
     block: int
@@ -107,9 +109,10 @@ class Ranges:
 
 
 @wp.func
-def threads_of(blocks: int, tile: int, lane: int, joint_lanes: int):
+def threads_of(blocks: int, tile: int, lane: int, joint_lanes: int, shared: int):
     """Return the thread `lane` of block `tile` of all; `joint_lanes`: lanes that move one joint."""
     t = Threads()
+    t.shared = shared
     t.blocks = blocks
     t.block = tile % blocks
     t.block_size = block_lanes()
