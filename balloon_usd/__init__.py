@@ -26,7 +26,16 @@ if TYPE_CHECKING:
     from balloon_usd.diff import Comparison, DiffError, compare_files
     from balloon_usd.exchange.export import export_stage
     from balloon_usd.mesh_file.error import MeshFileError
-    from balloon_usd.plan import Plan, plan_json, plan_svg, plan_text
+    from balloon_usd.plan import (
+        AfterStep,
+        Plan,
+        after_step,
+        after_step_json,
+        after_step_text,
+        plan_json,
+        plan_svg,
+        plan_text,
+    )
     from balloon_usd.plan import plan as plan_recipe
     from balloon_usd.preview import PreviewError, draw_contact_sheet
     from balloon_usd.recipe import Recipe, RecipeBuilder, RecipeError, recipe_schema
@@ -40,6 +49,7 @@ if TYPE_CHECKING:
 
 
 __all__ = [
+    "AfterStep",
     "BatchError",
     "Comparison",
     "DeviceUnavailable",
@@ -63,6 +73,9 @@ __all__ = [
     "Variations",
     "WrittenStage",
     "__version__",
+    "after_step",
+    "after_step_json",
+    "after_step_text",
     "check_file",
     "compare_files",
     "describe_stage",
@@ -80,7 +93,7 @@ __all__ = [
     "write_stage",
 ]
 
-_ROOMS = {
+_EXPORTS = {
     "balloon_usd.batch.engine": ("run_batch",),
     "balloon_usd.batch.machine": ("Machine",),
     "balloon_usd.batch.order": ("Order",),
@@ -90,7 +103,16 @@ _ROOMS = {
     "balloon_usd.diff": ("Comparison", "DiffError", "compare_files"),
     "balloon_usd.exchange.export": ("export_stage",),
     "balloon_usd.mesh_file.error": ("MeshFileError",),
-    "balloon_usd.plan": ("Plan", "plan_json", "plan_svg", "plan_text"),
+    "balloon_usd.plan": (
+        "AfterStep",
+        "Plan",
+        "after_step",
+        "after_step_json",
+        "after_step_text",
+        "plan_json",
+        "plan_svg",
+        "plan_text",
+    ),
     "balloon_usd.preview": ("PreviewError", "draw_contact_sheet"),
     "balloon_usd.recipe": ("Recipe", "RecipeBuilder", "RecipeError", "recipe_schema"),
     "balloon_usd.solver.errors": ("DeviceUnavailable", "SimulationFailed"),
@@ -101,7 +123,7 @@ _ROOMS = {
     "balloon_usd.staging": ("describe_stage", "write_stage"),
     "balloon_usd.variation": ("VariationError", "Variations", "vary_recipe"),
 }
-_PLACES = {name: (room, name) for room, names in _ROOMS.items() for name in names}
+_PLACES = {name: (room, name) for room, names in _EXPORTS.items() for name in names}
 # The function `plan` cannot have its own name here: `balloon_usd.plan` is its room.
 _PLACES["plan_recipe"] = ("balloon_usd.plan", "plan")
 

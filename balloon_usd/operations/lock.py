@@ -107,7 +107,14 @@ steps:
             _check_joints(joints, _is_read(joints, value), (*path, "joints"), bench)
 
     def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:
-        """Warn of a pair of unequal length."""
+        """Warn of a pair of unequal length, and of a direction that nothing can take."""
+        if self.point is not None and len({layout.bubble(end.bubble).balloon for end in self.ends}) > 1:
+            yield Caution(
+                index,
+                f"point: {self.point} changes nothing",
+                "joints of different balloons are brought straight to each other, and no bubble lies between",
+                "leave out point",
+            )
         if isinstance(self.lock, LockJoints) or len(self.lock) != 2:
             return
         first, second = self.lock

@@ -14,6 +14,8 @@ Seconds = Annotated[float, Between(0.2, 60.0, "s")]
 
 TURNS = 3.0
 """Full turns of a twist: the common advice of makers."""
+HOLDING_TURNS = 2.0
+"""Turns below which a twist unwinds: makers advise 2 to 4, three as a rule."""
 MODIFIERS = ("balloon", "point", "turns", "seconds", "note")
 """All modifiers, in the order in which they are written."""
 
@@ -43,6 +45,11 @@ class Turned(Entries):
 
     turns: Annotated[float, Between(0.5, 10.0, "turns", step=0.5)] = TURNS
     """Full turns of each twist."""
+
+    @property
+    def holds(self) -> bool:
+        """Whether the friction of the wound necks holds when the hands let go."""
+        return self.turns >= HOLDING_TURNS
 
 
 class Timed(Entries):

@@ -58,6 +58,11 @@ class Operation(Entries):
         return {}
 
     @property
+    def holds(self) -> bool:
+        """Whether what it joins stays one when the hands let go."""
+        return True
+
+    @property
     def label(self) -> str:
         """The step in a few words, such as `lock: left_ear, right_ear`."""
         return f"{self.word}: {', '.join(self.names)}"

@@ -270,13 +270,10 @@ class Workpiece:
         """Return what hangs on one end of a bubble: all other bubbles that come along when it is moved."""
         import networkx as nx  # noqa: PLC0415
 
-        start, stop = self._ends(end.bubble)
-        self._graph.remove_edge(start, stop, end.bubble)
-        try:
-            reached = nx.node_connected_component(self._graph, self._joints.root(end))
-            return frozenset(bubble for *_, bubble in self._graph.edges(reached, keys=True))
-        finally:
-            self._graph.add_edge(start, stop, key=end.bubble)
+        rest = self._graph.copy()
+        rest.remove_edge(*self._ends(end.bubble), end.bubble)
+        reached = nx.node_connected_component(rest, self._joints.root(end))
+        return frozenset(bubble for *_, bubble in rest.edges(reached, keys=True))
 
     def through(self, bubbles: Iterable[str]) -> frozenset[str]:
         """Return the bubbles that go through a ring of these."""

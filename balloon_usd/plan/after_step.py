@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from balloon_usd.language.lengths import cm
 from balloon_usd.plan.graph import sculpture_graph
+from balloon_usd.plan.holding import loose_joints
 from balloon_usd.plan.report import (
     bubble_lines,
     caution_lines,
@@ -18,6 +19,7 @@ from balloon_usd.plan.report import (
 )
 
 if TYPE_CHECKING:
+    from balloon_usd.language.joint import Joint
     from balloon_usd.operations.caution import Caution
     from balloon_usd.plan.graph import SculptureGraph
     from balloon_usd.plan.model import Plan
@@ -45,6 +47,8 @@ class AfterStep:
     """Of the step."""
     graph: SculptureGraph
     """What is left of a balloon that is begun is its last bubble."""
+    loose: tuple[Joint, ...]
+    """Joints that would untwist if the hands let go now, each as the end of the bubble before it."""
 
     @property
     def what(self) -> str:
@@ -89,7 +93,12 @@ def after_step(plan: Plan, index: int) -> AfterStep:
     """
     if not 0 <= index < len(plan.recipe.steps):
         raise IndexError(f"{plan.recipe.name} has no step {index + 1}")
-    return AfterStep(plan, index, sculpture_graph(plan.recipe.piece.after(index)))
+    loose = (
+        tuple(joint.end for joint in loose_joints(plan.recipe, index))
+        if plan.recipe.physics.traits.winds
+        else ()
+    )
+    return AfterStep(plan, index, sculpture_graph(plan.recipe.piece.after(index)), loose)
 
 
 def after_step_text(after: AfterStep) -> str:
@@ -99,8 +108,7 @@ def after_step_text(after: AfterStep) -> str:
     for strip in after.strips:
         lines += ["", f"balloon {strip.balloon}:", *bubble_lines(strip, after.made(strip))]
         lines.append(_left(after.left(strip)))
-    loose = [joint for joint in graph.joints if graph.springs_back(joint.index)]
-    held = "" if not loose else f"; free to spin: {', '.join(f'joint {joint.index}' for joint in loose)}"
+    held = f"; held by hand alone: {', '.join(map(str, after.loose))}" if after.loose else ""
     lines += ["", f"{ring_line(graph)}{held}", *joint_lines(graph), "", *caution_lines(after.cautions)]
     return "\n".join(lines) + "\n"
 
@@ -126,6 +134,7 @@ def after_step_json(after: AfterStep) -> dict[str, Any]:
             }
             for strip in after.strips
         ],
+        "loose": [str(end) for end in after.loose],
         "graph": graph_json(after.graph, winds=after.plan.recipe.physics.traits.winds),
         "cautions": [asdict(caution) for caution in after.cautions],
     }

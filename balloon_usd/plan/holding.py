@@ -10,14 +10,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from balloon_usd.operations.modifiers import Turned
-
 if TYPE_CHECKING:
     from balloon_usd.language.joint import Joint
     from balloon_usd.recipe import Recipe
-
-HOLDING_TURNS = 2.0
-"""Turns below which a twist unwinds: makers advise 2 to 4, three as a rule."""
 
 
 @dataclass(frozen=True)
@@ -32,14 +27,16 @@ class LooseJoint:
     """Bubbles that turn with what lies before it."""
 
 
-def loose_joints(recipe: Recipe) -> tuple[LooseJoint, ...]:
-    """Return the joints that untwist when the hands let go: neither friction nor a closed ring holds them."""
-    slipping = {
-        index
-        for index, step in enumerate(recipe.steps)
-        if isinstance(step, Turned) and step.turns < HOLDING_TURNS
-    }
-    piece = recipe.piece.after(len(recipe.steps), without=slipping)
+def slipping_steps(recipe: Recipe) -> frozenset[int]:
+    """Return the indices of steps of which nothing holds what they joined when the hands let go."""
+    return frozenset(index for index, step in enumerate(recipe.steps) if not step.holds)
+
+
+def loose_joints(recipe: Recipe, step: int) -> tuple[LooseJoint, ...]:
+    """Return the joints that untwist if the hands let go after a step of this index: neither friction nor a
+    closed ring holds them.
+    """
+    piece = recipe.piece.after(step, without=slipping_steps(recipe))
     return tuple(
         LooseJoint(before, piece.hangs_on(before), piece.hangs_on(after))
         for before, after in piece.free_joints(piece.bridges())

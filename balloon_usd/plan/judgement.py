@@ -10,8 +10,7 @@ from balloon_usd.balloon.bubble_shape import shortest_stable_bubble
 from balloon_usd.balloon.rubber import BURST_ENERGY, BURST_STRETCH
 from balloon_usd.language.lengths import at_least, cm
 from balloon_usd.operations.caution import Caution
-from balloon_usd.operations.modifiers import Turned
-from balloon_usd.plan.holding import HOLDING_TURNS
+from balloon_usd.operations.modifiers import HOLDING_TURNS, Turned
 from balloon_usd.plan.open_tube import softened
 
 if TYPE_CHECKING:

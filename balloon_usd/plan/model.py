@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from balloon_usd.plan.budget import budget_of
 from balloon_usd.plan.graph import sculpture_graph
-from balloon_usd.plan.holding import loose_joints
+from balloon_usd.plan.holding import loose_joints, slipping_steps
 from balloon_usd.plan.judgement import cautions_of
 from balloon_usd.plan.laid_out import LaidOut
 
@@ -47,7 +47,12 @@ class Plan:
     @cached_property
     def loose(self) -> tuple[LooseJoint, ...]:
         """Joints that untwist when the hands let go, in plan order."""
-        return loose_joints(self.recipe)
+        return loose_joints(self.recipe, len(self.recipe.steps))
+
+    @cached_property
+    def slipping(self) -> frozenset[int]:
+        """Indices of the steps of which nothing holds what they joined when the hands let go."""
+        return slipping_steps(self.recipe)
 
     @cached_property
     def budgets(self) -> dict[str, Budget]:

@@ -92,3 +92,21 @@ def test_the_drawing_shows_what_is_made(dog):
 def test_a_step_that_is_not_there_is_refused(dog):
     with pytest.raises(IndexError, match="figure has no step 8"):
         after_step(dog, 7)
+
+
+def test_what_a_lock_of_too_few_turns_joins_is_held_by_hand_alone(planned):
+    head = "balloons: {a: {size: 260, tail: 10}}\nsteps:\n- bubbles: {b: 8, c: 8, d: 8}\n- lock: [b, c, d]\n"
+    weak, firm = (after_step(planned(f"{head}  turns: {turns}\n"), 1) for turns in (1, 3))
+    assert weak.graph.rings == firm.graph.rings == 1
+    assert [str(end) for end in weak.loose] == ["b.end", "c.end", "d.end"]
+    assert firm.loose == ()
+    assert "held by hand alone: b.end, c.end, d.end" in after_step_text(weak)
+
+
+def test_nothing_untwists_where_joints_freeze(planned):
+    plan = planned("""
+        balloons: {a: {size: 260, capsule: 40}}
+        physics: {model: kosaka}
+        steps: [{bubbles: {one: 8}}]
+        """)
+    assert after_step(plan, 0).loose == ()

@@ -19,7 +19,6 @@ from numpy.typing import NDArray
 from balloon_usd.balloon.bubble_shape import neck_rubber
 from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.operations.moves import Weld
-from balloon_usd.plan.holding import HOLDING_TURNS
 from balloon_usd.plan.open_tube import softened
 from balloon_usd.solver.latex.hinge import Hinge
 
@@ -159,9 +158,9 @@ class Torsion:
     def let_go(self, struts: Struts) -> None:
         """Take the hands from a finished sculpture: locks of too few turns slip, lone twists spring back."""
         welds = [move for move in self.plan.choreography.moves if isinstance(move, Weld)]
-        slipping = [move for move in welds if move.turns < HOLDING_TURNS]
+        slipping = [move for move in welds if move.step in self.plan.slipping]
         if slipping:
-            self._slip(slipping, [move for move in welds if move.turns >= HOLDING_TURNS], struts)
+            self._slip(slipping, [move for move in welds if move.step not in self.plan.slipping], struts)
         found = [self._loosened(loose) for loose in self.plan.loose]
         # One after another: those of the fewest turns first, and those nearest to the tip.
         # Turns are added up frame by frame: rounding must not decide.
