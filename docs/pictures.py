@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 PICTURES = Path(__file__).parent / "pictures" / "operations"
 SIZE = ("300", "220")
 """Width and height of one frame, pixels."""
+MARGIN, GAP, TITLE = 24, 14, 56
+"""Of a contact sheet: round all, between frames, and height of the title, pixels."""
 COLORS, PASSES = 256, 4
 """In the palette of a picture, and passes that choose them: small files without steps in the shadows."""
 
@@ -41,13 +43,31 @@ def draw(words: Sequence[str], folder: Path) -> None:
     _call("run", *recipes, "-o", str(folder), "--device", "cpu", "--no-report", "--no-preview")
     PICTURES.mkdir(exist_ok=True)
     for word in words:
-        sheet = folder / f"{word}.png"
-        frames = ",".join(map(str, frames_of(plans[word], word)))
-        shown = ("--frames", frames, "--columns", "3", "--size", *SIZE, "--device", "cpu")
-        _call("preview", str(folder / plans[word].recipe.name), "-o", str(sheet), *shown)
-        with Image.open(sheet) as image:
-            few = image.convert("RGB").quantize(COLORS, kmeans=PASSES)
-            few.save(PICTURES / f"{word}.png", optimize=True)
+        stage, frames = folder / plans[word].recipe.name, frames_of(plans[word], word)
+        picture = _sheet(stage, frames, "three-quarter")
+        if plans[word].graph.rings:
+            # What closed rings make shows best from where the knot is.
+            picture = _beside(picture, _sheet(stage, frames[-1:], "front"))
+        picture.quantize(COLORS, kmeans=PASSES).save(PICTURES / f"{word}.png", optimize=True)
+
+
+def _sheet(stage: Path, frames: Sequence[int], view: str) -> Image.Image:
+    """Draw frames of a stage in a row."""
+    file = stage.with_name(f"{stage.name}_{view}.png")
+    shown = ("--frames", ",".join(map(str, frames)), "--columns", str(len(frames)), "--size", *SIZE)
+    _call("preview", str(stage), "-o", str(file), *shown, "--view", view, "--device", "cpu")
+    with Image.open(file) as image:
+        return image.convert("RGB")
+
+
+def _beside(sheet: Image.Image, more: Image.Image) -> Image.Image:
+    """Put one frame at the end of a row, without its title."""
+    begin = sheet.width - MARGIN + GAP
+    frame = more.crop((MARGIN, TITLE, *more.size))
+    both = Image.new("RGB", (begin + frame.width, sheet.height), sheet.getpixel((0, 0)))
+    both.paste(sheet, (0, 0))
+    both.paste(frame, (begin, TITLE))
+    return both
 
 
 def frames_of(plan: Plan, word: str) -> tuple[int, int, int]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from balloon_usd.solver.inside_walls import inside_walls
+from tests.inside_walls import inside_walls
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -18,7 +18,7 @@ format: 1
 name: bear_head
 units: cm
 balloons:
-  main: {size: 260, color: brown, length: 17, tail: 8}
+  main: {size: 260, color: brown, length: 15.5, tail: 7.5}
 steps:
   - bubbles: {left_cheek: 8}
   - ear: {left_ear: 4}

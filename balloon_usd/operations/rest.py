@@ -23,9 +23,9 @@ format: 1
 name: magnifier
 units: cm
 balloons:
-  main: {size: 260, color: red, length: 16, tail: 5}
+  main: {size: 260, color: red, length: 18, tail: 5}
 steps:
-  - loop: {glass: 25}
+  - loop: {glass: 34}
   - rest: handle
 """
     sources: ClassVar[tuple[str, ...]] = ("Kosaka 2008, fig. 2.4: the tail of the dog is what is left",)
