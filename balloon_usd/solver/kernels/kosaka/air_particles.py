@@ -2,8 +2,8 @@
 
 import warp as wp
 
-from balloon_usd.solver.kernels.arrays.kosaka import Faces, Net, Particles
-from balloon_usd.solver.kernels.arrays.rows import Constants
+from balloon_usd.solver.kernels.arrays.kosaka import Particles
+from balloon_usd.solver.kernels.arrays.rows import Constants, Drift
 from balloon_usd.solver.kernels.kosaka.drift import drift_at, gain_at, kept_in
 
 NEAREST = wp.constant(1.0e-6)
@@ -49,11 +49,11 @@ def repel_air(
 
 
 @wp.kernel
-def move_air(dt: float, net: Net, particles: Particles, faces: Faces):
+def move_air(dt: float, constants: wp.array[Constants], particles: Particles, drifts: wp.array[Drift]):
     """Move every particle by symplectic Euler (Kosaka 2008, eqs. 3.20 and 3.21), its speed limited."""
     a = wp.tid()
-    law = net.constants[particles.air_balloon[a]]
-    drift = faces.drifts[particles.air_cluster[a]]
+    law = constants[particles.air_balloon[a]]
+    drift = drifts[particles.air_cluster[a]]
     against = particles.air_speed[a] - drift_at(drift, particles.air[a])
     u = (
         particles.air_speed[a]

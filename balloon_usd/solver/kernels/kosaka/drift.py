@@ -4,9 +4,9 @@ air and wall along by its joints.
 
 import warp as wp
 
-from balloon_usd.solver.kernels.arrays.kosaka import Faces, Net
+from balloon_usd.solver.kernels.arrays.kosaka import Net
 from balloon_usd.solver.kernels.arrays.rows import Drift
-from balloon_usd.solver.kernels.arrays.shared import Joints, Mesh, State
+from balloon_usd.solver.kernels.arrays.shared import Joints, Mesh
 
 
 @wp.func
@@ -65,7 +65,9 @@ def ring_mean(x: wp.array[wp.vec3], first: int, around: int):
 
 
 @wp.kernel
-def cluster_drift(interval: float, mesh: Mesh, net: Net, joints: Joints, faces: Faces, state: State):
+def cluster_drift(
+    interval: float, mesh: Mesh, net: Net, joints: Joints, drifts: wp.array[Drift], x: wp.array[wp.vec3]
+):
     """Write how every cluster drifts: with its frozen joints, or not at all if it has none; and where these
     keep its air in.
 
@@ -84,7 +86,7 @@ def cluster_drift(interval: float, mesh: Mesh, net: Net, joints: Joints, faces: 
         drift.end_speed = joints.ring_velocity[last_joint]
         drift.start_speed = drift.end_speed
         n = joints.joint_around[last_joint]
-        drift.end_inward = wp.normalize(ring_mean(state.x, joints.joint_first[last_joint] - n, n) - drift.end)
+        drift.end_inward = wp.normalize(ring_mean(x, joints.joint_first[last_joint] - n, n) - drift.end)
         drift.neck = net.joint_neck[last_joint]
     if first_joint >= 0:
         if net.frozen[first_joint] == 1:
@@ -93,16 +95,16 @@ def cluster_drift(interval: float, mesh: Mesh, net: Net, joints: Joints, faces: 
             drift.start_speed = joints.ring_velocity[first_joint]
             m = joints.joint_around[first_joint]
             drift.start_inward = wp.normalize(
-                ring_mean(state.x, joints.joint_first[first_joint] + m, m) - drift.start
+                ring_mean(x, joints.joint_first[first_joint] + m, m) - drift.start
             )
             drift.neck = net.joint_neck[first_joint]
             if last_joint < 0:
                 drift.end_speed = drift.start_speed
-    before = faces.drifts[s]
+    before = drifts[s]
     if before.joints[0] == drift.joints[0] and before.joints[1] == drift.joints[1]:
         drift.start_gain = (drift.start_speed - before.start_speed) / interval
         drift.end_gain = (drift.end_speed - before.end_speed) / interval
-    faces.drifts[s] = drift
+    drifts[s] = drift
 
 
 @wp.kernel

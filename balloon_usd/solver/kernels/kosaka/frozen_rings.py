@@ -34,7 +34,7 @@ def move_rubber(
     mesh: Mesh,
     balloons: Balloons,
     net: Net,
-    joints: Joints,
+    ring_middle: wp.array[wp.vec3],
     hands: Hands,
     faces: Faces,
     state: State,
@@ -54,7 +54,7 @@ def move_rubber(
             return
         if hands.radius_to[j] > 0.0:
             radius = hands.radius_from[j] + fraction * (hands.radius_to[j] - hands.radius_from[j])
-            f += pinch_force(state.x[i], state.v[i], joints.ring_middle[j], radius, f, law.force_limit, dt)
+            f += pinch_force(state.x[i], state.v[i], ring_middle[j], radius, f, law.force_limit, dt)
     velocity = state.v[i] + f * dt
     state.v[i] = velocity
     state.x_next[i] = state.x[i] + velocity * dt

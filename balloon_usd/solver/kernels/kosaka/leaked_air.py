@@ -4,8 +4,8 @@ thesis has only offset regions (Kosaka 2008, 3.4).
 
 import warp as wp
 
-from balloon_usd.solver.kernels.arrays.kosaka import Faces, Net, Particles
-from balloon_usd.solver.kernels.arrays.shared import Mesh, State
+from balloon_usd.solver.kernels.arrays.kosaka import Faces, Particles
+from balloon_usd.solver.kernels.arrays.rows import Constants
 from balloon_usd.solver.kernels.kosaka.offset_regions import UNSEEN, plane_normal, triangle
 
 AFAR = wp.constant(9.0)
@@ -52,7 +52,13 @@ def spread_over(number: int, a: wp.vec3, b: wp.vec3, c: wp.vec3):
 
 
 @wp.kernel
-def find_leaked_air(mesh: Mesh, net: Net, particles: Particles, faces: Faces, state: State):
+def find_leaked_air(
+    quads: wp.array[wp.vec4i],
+    constants: wp.array[Constants],
+    particles: Particles,
+    faces: Faces,
+    x: wp.array[wp.vec3],
+):
     """Bring every particle round which its bubble's wall does not wind back behind the nearest face of its
     own, at rest.
 
@@ -66,11 +72,11 @@ def find_leaked_air(mesh: Mesh, net: Net, particles: Particles, faces: Faces, st
     face = int(-1)
     for q in range(faces.balloon_quads[balloon] + lane, faces.balloon_quads[balloon + 1], wp.block_dim()):
         if faces.quad_cluster[q] == particles.air_cluster[p]:
-            c = mesh.quads[q]
-            x0 = state.x[c[0]]
-            x1 = state.x[c[1]]
-            x2 = state.x[c[2]]
-            x3 = state.x[c[3]]
+            c = quads[q]
+            x0 = x[c[0]]
+            x1 = x[c[1]]
+            x2 = x[c[2]]
+            x3 = x[c[3]]
             turns += seen_half(here, x0, x1, x2, x3)
             far = wp.length_sq(0.25 * (x0 + x1 + x2 + x3) - here)
             if far < nearest:
@@ -82,11 +88,11 @@ def find_leaked_air(mesh: Mesh, net: Net, particles: Particles, faces: Faces, st
     # Ties go to the lowest lane.
     chosen = wp.tile_min(wp.tile(wp.where(nearest == least_far, lane, wp.block_dim())))[0]
     if lane == chosen and wound < wp.pi and face >= 0:
-        f = triangle(mesh.quads, 2 * face + (p + particles.repairs[p]) % 2)
-        first = state.x[f[0]]
-        second = state.x[f[1]]
-        third = state.x[f[2]]
-        behind = net.constants[balloon].gamma * plane_normal(first, second, third)
+        f = triangle(quads, 2 * face + (p + particles.repairs[p]) % 2)
+        first = x[f[0]]
+        second = x[f[1]]
+        third = x[f[2]]
+        behind = constants[balloon].gamma * plane_normal(first, second, third)
         particles.air[p] = spread_over(p + particles.repairs[p], first, second, third) - behind
         particles.air_speed[p] = wp.vec3(0.0)
         particles.repairs[p] = particles.repairs[p] + 1

@@ -7,8 +7,9 @@ block has one lane, which queries all.
 
 import warp as wp
 
-from balloon_usd.solver.kernels.arrays.kosaka import Faces, Net, Particles
-from balloon_usd.solver.kernels.arrays.shared import Balloons, Contacts, Mesh, State
+from balloon_usd.solver.kernels.arrays.kosaka import Faces, Particles
+from balloon_usd.solver.kernels.arrays.rows import Constants
+from balloon_usd.solver.kernels.arrays.shared import Mesh
 from balloon_usd.solver.kernels.device.warp_reduce import WARP
 from balloon_usd.solver.kernels.kosaka.offset_regions import (
     FLAT,
@@ -87,12 +88,18 @@ def may_meet(
 
 
 @wp.kernel
-def near_air(grid: wp.uint64, margin: float, balloons: Balloons, net: Net, particles: Particles):
+def near_air(
+    grid: wp.uint64,
+    margin: float,
+    balloon_world: wp.array[int],
+    constants: wp.array[Constants],
+    particles: Particles,
+):
     """List the particles of the same cluster within reach of every particle."""
     a, lane = wp.tid()
     here = particles.air[a]
-    world = balloons.balloon_world[particles.air_balloon[a]]
-    reach = net.constants[particles.air_balloon[a]].re + margin
+    world = balloon_world[particles.air_balloon[a]]
+    reach = constants[particles.air_balloon[a]].re + margin
     boxes = boxes_for(wp.block_dim())
     capacity = particles.neighbours.shape[1] // wp.block_dim()
     count = int(0)
@@ -121,13 +128,13 @@ def near_faces(
     grid: wp.uint64,
     margin: float,
     quad_half: float,
-    mesh: Mesh,
-    balloons: Balloons,
-    net: Net,
-    contacts: Contacts,
+    quads: wp.array[wp.vec4i],
+    balloon_world: wp.array[int],
+    constants: wp.array[Constants],
+    quad_middle: wp.array[wp.vec3],
     particles: Particles,
     faces: Faces,
-    state: State,
+    x: wp.array[wp.vec3],
 ):
     """List the triangles of the same cluster whose offset regions every particle may enter.
 
@@ -135,8 +142,8 @@ def near_faces(
     """
     p, lane = wp.tid()
     here = particles.air[p]
-    law = net.constants[particles.air_balloon[p]]
-    world = balloons.balloon_world[particles.air_balloon[p]]
+    law = constants[particles.air_balloon[p]]
+    world = balloon_world[particles.air_balloon[p]]
     wider = (1.0 + 3.0 * WIDER_OUTSIDE) * quad_half + margin
     deep = wp.max(law.air_offset, law.leak_offset) + margin
     reach = wp.sqrt(deep * deep + wider * wider)
@@ -148,18 +155,18 @@ def near_faces(
         query = wp.hash_grid_query(grid, middle, reach / float(boxes), world)
         q = int(0)
         while wp.hash_grid_query_next(query, q):
-            d = contacts.quad_middle[q] - here
+            d = quad_middle[q] - here
             if wp.length_sq(d) < reach * reach and faces.quad_cluster[q] == particles.air_cluster[p]:
                 if box_of(d, boxes, reach) == lane:
                     for half in range(2):
                         t = 2 * q + half
-                        f = triangle(mesh.quads, t)
+                        f = triangle(quads, t)
                         if may_meet(
                             here,
                             faces.face_normal[t],
-                            state.x[f[0]],
-                            state.x[f[1]],
-                            state.x[f[2]],
+                            x[f[0]],
+                            x[f[1]],
+                            x[f[2]],
                             law.air_offset,
                             law.leak_offset,
                             margin,
@@ -178,11 +185,11 @@ def near_faces_air(
     margin: float,
     quad_half: float,
     mesh: Mesh,
-    net: Net,
-    contacts: Contacts,
+    constants: wp.array[Constants],
+    quad_middle: wp.array[wp.vec3],
     particles: Particles,
     faces: Faces,
-    state: State,
+    x: wp.array[wp.vec3],
 ):
     """List the particles of the same cluster that may enter the inner offset regions of every quad's
     triangles.
@@ -191,12 +198,12 @@ def near_faces_air(
     """
     q, lane = wp.tid()
     c = mesh.quads[q]
-    law = net.constants[mesh.quad_balloon[q]]
+    law = constants[mesh.quad_balloon[q]]
     wider = (1.0 + 3.0 * WIDER_OUTSIDE) * quad_half + margin
     # Bounding ball of the inner region.
     half = 0.5 * law.air_offset + margin
-    normal = wp.normalize(wp.cross(state.x[c[2]] - state.x[c[0]], state.x[c[3]] - state.x[c[1]]))
-    here = contacts.quad_middle[q] - (0.5 * law.air_offset) * normal
+    normal = wp.normalize(wp.cross(x[c[2]] - x[c[0]], x[c[3]] - x[c[1]]))
+    here = quad_middle[q] - (0.5 * law.air_offset) * normal
     reach = wp.sqrt(half * half + wider * wider)
     boxes = boxes_for(wp.block_dim())
     capacity = faces.face_air.shape[1] // wp.block_dim()
@@ -212,9 +219,9 @@ def near_faces_air(
                     first = may_meet(
                         particles.air[p],
                         faces.face_normal[2 * q],
-                        state.x[c[0]],
-                        state.x[c[1]],
-                        state.x[c[2]],
+                        x[c[0]],
+                        x[c[1]],
+                        x[c[2]],
                         law.air_offset,
                         0.0,
                         margin,
@@ -222,9 +229,9 @@ def near_faces_air(
                     second = may_meet(
                         particles.air[p],
                         faces.face_normal[2 * q + 1],
-                        state.x[c[0]],
-                        state.x[c[2]],
-                        state.x[c[3]],
+                        x[c[0]],
+                        x[c[2]],
+                        x[c[3]],
                         law.air_offset,
                         0.0,
                         margin,

@@ -6,9 +6,9 @@ Every quad is two triangles: triangle 2 q has its corners 0, 1, 2, and 2 q + 1 i
 
 import warp as wp
 
-from balloon_usd.solver.kernels.arrays.kosaka import Faces, Net, Particles
+from balloon_usd.solver.kernels.arrays.kosaka import Faces, Particles
 from balloon_usd.solver.kernels.arrays.rows import Constants
-from balloon_usd.solver.kernels.arrays.shared import Mesh, State
+from balloon_usd.solver.kernels.arrays.shared import Mesh
 
 REACHES_OVER = 0.5
 WIDER = wp.constant(REACHES_OVER)
@@ -127,17 +127,19 @@ def push_shares(p: wp.vec3, normal: wp.vec3, a: wp.vec3, b: wp.vec3, c: wp.vec3,
 
 
 @wp.kernel
-def press_faces(mesh: Mesh, net: Net, particles: Particles, faces: Faces, state: State):
+def press_faces(
+    mesh: Mesh, constants: wp.array[Constants], particles: Particles, faces: Faces, x: wp.array[wp.vec3]
+):
     """Write how much all air pushes on the three vertices of every triangle along its normal, in units of the
     push (Kosaka 2008, eqs. 3.7 to 3.10), and add up how many particles do.
     """
     q, lane = wp.tid()
     c = mesh.quads[q]
-    x0 = state.x[c[0]]
-    x1 = state.x[c[1]]
-    x2 = state.x[c[2]]
-    x3 = state.x[c[3]]
-    law = net.constants[mesh.quad_balloon[q]]
+    x0 = x[c[0]]
+    x1 = x[c[1]]
+    x2 = x[c[2]]
+    x3 = x[c[3]]
+    law = constants[mesh.quad_balloon[q]]
     first = wp.vec4(0.0)
     second = wp.vec4(0.0)
     begin = lane * (faces.face_air.shape[1] // wp.block_dim())
@@ -198,14 +200,20 @@ def press_vertices(
 
 
 @wp.kernel
-def press_air(mesh: Mesh, net: Net, particles: Particles, faces: Faces, state: State):
+def press_air(
+    quads: wp.array[wp.vec4i],
+    constants: wp.array[Constants],
+    particles: Particles,
+    faces: Faces,
+    x: wp.array[wp.vec3],
+):
     """Write the push D_a (m/s2) of the rubber on every particle (Kosaka 2008, eqs. 3.12 and 3.17) and bring
     leaked ones back, their velocity reset (eqs. 3.13 and 3.18).
 
     A particle has leaked when of all triangles in whose regions it is the nearest is in its back.
     """
     p, lane = wp.tid()
-    law = net.constants[particles.air_balloon[p]]
+    law = constants[particles.air_balloon[p]]
     here = particles.air[p]
     total = wp.vec3(0.0)
     nearest = float(UNSEEN)
@@ -214,12 +222,12 @@ def press_air(mesh: Mesh, net: Net, particles: Particles, faces: Faces, state: S
     for k in range(begin, begin + particles.air_face_count[p, lane]):
         t = particles.air_faces[p, k]
         if faces.quad_cluster[t // 2] == particles.air_cluster[p]:
-            f = triangle(mesh.quads, t)
+            f = triangle(quads, t)
             normal = faces.face_normal[t]
-            a = state.x[f[0]]
+            a = x[f[0]]
             d = plane_distance(here, a, normal)
             if d > -law.air_offset and d < law.leak_offset:
-                beside = least(shares(onto_plane(here, a, normal), a, state.x[f[1]], state.x[f[2]]))
+                beside = least(shares(onto_plane(here, a, normal), a, x[f[1]], x[f[2]]))
                 if beside > wp.where(d < 0.0, -WIDER, -WIDER_OUTSIDE):
                     if d < 0.0:
                         total -= (law.beta * grade(-d / law.air_offset, beside, law.grading)) * normal
@@ -240,7 +248,7 @@ def press_air(mesh: Mesh, net: Net, particles: Particles, faces: Faces, state: S
 
 
 @wp.kernel
-def cluster_pressures(substeps: float, mesh: Mesh, faces: Faces, state: State):
+def cluster_pressures(substeps: float, mesh: Mesh, faces: Faces, x: wp.array[wp.vec3]):
     """Write the gauge pressure (Pa) of every cluster from what pushed on its wall during a frame.
 
     `pressure_per_hit`: Pa that one particle per wall area (1/m2) stands for, of every balloon.
@@ -253,7 +261,7 @@ def cluster_pressures(substeps: float, mesh: Mesh, faces: Faces, state: State):
         if faces.quad_cluster[q] == s:
             c = mesh.quads[q]
             hits += faces.face_hits[2 * q] + faces.face_hits[2 * q + 1]
-            area += 0.5 * wp.length(wp.cross(state.x[c[2]] - state.x[c[0]], state.x[c[3]] - state.x[c[1]]))
+            area += 0.5 * wp.length(wp.cross(x[c[2]] - x[c[0]], x[c[3]] - x[c[1]]))
             unit = wp.max(unit, faces.pressure_per_hit[mesh.quad_balloon[q]])
     all_hits = wp.tile_sum(wp.tile(hits))[0]
     all_area = wp.tile_sum(wp.tile(area))[0]

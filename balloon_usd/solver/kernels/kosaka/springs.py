@@ -3,7 +3,7 @@
 import warp as wp
 
 from balloon_usd.solver.kernels.arrays.kosaka import Net
-from balloon_usd.solver.kernels.arrays.shared import Balloons, Checks, Hands, Mesh, State
+from balloon_usd.solver.kernels.arrays.shared import Balloons, Checks, Mesh, State
 from balloon_usd.solver.kernels.physics.suspects import check_vertex
 
 SHORTEST = wp.constant(1.0e-9)
@@ -33,10 +33,10 @@ def calming_force(x1: wp.vec3, x2: wp.vec3, v1: wp.vec3, v2: wp.vec3, calming: f
 
 
 @wp.kernel
-def pull_springs(mesh: Mesh, net: Net, state: State):
+def pull_springs(vertex_balloon: wp.array[int], net: Net, state: State):
     """Write the force (m/s2) of all springs on every vertex (Kosaka 2008, eq. 3.19)."""
     i = wp.tid()
-    law = net.constants[mesh.vertex_balloon[i]]
+    law = net.constants[vertex_balloon[i]]
     ends = net.spring_ends[i]
     lengths = net.natural[i]
     total = wp.vec3(0.0)
@@ -60,8 +60,8 @@ def limit_elongation(
     x_next: wp.array[wp.vec3],
     mesh: Mesh,
     net: Net,
-    hands: Hands,
-    state: State,
+    radius_to: wp.array[float],
+    v: wp.array[wp.vec3],
 ):
     """Draw together the ends of springs that are longer than allowed, so that a sudden force cannot tear
     the net (Kosaka 2008, 3.1); both ends move alike, but for those that a hand closes or that are frozen.
@@ -70,7 +70,7 @@ def limit_elongation(
     p = x[i]
     j = mesh.vertex_joint[i]
     if j >= 0:
-        if hands.radius_to[j] > 0.0:
+        if radius_to[j] > 0.0:
             x_next[i] = p
             return
     most = 1.0 + net.constants[mesh.vertex_balloon[i]].elongation_limit
@@ -87,10 +87,10 @@ def limit_elongation(
                 other = mesh.vertex_joint[ends[k]]
                 if other >= 0:
                     # The other end does not give way.
-                    share = wp.where(hands.radius_to[other] > 0.0, 1.0, HALF_EACH)
+                    share = wp.where(radius_to[other] > 0.0, 1.0, HALF_EACH)
                 shift += (share * excess / wp.max(size, SHORTEST)) * d
     x_next[i] = p + shift
-    state.v[i] = state.v[i] + shift / dt
+    v[i] = v[i] + shift / dt
 
 
 @wp.kernel

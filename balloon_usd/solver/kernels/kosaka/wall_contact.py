@@ -2,8 +2,8 @@
 
 import warp as wp
 
-from balloon_usd.solver.kernels.arrays.kosaka import Net
-from balloon_usd.solver.kernels.arrays.shared import Contacts, Hands, Mesh, State
+from balloon_usd.solver.kernels.arrays.rows import Constants
+from balloon_usd.solver.kernels.arrays.shared import Contacts, Mesh, State
 from balloon_usd.solver.kernels.kosaka.offset_regions import (
     WIDER,
     least,
@@ -31,7 +31,9 @@ def onto_wall(r: wp.vec3, normal_r: wp.vec3, a: wp.vec3, b: wp.vec3, c: wp.vec3,
 
 
 @wp.kernel
-def part_walls(mesh: Mesh, net: Net, hands: Hands, contacts: Contacts, state: State):
+def part_walls(
+    mesh: Mesh, constants: wp.array[Constants], radius_to: wp.array[float], contacts: Contacts, state: State
+):
     """Move every vertex that lies inside a wall onto it (Kosaka 2008, eq. 3.15), and take from its velocity
     what would carry it in again; only the vertex's own velocity is changed. Necks stay where hands closed
     them.
@@ -39,10 +41,10 @@ def part_walls(mesh: Mesh, net: Net, hands: Hands, contacts: Contacts, state: St
     i = wp.tid()
     j = mesh.vertex_joint[i]
     if j >= 0:
-        if hands.radius_to[j] > 0.0:
+        if radius_to[j] > 0.0:
             state.x_next[i] = state.x[i]
             return
-    thickness = net.constants[mesh.vertex_balloon[i]].contact_offset
+    thickness = constants[mesh.vertex_balloon[i]].contact_offset
     p = state.x[i]
     u = state.v[i]
     for k in range(2):

@@ -230,7 +230,7 @@ def may_meet(q: int, seeker: Seeker, mesh: Mesh):
 
 
 @wp.kernel
-def find_own_walls(touch: Touch, mesh: Mesh, balloons: Balloons, contacts: Contacts):
+def find_own_walls(touch: Touch, mesh: Mesh, balloons: Balloons, vertex_own: wp.array[wp.vec2i]):
     """Write for every vertex the first and the end of a run of quads about it that it never touches."""
     i = wp.tid()
     seeker = seeker_of(i, touch, mesh, balloons)
@@ -243,7 +243,7 @@ def find_own_walls(touch: Touch, mesh: Mesh, balloons: Balloons, contacts: Conta
     end = int(middle)
     while end <= last and not may_meet(wp.min(end, last), seeker, mesh):
         end += 1
-    contacts.vertex_own[i] = wp.vec2i(begin, end)
+    vertex_own[i] = wp.vec2i(begin, end)
 
 
 @wp.func

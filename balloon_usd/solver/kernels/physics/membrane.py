@@ -272,7 +272,12 @@ def stretch_of_quad(
 
 @wp.kernel
 def vertex_stretch(
-    travel_limit: float, mesh: Mesh, balloons: Balloons, rubber: Rubber, checks: Checks, state: State
+    travel_limit: float,
+    mesh: Mesh,
+    balloons: Balloons,
+    rest_inverse: wp.array[wp.mat22],
+    checks: Checks,
+    state: State,
 ):
     """Write the largest principal stretch of the wall at every vertex, the mean over its quads, and mark the
     sculptures in which something may be wrong.
@@ -285,7 +290,7 @@ def vertex_stretch(
         slots = vec4i_at(mesh.corners, row)
         for k in range(4):
             if slots[k] >= 0:
-                total += stretch_of_quad(slots[k] // 4, mesh.quads, rubber.rest_inverse, state.x)
+                total += stretch_of_quad(slots[k] // 4, mesh.quads, rest_inverse, state.x)
                 count += 1.0
         row = -2 - slots[3]
     mean = total / wp.max(count, 1.0)

@@ -2,7 +2,6 @@
 
 import warp as wp
 
-from balloon_usd.solver.kernels.arrays.latex import Forces
 from balloon_usd.solver.kernels.arrays.shared import Contacts, Mesh, State
 from balloon_usd.solver.kernels.device.array_access import int_at, int_in, put_float, vec3_at, vec4i_at
 from balloon_usd.solver.kernels.device.soa import load_soa
@@ -46,7 +45,7 @@ def load_of_vertex(i: int, shared: int, mesh: Mesh, contacts: Contacts, state: S
 
 
 @wp.kernel
-def wall_loads(mesh: Mesh, contacts: Contacts, forces: Forces, state: State):
+def wall_loads(mesh: Mesh, contacts: Contacts, wall_load: wp.array[float], state: State):
     """Write the sum of all normal contact forces (N) on the wall of every segment, in a fixed order; a warp
     of lanes each on a GPU.
 
@@ -65,4 +64,4 @@ def wall_loads(mesh: Mesh, contacts: Contacts, forces: Forces, state: State):
             total += load_of_vertex(c[k], 0, mesh, contacts, state)
     total = warp_sum(total)
     if lane == 0:
-        put_float(forces.wall_load, s, total)
+        put_float(wall_load, s, total)
