@@ -4,7 +4,6 @@ thesis has only offset regions (Kosaka 2008, 3.4).
 
 import warp as wp
 
-from balloon_usd.solver.kernels.arrays.kosaka import Faces, Particles
 from balloon_usd.solver.kernels.arrays.rows import Constants
 from balloon_usd.solver.kernels.kosaka.offset_regions import UNSEEN, plane_normal, triangle
 
@@ -54,31 +53,34 @@ def spread_over(number: int, a: wp.vec3, b: wp.vec3, c: wp.vec3):
 @wp.kernel
 def find_leaked_air(
     quads: wp.array[wp.vec4i],
+    quad_cluster: wp.array[int],
+    balloon_quads: wp.array[int],
+    air_balloon: wp.array[int],
     constants: wp.array[Constants],
-    particles: Particles,
-    faces: Faces,
+    air_cluster: wp.array[int],
     x: wp.array[wp.vec3],
+    air: wp.array[wp.vec3],
+    air_speed: wp.array[wp.vec3],
+    repairs: wp.array[int],
 ):
     """Bring every particle round which its bubble's wall does not wind back behind the nearest face of its
     own, at rest.
 
     `balloon_quads`: first quad of every balloon, and their number.
+    Flat arguments, as it goes through all quads for every particle: with structs it took 4 to 7 % longer on
+    a CPU.
     """
     p, lane = wp.tid()
-    balloon = particles.air_balloon[p]
-    here = particles.air[p]
+    balloon = air_balloon[p]
+    here = air[p]
     turns = float(0.0)
     nearest = float(UNSEEN)
     face = int(-1)
-    for q in range(faces.balloon_quads[balloon] + lane, faces.balloon_quads[balloon + 1], wp.block_dim()):
-        if faces.quad_cluster[q] == particles.air_cluster[p]:
+    for q in range(balloon_quads[balloon] + lane, balloon_quads[balloon + 1], wp.block_dim()):
+        if quad_cluster[q] == air_cluster[p]:
             c = quads[q]
-            x0 = x[c[0]]
-            x1 = x[c[1]]
-            x2 = x[c[2]]
-            x3 = x[c[3]]
-            turns += seen_half(here, x0, x1, x2, x3)
-            far = wp.length_sq(0.25 * (x0 + x1 + x2 + x3) - here)
+            turns += seen_half(here, x[c[0]], x[c[1]], x[c[2]], x[c[3]])
+            far = wp.length_sq(0.25 * (x[c[0]] + x[c[1]] + x[c[2]] + x[c[3]]) - here)
             if far < nearest:
                 nearest = far
                 face = q
@@ -88,11 +90,9 @@ def find_leaked_air(
     # Ties go to the lowest lane.
     chosen = wp.tile_min(wp.tile(wp.where(nearest == least_far, lane, wp.block_dim())))[0]
     if lane == chosen and wound < wp.pi and face >= 0:
-        f = triangle(quads, 2 * face + (p + particles.repairs[p]) % 2)
-        first = x[f[0]]
-        second = x[f[1]]
-        third = x[f[2]]
-        behind = constants[balloon].gamma * plane_normal(first, second, third)
-        particles.air[p] = spread_over(p + particles.repairs[p], first, second, third) - behind
-        particles.air_speed[p] = wp.vec3(0.0)
-        particles.repairs[p] = particles.repairs[p] + 1
+        f = triangle(quads, 2 * face + (p + repairs[p]) % 2)
+        normal = plane_normal(x[f[0]], x[f[1]], x[f[2]])
+        behind = constants[balloon].gamma * normal
+        air[p] = spread_over(p + repairs[p], x[f[0]], x[f[1]], x[f[2]]) - behind
+        air_speed[p] = wp.vec3(0.0)
+        repairs[p] = repairs[p] + 1
