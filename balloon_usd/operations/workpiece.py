@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from balloon_usd.language.joint import Joint
+from balloon_usd.operations.connections import Connections
 from balloon_usd.operations.disjoint_sets import DisjointSets
 
 if TYPE_CHECKING:
     from collections.abc import Container, Iterable, Mapping, Sequence
-
-    import networkx as nx
 
 ContactKind = Literal["roll", "push", "tuck", "thread"]
 PASSING = ("push", "thread")
@@ -76,12 +76,6 @@ class Workpiece:
         self._joints: DisjointSets[Joint] = DisjointSets()
         self._brought: set[Joint] = set()
         """Ends that a step brought together with others."""
-        self._network: nx.MultiGraph[Joint] | None = None
-        """See `_graph`; made when it is asked for."""
-
-    def __getstate__(self) -> dict[str, Any]:
-        """Leave out what can be made again: other processes need no graph library to read a plan."""
-        return self.__dict__ | {"_network": None}
 
     # Effects.
 
@@ -114,7 +108,6 @@ class Workpiece:
         elif isinstance(event, Cut):
             self._cut(event.end)
         self.history.append(event)
-        self._network = None
 
     def _make(self, made: Made) -> None:
         trails = self._trails[made.balloon]
@@ -227,28 +220,17 @@ class Workpiece:
 
     def is_closed(self, bubbles: Iterable[str]) -> bool:
         """Whether bubbles form one closed ring by now, such as a loop, or the two of a lock twist."""
-        import networkx as nx  # noqa: PLC0415  # slow to import, and a simulation needs none
-
-        ring: nx.MultiGraph[Joint] = nx.MultiGraph()
-        for bubble in bubbles:
-            start, stop = self._ends(bubble)
-            ring.add_edge(start, stop, key=bubble)
-        return len(ring) > 0 and nx.is_connected(ring) and all(degree == 2 for _, degree in ring.degree)
+        ends = {bubble: self._ends(bubble) for bubble in bubbles}
+        meeting = Counter(joint for joints in ends.values() for joint in joints)
+        return len(Connections(ends).pieces()) == 1 and set(meeting.values()) == {2}
 
     def bridges(self) -> frozenset[str]:
         """Return the bubbles that belong to no closed ring."""
-        import networkx as nx  # noqa: PLC0415
-
-        found: Iterable[Any] = nx.bridges(self._graph) if self._made else ()
-        parting = {frozenset(ends) for ends in found}
-        return frozenset(b for u, v, b in self._graph.edges(keys=True) if frozenset((u, v)) in parting)
+        return self._connections.bridges()
 
     def pieces(self) -> list[frozenset[str]]:
         """Return the bubbles of each connected piece, in the order of their first ones."""
-        import networkx as nx  # noqa: PLC0415
-
-        found = nx.connected_components(self._graph)
-        return [frozenset(bubble for *_, bubble in self._graph.edges(ends, keys=True)) for ends in found]
+        return self._connections.pieces()
 
     def free_joints(self, bridges: frozenset[str]) -> list[tuple[Joint, ...]]:
         """Return the joints that unwind when they are let go.
@@ -268,12 +250,7 @@ class Workpiece:
 
     def hangs_on(self, end: Joint) -> frozenset[str]:
         """Return what hangs on one end of a bubble: all other bubbles that come along when it is moved."""
-        import networkx as nx  # noqa: PLC0415
-
-        rest = self._graph.copy()
-        rest.remove_edge(*self._ends(end.bubble), end.bubble)
-        reached = nx.node_connected_component(rest, self._joints.root(end))
-        return frozenset(bubble for *_, bubble in rest.edges(reached, keys=True))
+        return self._connections.reached(self._joints.root(end), without=end.bubble)
 
     def through(self, bubbles: Iterable[str]) -> frozenset[str]:
         """Return the bubbles that go through a ring of these."""
@@ -281,17 +258,9 @@ class Workpiece:
         return frozenset(c.bubble for c in self.contacts if c.kind in PASSING and c.other in ring)
 
     @property
-    def _graph(self) -> nx.MultiGraph[Joint]:
-        """Joints as nodes, each named by one of its ends, and bubbles as edges between them."""
-        import networkx as nx  # noqa: PLC0415
-
-        if self._network is None:
-            self._network = nx.MultiGraph()
-            for bubble in (bubble for trail in self.trails for bubble in trail):
-                start, stop = self._ends(bubble)
-                self._network.add_edge(start, stop, key=bubble)
-        return self._network
+    def _connections(self) -> Connections:
+        return Connections({bubble: self._ends(bubble) for trail in self.trails for bubble in trail})
 
     def _ends(self, bubble: str) -> tuple[Joint, Joint]:
-        """Return the nodes of a bubble's start and end."""
+        """Return the joints of a bubble's start and end, each named by one of its ends."""
         return self._joints.root(Joint(bubble, "start")), self._joints.root(Joint(bubble, "end"))

@@ -8,7 +8,6 @@ import networkx as nx
 import pytest
 
 from balloon_usd.plan import plan
-from balloon_usd.plan.holding import loose_joints
 from balloon_usd.recipe import Recipe
 
 BOOK = Path(__file__).parents[2] / "recipes" / "book"
@@ -40,7 +39,7 @@ def test_a_recipe_of_the_book_is_planned_and_says_what_it_is_and_where_it_is_fro
 
 @pytest.mark.parametrize("path", RECIPES, ids=lambda path: path.stem)
 def test_every_twist_of_the_book_holds_but_that_between_two_kissing_noses(path: Path) -> None:
-    loose = [str(joint.end) for joint in loose_joints(Recipe.load(path))]
+    loose = [str(joint.end) for joint in plan(Recipe.load(path)).loose]
     assert loose == (["her_nose.end"] if path.stem == "kissing_poodles" else [])
 
 
