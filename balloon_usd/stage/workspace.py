@@ -51,6 +51,12 @@ class Workspace:
         """Where the asset is built: a path that does not exist at first."""
         return self._folder / self._place.name
 
+    def rename(self, final: Path) -> None:
+        """Give the built asset another final name; raises `StageError` when that cannot be."""
+        with writing(final):
+            before, self.final, self._place = self.built, final, final.resolve()
+            before.rename(self.built)
+
     def publish(self, beside: Iterable[str] = ()) -> None:
         """Give the built asset its final name, and before that those built beside it; raises `StageError`.
 
