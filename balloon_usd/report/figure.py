@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from balloon_usd.report.axis import time_axis
 from balloon_usd.report.labels import rows_for
-from balloon_usd.report.palette import INK, PALE_INK, PAPER, STEP_RULE, bubble_color
+from balloon_usd.report.palette import ALARM, INK, PALE_INK, PAPER, STEP_RULE, bubble_color
 from balloon_usd.report.panel import (
     LABEL_HEIGHT,
     LEADER,
@@ -74,7 +74,7 @@ def draw_figure(history: History, *, detail: str, failed: str = "") -> Image.Ima
         top += height + BETWEEN
     _write_times(paper, across, bottom)
     if failed:
-        paper.text((MARGIN, bottom + 28), _cut(f"simulation failed {failed}", paper), INK, TEXT_SIZE, "lt")
+        paper.text((MARGIN, bottom + 28), _cut(f"simulation failed {failed}", paper), ALARM, TEXT_SIZE, "lt")
     return paper.picture()
 
 
