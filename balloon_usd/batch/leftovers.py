@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import shutil
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from balloon_usd.files.failed_name import failed_name
 from balloon_usd.files.hidden import matching
 from balloon_usd.files.lock import locked, remove_unheld
-from balloon_usd.stage.workspace import sweep
+from balloon_usd.stage.workspace import discard, sweep
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -38,8 +37,8 @@ def remove_failed(folder: Path, name: str) -> None:
     failed = failed_name(name)
     layered = folder / failed
     # A folder of somebody else's is left alone.
-    if (layered / f"{failed}.usda").is_file():
-        shutil.rmtree(layered, ignore_errors=True)
+    if (layered / f"{failed}.usda").is_file() and not layered.is_symlink():
+        discard(layered, name)
     for ending in FAILED_FILES:
         with suppress(OSError):
             (folder / f"{failed}{ending}").unlink()

@@ -194,7 +194,8 @@ class Writer:
             why = str(error)
         elif not isinstance(error, EXPECTED):
             trouble = Trouble.UNFORESEEN
-            why = f"{part.file}: {''.join(traceback.format_exception(error))}"
+            before = f"simulation failed {failed}; then " if failed else ""
+            why = f"{part.file}: {before}{''.join(traceback.format_exception(error))}"
         elif failed:
             trouble = Trouble.FAILED
             why = f"{part.file}: simulation failed {failed}; the frames before that are not kept: {error}"
