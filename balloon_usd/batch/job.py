@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -97,9 +97,12 @@ class BatchRun:
         return jobs, free
 
     def advance(self, job: int, frames: Frames) -> int:
-        """Return how many of some frames show a job."""
+        """Return how many of some frames show a job, which ends before the one in which it fails."""
         part = self.parts[job]
-        end = min(frames.first + frames.count, part.last + 1)
         if failed := frames.failed.get(part.place):
-            end = min(end, failed[0])
-        return max(0, end - frames.first)
+            part = self.parts[job] = replace(part, last=min(part.last, failed[0] - 1))
+        return max(0, min(frames.first + frames.count, part.last + 1) - frames.first)
+
+    def has_all_frames(self, job: Job) -> bool:
+        """Whether there is nothing more to come of a job."""
+        return job.frames >= self.parts[job.number].last

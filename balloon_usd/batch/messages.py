@@ -203,7 +203,7 @@ class Drop:
 
 @dataclass(frozen=True)
 class Made:
-    """From a writer: a sculpture is on disk, whole and verified."""
+    """From a writer: a sculpture is on disk, whole and verified, or up to the frame at which it failed."""
 
     job: int
     batch: int
@@ -218,6 +218,8 @@ class Made:
     summary: dict[str, object]
     seconds: float
     """From its first frame to its last file."""
+    failed: str = ""
+    """Why its simulation ended early, and where the frames before that are; "" if it did not."""
 
     def with_sheet(self, files: dict[str, str]) -> Made:
         """Return the same with a contact sheet."""
@@ -232,7 +234,7 @@ class Draw:
     stage: str
     """File that is drawn."""
     name: str
-    """Of the sculpture."""
+    """Of the contact sheet, without its ending."""
     device: str
 
 

@@ -51,7 +51,7 @@ class Record:
     summary: dict[str, Any] = field(default_factory=dict)
     """Flat tail left [m], highest stretch, what would burst, what came undone."""
     products: dict[str, tuple[str, ...]] = field(default_factory=dict)
-    """Files of the stage, the shot, the report and the contact sheet."""
+    """Files of the stage, the shot, the report and the contact sheet, where there are any."""
     files: dict[str, str] = field(default_factory=dict)
     """SHA-256 of all files by path below the output folder."""
     error: str = ""
@@ -118,6 +118,12 @@ def done(recipe: str, facts: Facts, order: Order, device: str, made: Made) -> Re
         made.products,
         made.files,
     )
+
+
+def failed(recipe: str, facts: Facts, order: Order, device: str, made: Made) -> Record:
+    """Return the record of a recipe whose simulation failed after some frames, which are kept."""
+    kept = done(recipe, facts, order, device, made)
+    return replace(kept, status=Status.FAILED, error=f"{recipe}: simulation failed {made.failed}")
 
 
 def skipped(record: Record, recipe: str) -> Record:

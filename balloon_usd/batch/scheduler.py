@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict, deque
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from balloon_usd.batch import record as records
@@ -32,6 +33,7 @@ from balloon_usd.batch.record import Record, Status
 from balloon_usd.batch.shared_memory import SharedMemory
 from balloon_usd.batch.waiting import Waiting
 from balloon_usd.batch.watch import Count
+from balloon_usd.files.failed_name import failed_name
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -122,13 +124,16 @@ class Scheduler:
             self._lay_out(self._runs[message.batch], message)
         elif isinstance(message, Made):
             self._made(message)
-        elif isinstance(message, NotMade | NotDrawn):
+        elif isinstance(message, NotMade):
             self._given_up(message)
+        elif isinstance(message, NotDrawn):
+            _, made = self._drawing.pop(message.job)
+            self._not_drawn(made, message.trouble, message.why)
         elif isinstance(message, Simulated):
             self._simulated(worker, message)
         elif isinstance(message, Drawn):
             _, made = self._drawing.pop(message.job)
-            self._finish(self._jobs[message.job], made.with_sheet(message.files))
+            self._finish(made.with_sheet(message.files))
         else:
             raise TypeError(f"a worker said {type(message).__name__}")
 
@@ -258,11 +263,7 @@ class Scheduler:
             run.simulator.send(Free(run.number, frames.slot))
         made = 0
         for number in list(run.writer):
-            job, part = self._jobs[number], run.parts[number]
-            made += job.advance(run.advance(number, frames))
-            if part.place in frames.failed:
-                text = f"{job.file}: simulation failed {frames.failed[part.place][1]}"
-                self._not_made(job, Trouble.FAILED, text)
+            made += self._jobs[number].advance(run.advance(number, frames))
         self._watch.advanced(frames.doing, made, self._count())
 
     def _copied(self, told: Copied, writer: Worker) -> None:
@@ -287,7 +288,7 @@ class Scheduler:
         writer = self._runs[made.batch].writer[job.number]
         job.device = self._leave(job)
         if not self._order.preview:
-            self._finish(job, made)
+            self._finish(made)
         elif self._pool.of(Role.DRAWER):
             self._undrawn.append(made)
         else:
@@ -323,14 +324,24 @@ class Scheduler:
         """Let the contact sheet of a stage be drawn."""
         job = self._jobs[made.job]
         self._drawing[made.job] = (drawer, made)
-        stage = str(self._order.stage(job.known.name))
-        drawer.send(Draw(made.job, stage, job.known.name, drawer.device or job.device))
+        stage = str(self._order.folder / made.products["stage"][0])
+        name = failed_name(job.known.name) if made.failed else job.known.name
+        drawer.send(Draw(made.job, stage, name, drawer.device or job.device))
 
-    def _finish(self, job: Job, made: Made) -> None:
-        self._end(job, records.done(job.file, job.known, self._order, job.device, made))
+    def _not_drawn(self, made: Made, trouble: Trouble, why: str) -> None:
+        """End a job without its contact sheet; where its simulation failed, that stays the trouble."""
+        if made.failed:
+            self._finish(replace(made, failed=f"{made.failed}; {why}"))
+        else:
+            self._not_made(self._jobs[made.job], trouble, why)
 
-    def _given_up(self, told: NotMade | NotDrawn) -> None:
-        if isinstance(told, NotDrawn) or self._writes(told):
+    def _finish(self, made: Made) -> None:
+        job = self._jobs[made.job]
+        record_of = records.failed if made.failed else records.done
+        self._end(job, record_of(job.file, job.known, self._order, job.device, made))
+
+    def _given_up(self, told: NotMade) -> None:
+        if self._writes(told):
             self._not_made(self._jobs[told.job], told.trouble, told.why)
 
     def _not_made(self, job: Job, trouble: Trouble, why: str) -> None:
@@ -435,7 +446,7 @@ class Scheduler:
     def _take_back(self, run: BatchRun, numbers: Iterable[int]) -> list[Job]:
         """Take jobs back from their writers, but those whose frames these have all got."""
         jobs = [self._jobs[number] for number in numbers]
-        lost = [job for job in jobs if job.frames < job.known.frames]
+        lost = [job for job in jobs if not run.has_all_frames(job)]
         for job in lost:
             run.writer[job.number].send(Drop(run.number, (job.number,)))
             self._load[run.writer.pop(job.number)] -= 1
@@ -461,7 +472,7 @@ class Scheduler:
             job = self._jobs[made.job]
             job.kills += drawer.ready and number == 0
             if job.kills > 1:
-                self._not_made(job, Trouble.KILLED, f"{job.file}: {why}")
+                self._not_drawn(made, Trouble.KILLED, f"{job.file}: {why}")
             else:
                 self._undrawn.append(made)
 

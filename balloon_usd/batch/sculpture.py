@@ -7,8 +7,10 @@ from contextlib import ExitStack
 from typing import TYPE_CHECKING
 
 from balloon_usd.balloon.detail import detail_named
+from balloon_usd.batch.leftovers import remove_failed
 from balloon_usd.batch.messages import Made
 from balloon_usd.endings import endings_wait
+from balloon_usd.files.failed_name import failed_name
 from balloon_usd.files.hashes import hashes_of
 from balloon_usd.origin import provenance_of
 from balloon_usd.plan.meshing import mesh_of
@@ -28,12 +30,18 @@ if TYPE_CHECKING:
     from balloon_usd.stage import WrittenStage
 
 
+class NoFrames(Exception):  # noqa: N818
+    """A simulation failed before the first frame that is written."""
+
+
 class Sculpture:
     """Takes the frames of one sculpture, and makes files of them."""
 
     def __init__(self, part: Part, plan: Plan, order: Order) -> None:
         """Prepare for a plan."""
         self.part = part
+        self.failed = ""
+        """Why there are no more frames before the last one, once that is known."""
         self._plan, self._order = plan, order
         level = detail_named(order.detail)
         meshes = tuple(mesh_of(strip, level) for strip in plan.strips.values())
@@ -43,6 +51,7 @@ class Sculpture:
         self._open = ExitStack()
         self._writer = StageWriter(describe_stage(plan, meshes), order.folder, **order.form)
         self._undone: tuple[str, ...] = ()
+        self._frames = 0
         self._begun = time.perf_counter()
 
     def start(self) -> None:
@@ -67,28 +76,26 @@ class Sculpture:
             if self._history is not None:
                 self._history.add(frame)
             self._writer.write(frame)
+            self._frames += 1
 
     def finish(self) -> Made:
-        """Give everything its final name once the last frame is taken.
+        """Give everything its final name once the last frame is taken, or the simulation has failed.
 
         Raises:
+            NoFrames: the simulation has failed before there was anything to write; nothing is left.
             StageError: the stage cannot be written.
             ReportError: the report cannot be written.
         """
-        written = self._writer.finish()
-        self._open.close()
         name, folder = self._plan.recipe.name, self._order.folder
-        shots = tuple(file for file in written.files if file == self._order.shot_file(name))
-        products: dict[str, tuple[Path, ...]] = {
-            "stage": written.files[:1],
-            "shot": shots,
-            "report": (),
-        }
-        if self._history is not None:
-            facts = provenance_of(self._plan.recipe)
-            products["report"] = write_report(
-                self._history, folder, detail=self._order.detail, provenance=facts
-            )
+        if self.failed:
+            remove_failed(folder, name)
+            if not self._frames:
+                raise NoFrames
+        written = self._writer.finish(self.failed)
+        self._open.close()
+        products = self._products(written)
+        if not self.failed:
+            remove_failed(folder, name)
         hashes = {file.relative_to(folder).as_posix(): sha256 for file, sha256 in written.sha256.items()}
         hashes |= hashes_of(folder, products["report"])
         return Made(
@@ -100,7 +107,31 @@ class Sculpture:
             written.size,
             self._summary(written),
             time.perf_counter() - self._begun,
+            self.failed and f"{self.failed}; {self._what_is_left(written)}",
         )
+
+    def _products(self, written: WrittenStage) -> dict[str, tuple[Path, ...]]:
+        """Write the report; return the files of the stage, the shot and the report."""
+        report: tuple[Path, ...] = ()
+        if self._history is not None:
+            report = write_report(
+                self._history,
+                self._order.folder,
+                detail=self._order.detail,
+                provenance=provenance_of(self._plan.recipe),
+                failed=self.failed,
+            )
+        name = self._plan.recipe.name
+        shot = self._order.shot_file(failed_name(name) if self.failed else name)
+        shots = tuple(file for file in written.files if file == shot)
+        return {"stage": written.files[:1], "shot": shots, "report": report}
+
+    def _what_is_left(self, written: WrittenStage) -> str:
+        """Say where the frames before a failure are, and that an earlier stage was left alone."""
+        frames = "the frame before is" if written.frames == 1 else f"the {written.frames} frames before are"
+        told = f"{frames} in {written.files[0]}"
+        earlier = self._order.stage(self._plan.recipe.name)
+        return f"{told}; {earlier} stays as an earlier run made it" if earlier.exists() else told
 
     def _summary(self, written: WrittenStage) -> dict[str, object]:
         """What the run came to, in numbers that a table shows."""

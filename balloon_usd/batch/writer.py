@@ -27,7 +27,7 @@ from balloon_usd.batch.messages import (
     Verify,
 )
 from balloon_usd.batch.reading import RecipeChanged, planned
-from balloon_usd.batch.sculpture import Sculpture
+from balloon_usd.batch.sculpture import NoFrames, Sculpture
 from balloon_usd.batch.sheet import draw
 from balloon_usd.files.hashes import are_whole
 from balloon_usd.language.problem import RecipeError
@@ -58,7 +58,7 @@ class Writer:
         self._order = start.order
         self._batches: dict[int, _Batch] = {}
         self._complete: deque[Sculpture] = deque()
-        """Sculptures that have all their frames and no final names yet."""
+        """Sculptures that have all their frames, or have failed, and no final names yet."""
         self._heard = 0
         """Messages since one was finished."""
         connection.send(Started())
@@ -154,9 +154,10 @@ class Writer:
         self._connection.send(Copied(frames.batch, frames.slot))
         for place, found in taken.items():
             self._write(batch, place, found)
-        for place in frames.failed:
+        for place, (_, cause) in frames.failed.items():
             if sculpture := batch.sculptures.pop(place, None):
-                sculpture.stop()
+                sculpture.failed = cause
+                self._complete.append(sculpture)
         if not batch.sculptures:
             del self._batches[frames.batch]
 
@@ -179,19 +180,25 @@ class Writer:
             made = sculpture.finish()
         except Exception as error:  # no sculpture takes another one along
             sculpture.stop()
-            self._tell_not_made(sculpture.part, error)
+            self._tell_not_made(sculpture.part, error, sculpture.failed)
         else:
             self._connection.send(made)
         # Until now `close` finds it, whatever ends this process.
         self._complete.popleft()
 
-    def _tell_not_made(self, part: Part, error: Exception) -> None:
+    def _tell_not_made(self, part: Part, error: Exception, failed: str = "") -> None:
         trouble, why = Trouble.NOT_WRITTEN, f"{part.file}: {error}"
-        if isinstance(error, OF_RECIPE):
+        if isinstance(error, NoFrames):
+            trouble, why = Trouble.FAILED, f"{part.file}: simulation failed {failed}"
+        elif isinstance(error, OF_RECIPE):
             why = str(error)
         elif not isinstance(error, EXPECTED):
             trouble = Trouble.UNFORESEEN
-            why = f"{part.file}: {''.join(traceback.format_exception(error))}"
+            before = f"simulation failed {failed}; then " if failed else ""
+            why = f"{part.file}: {before}{''.join(traceback.format_exception(error))}"
+        elif failed:
+            trouble = Trouble.FAILED
+            why = f"{part.file}: simulation failed {failed}; the frames before that are not kept: {error}"
         self._connection.send(NotMade(part.job, part.batch, trouble, why))
 
     def _drop(self, drop: Drop) -> None:

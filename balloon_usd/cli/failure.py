@@ -23,7 +23,7 @@ Exit codes:
   0    done
   1    a result could not be written, as on a full disk
   2    bad input: recipe, stage, option, device or output folder
-  3    the simulation failed; no stage of that sculpture is left
+  3    the simulation failed; `run` leaves the frames before that as NAME.failed
   130  interrupted
   143  terminated (SIGTERM)
 """

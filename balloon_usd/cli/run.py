@@ -127,7 +127,8 @@ def run(
 
     Writes OUTPUT/NAME/NAME.usda with its payload, OUTPUT/NAME.png, OUTPUT/NAME.report.json and its figure
     OUTPUT/NAME.report.png, where NAME is the recipe's name, and OUTPUT/batch.jsonl, a line for each recipe.
-    --flat and --usdz write one file instead.
+    --flat and --usdz write one file instead. A simulation that fails leaves the frames before that under the
+    name NAME.failed until the recipe is made, and an earlier NAME as it was.
     """
     if address is not None and engine != "ray":
         raise Failure("--address: only with --engine ray", ExitCode.BAD_INPUT)

@@ -22,13 +22,16 @@ DIGITS = {"time": 6, "pressure": 1, "volume": 10, "stretch": 4, "tail": 5, "cont
 INDENT = "  "
 
 
-def report_data(history: History, *, detail: str, provenance: Mapping[str, str]) -> dict[str, Any]:
+def report_data(
+    history: History, *, detail: str, provenance: Mapping[str, str], failed: str = ""
+) -> dict[str, Any]:
     """Return a report as plain data, its keys in a fixed order.
 
     Args:
         history: the frames that were seen.
         detail: level of detail of the mesh.
         provenance: where the numbers come from: recipe, its hash and the solver.
+        failed: why the simulation ended after the last of the frames, if it did before its end.
     """
     recipe = history.plan.recipe
     most = recipe.physics.traits.burst_stretch
@@ -54,6 +57,7 @@ def report_data(history: History, *, detail: str, provenance: Mapping[str, str])
             for mark in history.marks
         ],
         "undone": [{"joint": name, **_moment(code, recipe.fps)} for name, code in history.undone],
+        "failed": _failure(history, failed),
         "time_code": list(history.time_codes),
         "time": _rounded("time", history.times),
         "bubbles": [
@@ -69,6 +73,13 @@ def report_data(history: History, *, detail: str, provenance: Mapping[str, str])
             for index, name in enumerate(history.tail_names)
         ],
     }
+
+
+def _failure(history: History, cause: str) -> dict[str, Any] | None:
+    if not cause:
+        return None
+    last = history.time_codes[-1]
+    return {"cause": cause, "last_good_frame": last, "time": _moment(last, history.plan.recipe.fps)["time"]}
 
 
 def report_text(data: Mapping[str, Any]) -> str:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from balloon_usd.report.axis import time_axis
 from balloon_usd.report.labels import rows_for
-from balloon_usd.report.palette import INK, PALE_INK, PAPER, STEP_RULE, bubble_color
+from balloon_usd.report.palette import ALARM, INK, PALE_INK, PAPER, STEP_RULE, bubble_color
 from balloon_usd.report.panel import (
     LABEL_HEIGHT,
     LEADER,
@@ -48,12 +48,13 @@ NAME_BEGIN = LEADER + 54
 NAMES_LEAST = 150
 
 
-def draw_figure(history: History, *, detail: str) -> Image.Image:
+def draw_figure(history: History, *, detail: str, failed: str = "") -> Image.Image:
     """Return the figure of a run: pressure, volume, stretch, contact and tail over time.
 
     Args:
         history: frames of a sculpture, at least one.
         detail: level of detail of the mesh, for the header.
+        failed: why the simulation ended after these frames, if it did; written below.
     """
     panels = panels_of(history)
     heights = [_height(panel) for panel in panels]
@@ -72,6 +73,8 @@ def draw_figure(history: History, *, detail: str) -> Image.Image:
         draw_panel(paper, panel, history.times, moments, across, (top, top + height))
         top += height + BETWEEN
     _write_times(paper, across, bottom)
+    if failed:
+        paper.text((MARGIN, bottom + 28), _cut(f"simulation failed {failed}", paper), ALARM, TEXT_SIZE, "lt")
     return paper.picture()
 
 
@@ -155,6 +158,12 @@ def _mark_steps(
     for mark, (x, y) in zip(marks, places, strict=True):
         paper.box((x + 2, y - 8), (x + 8 + text_width(mark.text, TEXT_SIZE), y + 8), PAPER)
         paper.text((x + 5, y), mark.text, INK, TEXT_SIZE)
+
+
+def _cut(text: str, paper: Paper) -> str:
+    """Return as much of a text as fits on a line."""
+    room = paper.size[0] - 2 * MARGIN
+    return next(text[:end] for end in range(len(text), -1, -1) if text_width(text[:end], TEXT_SIZE) <= room)
 
 
 def _write_times(paper: Paper, across: Axis, bottom: float) -> None:

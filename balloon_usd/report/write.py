@@ -6,6 +6,7 @@ from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from balloon_usd.files.failed_name import failed_name
 from balloon_usd.files.whole_file import write_whole
 from balloon_usd.report.document import report_data, report_text
 from balloon_usd.report.error import ReportError
@@ -24,11 +25,17 @@ def report_files(folder: str | PathLike[str], name: str) -> tuple[Path, Path]:
 
 
 def write_report(
-    history: History, folder: str | PathLike[str], *, detail: str, provenance: Mapping[str, str]
+    history: History,
+    folder: str | PathLike[str],
+    *,
+    detail: str,
+    provenance: Mapping[str, str],
+    failed: str = "",
 ) -> tuple[Path, Path]:
     """Write the numbers and the figure of a run and return their files; see `report_data`.
 
-    Both files are written beside their final names before either gets it.
+    Both files are written beside their final names before either gets it. After a failure
+    they are called NAME.failed.
 
     Raises:
         ReportError: nothing was seen, the disk is full, or the folder cannot be written.
@@ -36,9 +43,10 @@ def write_report(
     if not history.time_codes:
         raise ReportError(f"{history.plan.recipe.name}: there is nothing to report, no frame was seen")
     picture = BytesIO()
-    draw_figure(history, detail=detail).save(picture, format="PNG")
-    text = report_text(report_data(history, detail=detail, provenance=provenance))
-    numbers, figure = report_files(folder, history.plan.recipe.name)
+    draw_figure(history, detail=detail, failed=failed).save(picture, format="PNG")
+    text = report_text(report_data(history, detail=detail, provenance=provenance, failed=failed))
+    name = history.plan.recipe.name
+    numbers, figure = report_files(folder, failed_name(name) if failed else name)
     try:
         write_whole({numbers: text.encode("utf-8"), figure: picture.getvalue()})
     except OSError as error:

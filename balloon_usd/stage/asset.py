@@ -11,7 +11,7 @@ from balloon_usd.stage.detail_files import MATERIALS, PAYLOAD, TEXTURE, detail_f
 from balloon_usd.stage.earlier import Earlier, carry_over, find_earlier, orphaned_texture
 from balloon_usd.stage.error import writing
 from balloon_usd.stage.geometry import author_geometry
-from balloon_usd.stage.interface import Extents, add_detail, author_root, set_asset_info
+from balloon_usd.stage.interface import Extents, add_detail, author_failure, author_root, set_asset_info
 from balloon_usd.stage.layer_metadata import set_provenance, set_time_range, set_units
 from balloon_usd.stage.looks import looks_of
 from balloon_usd.stage.materials import author_materials
@@ -56,21 +56,24 @@ def complete_asset(
         StageError: A file cannot be written.
     """
     detail, files = wanted.detail, detail_files(wanted.detail)
-    interface = Path(f"{description.name}.usda")
+    interface = Path(f"{wanted.file_stem(description.name)}.usda")
     with writing(work.final):
         layers.save()
         payload_layer(description, take, detail).Export(str(work.built / files.payload))
         finished_layer(description, detail).Export(str(work.built / files.finished))
         _geometry_layer(description, take).Export(str(work.built / files.geometry))
         _materials_layer(description).Export(str(work.built / MATERIALS))
-        earlier = find_earlier(work.final, work.built, description.name, detail)
+        earlier = Earlier()
+        if not wanted.failed:
+            earlier = find_earlier(work.final, work.built, description.name, detail)
         _interface_layer(description, take, wanted, earlier).Export(str(work.built / interface))
         stale = [file for other in earlier.stale for file in detail_files(other)]
         if description.airs:
             (work.built / TEXTURE).write_bytes(wire_png())
         else:
             stale += orphaned_texture(work.final)
-        carry_over(work.final, work.built, stale)
+        if not wanted.failed:
+            carry_over(work.final, work.built, stale)
     textures = (TEXTURE,) if description.airs else ()
     return Built((interface, *files, MATERIALS, *textures), stale=earlier.stale)
 
@@ -99,6 +102,7 @@ def _interface_layer(description: StageDescription, take: Take, wanted: Wanted, 
         layer, description, provenance_of(description.provenance, description.fps, wanted.detail)
     )
     set_asset_info(root, f"{description.name}.usda")
+    author_failure(layer, root, take, wanted)
     written = Extents(take.extent, take.final.extent)
     for name, extents in sorted({**earlier.kept, wanted.detail: written}.items()):
         add_detail(root, name, extents)

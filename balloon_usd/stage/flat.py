@@ -9,7 +9,7 @@ from balloon_usd.openusd import Sdf, Usd
 from balloon_usd.stage.built import Built
 from balloon_usd.stage.error import writing
 from balloon_usd.stage.geometry import author_geometry
-from balloon_usd.stage.interface import author_root, set_asset_info, set_extents_hint
+from balloon_usd.stage.interface import author_failure, author_root, set_asset_info, set_extents_hint
 from balloon_usd.stage.looks import STRESS, looks_of
 from balloon_usd.stage.materials import author_materials
 from balloon_usd.stage.prim_paths import root_path
@@ -61,7 +61,7 @@ def complete_flat(
     Raises:
         StageError: The file cannot be written.
     """
-    author_rest(layers.samples, take, description, looks_of(description), wanted.look)
+    author_rest(layers.samples, take, description, looks_of(description), wanted)
     with writing(work.final):
         layers.save()
         for name in files_beside(description):
@@ -70,13 +70,12 @@ def complete_flat(
 
 
 def author_rest(
-    layer: Any, take: Take, description: StageDescription, looks: tuple[str, ...], shown: str
+    layer: Any, take: Take, description: StageDescription, looks: tuple[str, ...], wanted: Wanted
 ) -> None:
-    """Author all that does not move into the layer of the samples.
-
-    `looks`: those whose materials are there; `shown`: the one that is bound.
-    """
-    set_extents_hint(layer.GetPrimAtPath(root_path(description.name)), take.extent)
+    """Author all that does not move into the layer of the samples; `looks`: those that have materials."""
+    root = layer.GetPrimAtPath(root_path(description.name))
+    author_failure(layer, root, take, wanted)
+    set_extents_hint(root, take.extent)
     stage = Usd.Stage.Open(layer)
     author_geometry(stage, description, take.final)
-    author_materials(stage, description, looks, shown)
+    author_materials(stage, description, looks, wanted.look)

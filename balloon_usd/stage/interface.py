@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import PurePosixPath
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -10,6 +11,7 @@ from balloon_usd.openusd import Sdf, Vt
 from balloon_usd.stage.detail_files import detail_files
 from balloon_usd.stage.layer_metadata import set_provenance, set_units
 from balloon_usd.stage.prim_paths import class_path, root_path
+from balloon_usd.stage.provenance import KEY, failure_of
 from balloon_usd.stage.variant_sets import DETAIL, FINISHED, MADE, STATE, add_variant
 from balloon_usd.version import __version__
 
@@ -19,6 +21,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from balloon_usd.stage.description import StageDescription
+    from balloon_usd.stage.samples import Take
+    from balloon_usd.stage.wanted import Wanted
 
 EXTENTS_HINT = "extentsHint"
 
@@ -55,6 +59,14 @@ def set_asset_info(root: Any, file_name: str) -> None:
     """Name the asset and the file that stands for it."""
     identifier = Sdf.AssetPath(f"./{file_name}")
     root.SetInfo("assetInfo", {"identifier": identifier, "name": root.name, "version": __version__})
+
+
+def author_failure(layer: Any, root: Any, take: Take, wanted: Wanted) -> None:
+    """Say in the root layer that the simulation failed, if it did; its file has another name then."""
+    if wanted.failed:
+        set_provenance(layer, {**layer.customLayerData[KEY], **failure_of(wanted.failed, take.last)})
+        ending = PurePosixPath(root.GetInfo("assetInfo")["identifier"].path).suffix
+        set_asset_info(root, f"{wanted.file_stem(root.name)}{ending}")
 
 
 def set_extents_hint(prim: Any, extent: NDArray[np.float32]) -> None:

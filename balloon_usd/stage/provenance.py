@@ -39,6 +39,11 @@ def provenance_of(
     return {"version": __version__, **given, **own}
 
 
+def failure_of(cause: str, last: int) -> dict[str, str | int | float]:
+    """What the root layer says besides, if the simulation failed: why, and the last frame before that."""
+    return {"failed": cause, "last_good_frame": last}
+
+
 def problems(facts: Mapping[str, object], required: tuple[str, ...]) -> Iterator[str]:
     """What is missing from the facts, or must not be among them, one sentence each."""
     for key in required:

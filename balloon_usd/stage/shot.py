@@ -28,13 +28,13 @@ CLOSE = "camera_finished"
 """Camera that sees the finished sculpture from near by."""
 
 
-def shot_name(description: StageDescription) -> str:
-    """File of the shot, beside the stage."""
-    return f"{description.name}_shot.usda"
+def shot_name(stem: str) -> str:
+    """File of the shot, beside the stage whose files are called so."""
+    return f"{stem}_shot.usda"
 
 
-def write_shot(description: StageDescription, take: Take, work: Workspace, opened: Path) -> Path:
-    """Write the shot beside the built stage, whose file to open is `opened` within it; returns it.
+def write_shot(description: StageDescription, take: Take, work: Workspace, opened: Path, file: str) -> Path:
+    """Write the shot into a file beside the built stage, which is opened by its file `opened`; returns it.
 
     Raises:
         StageError: The file cannot be written.
@@ -48,7 +48,7 @@ def write_shot(description: StageDescription, take: Take, work: Workspace, opene
     sculpture = layer.GetPrimAtPath(ROOT.AppendChild("sculpture"))
     asset = PurePosixPath(work.built.name, opened)
     sculpture.referenceList.prependedItems.append(Sdf.Reference(f"./{asset}"))
-    built, final = (path.with_name(shot_name(description)) for path in (work.built, work.final))
+    built, final = (path.with_name(file) for path in (work.built, work.final))
     with writing(final):
         layer.Export(str(built))
     return built

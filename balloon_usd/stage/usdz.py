@@ -54,7 +54,7 @@ def complete_usdz(
     Raises:
         StageError: The file cannot be written.
     """
-    author_rest(layers.samples, take, description, (wanted.look,), wanted.look)
+    author_rest(layers.samples, take, description, (wanted.look,), wanted)
     _stand_upright(layers.samples, description.name)
     with writing(work.final):
         layers.save()

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from balloon_usd.files.failed_name import failed_name
+
 
 @dataclass(frozen=True)
 class Wanted:
@@ -15,3 +17,9 @@ class Wanted:
     """Look that is selected, or the only one of a stage in one file."""
     shot: bool = False
     """Whether a shot stands beside it."""
+    failed: str = ""
+    """Why the simulation ended before its last frame; "" if it did not."""
+
+    def file_stem(self, name: str) -> str:
+        """Return what the files of a sculpture of this name are called, without an ending."""
+        return failed_name(name) if self.failed else name

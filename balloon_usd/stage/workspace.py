@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import secrets
 import shutil
 import tempfile
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
@@ -51,6 +53,12 @@ class Workspace:
         """Where the asset is built: a path that does not exist at first."""
         return self._folder / self._place.name
 
+    def rename(self, final: Path) -> None:
+        """Give the built asset another final name; raises `StageError` when that cannot be."""
+        with writing(final):
+            before, self.final, self._place = self.built, final, final.resolve()
+            before.rename(self.built)
+
     def publish(self, beside: Iterable[str] = ()) -> None:
         """Give the built asset its final name, and before that those built beside it; raises `StageError`.
 
@@ -85,6 +93,14 @@ def sweep(name: str, beside: Path) -> None:
         for folder in found:
             if not is_held(folder / LOCK):
                 _remove(folder)
+
+
+def discard(asset: Path, name: str) -> None:
+    """Remove the folder of an asset in one step; what a kill leaves of it, the next run for `name` sweeps."""
+    hidden = asset.with_name(f".{name}.{secrets.token_hex(4)}{SUFFIX}")
+    with suppress(OSError):
+        asset.rename(hidden)
+        _remove(hidden)
 
 
 def _remove(folder: Path) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contextlib import ExitStack
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
@@ -119,14 +119,26 @@ class StageWriter:
         self._stream.write(frame)
 
     @usd_access()
-    def finish(self) -> WrittenStage:
-        """Write the rest and give the stage its final name; raises `StageError` when that fails."""
+    def finish(self, failed: str = "") -> WrittenStage:
+        """Write the rest and give the stage its final name.
+
+        Args:
+            failed: why the simulation ended before its last frame, if it did. The stage says so then and is
+                called NAME.failed; what stands under the final name stays.
+
+        Raises:
+            StageError: it cannot be written, or there are no frames.
+        """
         take = self._stream.close()
+        self._wanted = replace(self._wanted, failed=failed)
         built = self._form.complete(self._layers, take, self._description, self._wanted, self._work)
         del self._stream, self._layers
+        if failed:
+            self._final = self._final.with_name(f"{self._stem}{self._form.ending}")
+            self._work.rename(self._final)
         _verify(self._work.built / built.files[0], one_sample_per_time_code)
         if self._wanted.shot:
-            _verify(write_shot(self._description, take, self._work, built.files[0]))
+            _verify(write_shot(self._description, take, self._work, built.files[0], shot_name(self._stem)))
         # Where they are built nobody else changes them.
         made = {self._final / file: self._work.built / file for file in built.files}
         made |= {self._final.with_name(name): self._work.built.with_name(name) for name in self._beside()}
@@ -148,10 +160,14 @@ class StageWriter:
             self.__dict__.pop(left, None)
         self._stack.close()
 
+    @property
+    def _stem(self) -> str:
+        return self._wanted.file_stem(self._description.name)
+
     def _beside(self) -> tuple[str, ...]:
         """Names of the files that stand beside the stage."""
         textures = files_beside(self._description) if self._form == FLAT else ()
-        return (*textures, shot_name(self._description)) if self._wanted.shot else textures
+        return (*textures, shot_name(self._stem)) if self._wanted.shot else textures
 
 
 def write_stage(

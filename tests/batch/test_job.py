@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from balloon_usd.batch.job import BatchRun
+from balloon_usd.batch.job import BatchRun, Job
 from balloon_usd.batch.messages import Frames, Part
 
 
@@ -57,3 +57,11 @@ def test_slots_of_a_writer_that_is_gone_are_free_unless_others_need_them(run):
 )
 def test_a_job_advances_by_the_frames_that_it_wants_and_has(run, job, told, news):
     assert run.advance(job, told) == news
+
+
+def test_a_job_that_fails_has_its_last_frame_before_that_whatever_others_do(run):
+    job = Job(1, "1.yaml", frames=6)
+    assert not run.has_all_frames(job)
+    assert run.advance(1, frames(first=5, count=4, failed={1: (7, "why")})) == 2
+    assert run.advance(1, frames(first=9, count=2)) == 0
+    assert run.has_all_frames(job)

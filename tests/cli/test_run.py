@@ -17,6 +17,18 @@ ASSET = [
     "snake/snake.usda",
 ]
 REPORT = ["snake.report.json", "snake.report.png"]
+LOOSE = """\
+format: 1
+name: snake
+units: cm
+fps: 8
+balloons:
+  main: {size: 260, length: 9.2, tail: 3}
+steps:
+  - bubbles: {nose: 4}
+  - rest: tail
+physics: {hold: 1.5}
+"""
 BURST = ("pinch: nose", 1.25, "the wall is not finite")
 
 
@@ -68,13 +80,25 @@ def test_no_report_writes_none(cli, solver, write_recipe, left):
     assert "report" not in result.stdout
 
 
-def test_a_run_tells_what_came_undone(cli, solver, write_recipe):
+def test_a_run_tells_what_came_undone_and_makes_the_stage(cli, solver, write_recipe, left):
     solver.trouble = {"snake": "undone"}
     result = cli("run", write_recipe(), "-o", "out", "--no-preview")
     assert result.exit_code == 0
+    assert "snake.yaml: caution: step 1: the twist between nose and middle will unwind" in result.stderr
+    assert left() == [*REPORT, *ASSET]
     assert "snake: came undone: nose.end, middle.end: lock them, with 2 turns or more" in result.stdout
     undone = json.loads(Path("out/snake.report.json").read_text(encoding="utf-8"))["undone"]
     assert [(entry["joint"], entry["time_code"]) for entry in undone] == [("nose.end", 1), ("middle.end", 1)]
+
+
+def test_a_real_twist_that_nothing_holds_unwinds_and_is_no_failure(cli, write_recipe, left):
+    result = cli("run", write_recipe(text=LOOSE), "-o", "out", "--no-preview", "--flat", "--device", "cpu")
+    assert result.exit_code == 0, result.output
+    assert "snake.yaml: caution: step 1: the twist between nose and tail will unwind" in result.stderr
+    assert "snake: came undone: nose.end" in result.stdout
+    assert left() == [*REPORT, "snake.usdc"]
+    (undone,) = json.loads(Path("out/snake.report.json").read_text(encoding="utf-8"))["undone"]
+    assert undone["joint"] == "nose.end"
 
 
 def test_a_report_says_what_every_bubble_did(cli, solver, write_recipe):
@@ -237,19 +261,24 @@ def test_a_range_that_makes_no_sense_is_refused(cli, solver, write_recipe, left,
     assert left() == []
 
 
-def test_a_failed_simulation_says_when_and_why_and_leaves_nothing(cli, solver, write_recipe, left):
+def test_a_failed_simulation_says_when_and_why_and_leaves_nothing_under_the_final_name(
+    cli, solver, write_recipe, left
+):
     solver.trouble = {"snake": BURST}
     result = cli("run", write_recipe(), "-o", "out")
     assert result.exit_code == 3
     assert "simulation failed at 1.25 s, pinch: nose: the wall is not finite" in result.stderr
-    assert left() == []
+    assert "stage out/snake.failed/snake.failed.usda" in result.stdout
+    assert "contact sheet out/snake.failed.png" in result.stdout
+    assert left()
+    assert all(file.startswith("snake.failed") for file in left())
 
 
 def test_one_failed_sculpture_does_not_take_the_others_along(cli, solver, write_recipe, left):
     solver.trouble = {"bad": BURST}
     result = cli("run", write_recipe("bad"), write_recipe("snake"), "-o", "out", "--no-preview")
     assert result.exit_code == 3
-    assert left() == [*REPORT, *ASSET]
+    assert [file for file in left() if not file.startswith("bad.failed")] == [*REPORT, *ASSET]
     assert "bad.yaml: simulation failed" in result.stderr
     assert "failed" in result.stdout
 

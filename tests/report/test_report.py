@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from PIL import Image
+from PIL import Image, ImageChops
 
 from balloon_usd.balloon.detail import detail_named
 from balloon_usd.plan import plan as plan_of
@@ -160,6 +160,7 @@ def test_the_document_has_its_keys_in_order_and_units_for_its_numbers(history):
         "burst_stretch",
         "steps",
         "undone",
+        "failed",
         "time_code",
         "time",
         "bubbles",
@@ -188,6 +189,24 @@ def test_what_comes_undone_is_told_with_its_moment(history):
     data = report_data(history, detail="draft", provenance=ORIGIN)
     assert data["undone"] == [{"joint": "nose.end", "time_code": 30, "time": round(29 / 24, 6)}]
     assert [step["text"] for step in data["steps"]] == [mark.text for mark in history.marks]
+
+
+def test_a_failure_is_told_with_its_cause_and_the_last_frame_before_it(history):
+    assert report_data(history, detail="draft", provenance=ORIGIN)["failed"] is None
+    data = report_data(history, detail="draft", provenance=ORIGIN, failed="at 8.3 s: torn")
+    assert data["failed"] == {"cause": "at 8.3 s: torn", "last_good_frame": 199, "time": 8.25}
+
+
+def test_the_figure_writes_a_failure_below_and_cuts_what_is_too_long_for_a_line(history):
+    plain = draw_figure(history, detail="draft")
+    failed = draw_figure(history, detail="draft", failed="at 8.3 s: torn" + 300 * " and torn")
+    assert failed.size == plain.size
+    difference = ImageChops.difference(failed, plain).getbbox()
+    assert difference is not None
+    left, top, right, bottom = difference
+    assert top > plain.height - 40
+    assert bottom < plain.height
+    assert 20 < left < right < plain.width - 20
 
 
 def test_the_figure_marks_what_comes_undone_between_the_steps(history):

@@ -11,9 +11,10 @@ from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
 import pytest
+from pxr import Usd
 
 from balloon_usd.stage import StageError, StageWriter, write_stage
-from balloon_usd.stage.properties import whole_or_absent
+from balloon_usd.stage.properties import check_stage, whole_or_absent
 from tests.stage.capsule import Capsule
 from tests.stage.tubes import Frame, frames, sculpture
 
@@ -57,6 +58,39 @@ def test_what_stops_the_frames_passes_through_and_leaves_nothing(
     with pytest.raises(type(error)):
         write_stage(sculpture(), frames_then(error), tmp_path, **form)
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("form", [*FORMS, {"flat": True, "shot": True}], ids=str)
+def test_a_failed_simulation_gives_a_whole_stage_of_another_name_and_the_earlier_one_stays(
+    form: dict[str, bool], tmp_path: Path
+) -> None:
+    write_stage(sculpture(), frames(4), tmp_path, **form)
+    before = bytes_of(tmp_path)
+    with StageWriter(sculpture(), tmp_path, detail="full", **form) as writer:
+        for frame in frames(2):
+            writer.write(frame)
+        written = writer.finish("at 0.1 s: torn")
+    after = bytes_of(tmp_path)
+    made = {name for name in after if name.startswith("dog.failed")}
+    assert {name: content for name, content in after.items() if name not in made} == before
+    assert {str(file.relative_to(tmp_path)) for file in written.files} == made
+    assert not any("draft" in name for name in made), "no other detail is taken over"
+    for file in {written.files[0], *tmp_path.glob("dog.failed_shot.usda")}:
+        stage = Usd.Stage.Open(str(file))
+        assert check_stage(stage) == []
+        assert (stage.GetStartTimeCode(), stage.GetEndTimeCode()) == (1, 2)
+    facts = Usd.Stage.Open(str(written.files[0])).GetRootLayer().customLayerData["balloon_usd"]
+    assert (facts["failed"], facts["last_good_frame"]) == ("at 0.1 s: torn", 2)
+
+
+def test_a_failed_stage_with_air_brings_its_texture(tmp_path: Path) -> None:
+    thing = Capsule()
+    with StageWriter(thing.describe(), tmp_path, flat=True) as writer:
+        for frame in thing.frames(2):
+            writer.write(frame)
+        writer.finish("at 0.1 s: torn")
+    assert sorted(bytes_of(tmp_path)) == ["capsule.failed.usdc", "wire.png"]
+    assert check_stage(Usd.Stage.Open(str(tmp_path / "capsule.failed.usdc"))) == []
 
 
 @pytest.mark.parametrize("form", FORMS, ids=str)
