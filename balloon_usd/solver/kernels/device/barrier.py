@@ -46,6 +46,10 @@ if (blocks > 1) {
 def sculpture_barrier(barrier_counts: wp.array[int], sculpture: int, blocks: int, goal: int, lane: int):
     """Synchronise the resident blocks of one sculpture: coherent loads see each other's writes.
 
+    Arrival releases; the poll does not acquire, which would invalidate L1. PTX promises no order of the poll
+    and the relaxed loads that follow: they rely on the block barrier in between, behind which no SM so far
+    issues them before. All blocks must be resident: the launch shape sees to it.
+
     `goal`: what the sculpture's count reaches when all have arrived, `blocks` more than at the barrier
     before.
     """

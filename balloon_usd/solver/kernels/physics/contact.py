@@ -42,7 +42,7 @@ STICK = wp.constant(0.5)
 STABLE = wp.constant(0.25)
 """Largest contact stiffness, in the lightest of the vertex masses per squared time step."""
 CROWD = wp.constant(0.5)
-"""How much each further vertex on the same quad lowers that limit."""
+"""Share of the vertices that touch a quad, above 1, by which that limit is divided: two share one limit."""
 OWN = wp.constant(256)
 """Most quads before a vertex, and after it, that are known as its own."""
 FAR = wp.constant(1.0e6)
@@ -520,6 +520,9 @@ def press_wall(
 ):
     """Write the contact force (N) on a vertex that touches a quad, and where on the quad.
 
+    A penalty along the quad's normal with damping; across it Coulomb friction by an elastic bristle, whose
+    deflection is `contacts.slip` and is cut where the bristle slides.
+
     `pair`: twice the vertex, and which of its walls; `c`, `limits`: of `limits_of_pair`.
     """
     i = pair >> 1
@@ -535,7 +538,7 @@ def press_wall(
     v1 = coherent_vec3(state.v, c[1], shared)
     v2 = coherent_vec3(state.v, c[2], shared)
     v3 = coherent_vec3(state.v, c[3], shared)
-    slipped = contacts.slip[i, k]
+    before = contacts.slip[i, k]
     # Warm start: it slides little in a substep, so one iteration is enough.
     place = nearer_on_patch(x0, x1, x2, x3, p, vec2_at(contacts.contact_place, pair))
     s = patch_shares(place)
@@ -544,7 +547,7 @@ def press_wall(
     height = wp.dot(gap, face)
     overlap = offset - height
     f = wp.vec3(0.0)
-    moved = wp.vec3(0.0)
+    deflection = wp.vec3(0.0)
     if overlap > 0.0 and wp.length(gap - height * face) < limits[3]:
         stiffness = limits[0]
         going = velocity - (s[0] * v0 + s[1] * v1 + s[2] * v2 + s[3] * v3)
@@ -552,15 +555,15 @@ def press_wall(
         near = wp.min(overlap / offset, 1.0)
         push = wp.max(stiffness * overlap - limits[1] * near * approach, 0.0)
         along = going - approach * face
-        moved = slipped + along * dt
-        moved = moved - wp.dot(moved, face) * face
-        grip = STICK * stiffness
-        hold = limits[2] * push / grip
-        far = wp.length(moved)
-        if far > hold:
-            moved = moved * (hold / far)
-        f = push * face - grip * moved
-    contacts.slip[i, k] = moved
+        deflection = before + along * dt
+        deflection = deflection - wp.dot(deflection, face) * face
+        tangential = STICK * stiffness
+        most = limits[2] * push / tangential
+        length = wp.length(deflection)
+        if length > most:
+            deflection = deflection * (most / length)
+        f = push * face - tangential * deflection
+    contacts.slip[i, k] = deflection
     store_soa(contacts.contact_force, i, k, f)
     contacts.contact_place[pair] = place
 
