@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from balloon_usd.language.choices import one_of
 from balloon_usd.language.names import rest_name
+from balloon_usd.operations.inflate import Inflate
 from balloon_usd.operations.rest import Rest
 from balloon_usd.operations.table import BY_WORD, WORDS, words_in
 from balloon_usd.operations.workbench import Place, UnnamedRest, Workbench
@@ -57,6 +58,14 @@ class StepEntry:
         """Bubbles that it makes or works on."""
         return (*self.makes, *self.uses)
 
+    @property
+    def pumped(self) -> dict[str, Path]:
+        """Balloons that it blows up, with their places."""
+        if Inflate.word not in self.words:
+            return {}
+        places = Inflate.places(self.entries[Inflate.word])
+        return {name: (*self.path, *path) for path, name in reversed(places)}
+
     def check(self, bench: Workbench) -> None:
         """Complain of what makes no sense, and do the rest to the workpiece."""
         if not self.words:
@@ -66,6 +75,7 @@ class StepEntry:
         place = Place(self.path, bench.balloon_of(self.path, self.balloon, makes=makes))
         for word in self.words:
             BY_WORD[word].check(self.entries[word], place, bench)
+        bench.require_blown_up(place, place.balloon if self.makes else None, self.uses)
         bench.check_owner(self.path, self.balloon, self.uses)
 
 
@@ -83,7 +93,10 @@ def workbench_of(balloons: Iterable[str], steps: Sequence[StepEntry]) -> Workben
     for step in steps:
         for name, path in step.makes.items():
             made_ever.setdefault(name, path)
-    return Workbench(names, made_ever, _unnamed_rests(names, steps, made_ever))
+    pumped: dict[str, Path] = {}
+    for step in steps:
+        pumped = step.pumped | pumped
+    return Workbench(names, made_ever, _unnamed_rests(names, steps, made_ever), pumped)
 
 
 def _unnamed_rests(

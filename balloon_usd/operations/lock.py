@@ -124,7 +124,7 @@ steps:
                 index,
                 f"{first} ({cm(one)}) and {second} ({cm(other)}) are an unequal pair",
                 "the longer one bows out and turns the pair aside",
-                "give both the same length",
+                f"make both {cm(0.5 * (one + other))} long",
             )
 
     def perform(self, score: Score, index: int) -> None:
@@ -197,7 +197,9 @@ def _check_neighbours(names: Sequence[str], path: Path, bench: Workbench) -> Non
         bench.complain(path, f"not in the order of the balloon, expected [{', '.join(run)}]")
     else:
         between = ", ".join(name for name in run if name not in names)
-        bench.complain(path, f"no neighbours ({between} between them), expected all of them or {joints}")
+        joints = f"lock: {{joints: [{run[0]}.start, {run[-1]}.end]}}"
+        expected = f"[{', '.join(run)}] or {joints}"
+        bench.complain(path, f"no neighbours ({between} between them), expected {expected}")
 
 
 def _check_joints(joints: Sequence[Joint], read: bool, path: Path, bench: Workbench) -> None:

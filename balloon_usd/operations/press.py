@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, ClassVar
 
 from balloon_usd.language.choices import one_of
-from balloon_usd.language.lengths import cm
+from balloon_usd.language.lengths import at_most, cm
 from balloon_usd.language.names import Name
 from balloon_usd.language.quantities import Force, Length, length_entry, written_length
 from balloon_usd.operations.modifiers import Entries, OnBalloon, Pointed, Timed
@@ -142,11 +142,14 @@ steps:
         told: dict[tuple[str, ...], str] = {}
         if press.at is not None and press.at >= bubble.length:
             text = (
-                f"{cm(press.at)} does not lie inside {press.bubble}, expected less than {cm(bubble.length)}"
+                f"{cm(press.at)} does not lie inside {press.bubble}, "
+                f"expected less than {at_most(bubble.length)}"
             )
             told[self.word, "at"] = text
         if press.depth is not None and press.depth >= bubble.width:
-            text = f"{cm(press.depth)} goes through a {bubble.size}, expected less than {cm(bubble.width)}"
+            text = (
+                f"{cm(press.depth)} goes through a {bubble.size}, expected less than {at_most(bubble.width)}"
+            )
             told[self.word, "depth"] = text
         if told:
             score.refuse(index, told)

@@ -6,10 +6,10 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, NoReturn, Protocol
 
 from balloon_usd.language.problem import RecipeError
-from balloon_usd.operations.moves import POINTS, Bring, Gather, LetGo, Move, Pinch, Spin, Weld
+from balloon_usd.operations.moves import POINTS, Bring, Gather, Inflate, LetGo, Move, Pinch, Spin, Weld
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Iterable, Mapping
 
     from balloon_usd.language.joint import Joint
     from balloon_usd.language.problem import Path, Problem
@@ -87,6 +87,9 @@ class Layout(Protocol):
     def ends(self, bubble: str) -> tuple[int, int | None]:
         """Return the rings of a bubble's start and end."""
 
+    def pump_seconds(self, balloon: str) -> float:
+        """Return how long a maker takes to blow a balloon up, s."""
+
     def guides(self, bubble: str) -> tuple[int, ...]:
         """Return the guide rings inside a bubble, from its start to its end."""
 
@@ -115,6 +118,15 @@ class Score:
     def refuse(self, index: int, told: Mapping[tuple[str, ...], str]) -> NoReturn:
         """Refuse a step for what is wrong at some of its keys; raises `RecipeError`."""
         raise RecipeError([self.problem(("steps", index, *keys), text) for keys, text in told.items()])
+
+    def inflate(self, balloons: Iterable[str], index: int, seconds: float | None = None) -> None:
+        """Blow balloons up at the same time, each in so long, or as long as a maker takes."""
+        for balloon in balloons:
+            pumping = self.layout.pump_seconds(balloon) if seconds is None else seconds
+            self.moves.append(Inflate(self.now, pumping, index, f"inflate: {balloon}", balloon=balloon))
+        self.now = max(move.end for move in self.moves if isinstance(move, Inflate))
+        self.add(Move(self.now, SETTLE_SECONDS, index, "inflated"))
+        self.let_go(index)
 
     def twist(self, bubble: str, turns: float, index: int) -> None:
         """Pinch and, where joints are wound, turn at the end of a bubble, unless that is the tip."""

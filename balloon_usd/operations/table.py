@@ -12,6 +12,7 @@ from balloon_usd.operations.bend import Bend
 from balloon_usd.operations.bubbles import Bubbles
 from balloon_usd.operations.ear import Ear
 from balloon_usd.operations.fold import Fold
+from balloon_usd.operations.inflate import Inflate
 from balloon_usd.operations.lock import Lock
 from balloon_usd.operations.loop import Loop
 from balloon_usd.operations.modifiers import OnBalloon, Pointed, Timed, Turned
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
     from pydantic import GetJsonSchemaHandler
     from pydantic.json_schema import JsonSchemaValue
 
-OPERATIONS: tuple[type[Operation], ...] = (Bubbles, Lock, Loop, Fold, Ear, Rest, Bend, Press, Wait)
+OPERATIONS: tuple[type[Operation], ...] = (Bubbles, Lock, Loop, Fold, Ear, Rest, Bend, Press, Inflate, Wait)
 
 BY_WORD: dict[str, type[Operation]] = {operation.word: operation for operation in OPERATIONS}
 WORDS: tuple[str, ...] = tuple(BY_WORD)

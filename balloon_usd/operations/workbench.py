@@ -43,7 +43,11 @@ class Workbench:
     """A workpiece in the making, and complaints about steps that cannot be done to it."""
 
     def __init__(
-        self, balloons: Iterable[str], made_ever: Mapping[str, Path], rests: Mapping[str, UnnamedRest]
+        self,
+        balloons: Iterable[str],
+        made_ever: Mapping[str, Path],
+        rests: Mapping[str, UnnamedRest],
+        pumped: Mapping[str, Path],
     ) -> None:
         """Begin with balloons of which nothing is made.
 
@@ -51,6 +55,7 @@ class Workbench:
             balloons: their names.
             made_ever: where each bubble is made that any step makes, for words about steps in a wrong order.
             rests: what is left of balloons in the end, by the names that it gets.
+            pumped: where each balloon is blown up that is not so from the beginning.
         """
         self.complaints: list[Complaint] = []
         self._balloons = tuple(balloons)
@@ -58,6 +63,9 @@ class Workbench:
         self._made_at: dict[str, Path] = {}
         self._ended: dict[str, Path] = {}
         self._made_ever, self._rests = made_ever, rests
+        self._pumped = pumped
+        self._told_flat: set[str] = set()
+        """Balloons of which was told that they are worked on while they are flat."""
 
     @property
     def full(self) -> bool:
@@ -86,6 +94,25 @@ class Workbench:
         if len(known) > 1 and makes:
             self.complain(path, f"does not say on which balloon, expected balloon: {one_of(known)}")
         return known[0] if len(known) == 1 else None
+
+    def blow_up(self, balloon: str, path: Path) -> None:
+        """Complain of a balloon that is not there, or is blown up already."""
+        if balloon not in self._balloons:
+            if self._balloons:
+                self.complain(path, unknown("balloon", balloon, self._balloons))
+        elif path != (first := self._pumped[balloon]):
+            what = f"balloon {quoted(balloon)} is blown up at {path_text(first)}, expected each balloon once"
+            self.complain(path, what)
+
+    def require_blown_up(self, place: Place, balloon: str | None, bubbles: Iterable[str]) -> None:
+        """Complain of work on a balloon, or on bubbles of one, before it is blown up: once a balloon."""
+        for name in dict.fromkeys([balloon, *map(self._owner, bubbles)]):
+            later = None if name is None else self._pumped.get(name)
+            if name is None or later is None or int(later[1]) <= place.index or name in self._told_flat:
+                continue
+            self._told_flat.add(name)
+            what = f"balloon {quoted(name)} is flat until {path_text(later)} blows it up"
+            self.complain(place.path, f"{what}: expected this step after that one")
 
     def make(self, name: str, path: Path, balloon: str | None, *, last: bool = False) -> bool:
         """Make a bubble behind those that are there, and say whether it is new.

@@ -5,26 +5,27 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from balloon_usd.operations.inflate import Inflate as InflateStep
 from balloon_usd.operations.modifiers import Timed
 from balloon_usd.operations.moves import Choreography, Inflate, LetGo, Move
-from balloon_usd.operations.score import SETTLE_SECONDS, Score
+from balloon_usd.operations.score import Score
 from balloon_usd.plan.laid_out import LaidOut
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator, Mapping
 
-    from balloon_usd.language.problem import Problem
+    from balloon_usd.language.problem import Path, Problem
     from balloon_usd.plan.rings import RingTable
     from balloon_usd.plan.strip import Strip
     from balloon_usd.recipe import Recipe
 
-INFLATE_SPEED = 0.38
-"""Inflated length blown up per second, m/s: a maker with a hand pump."""
 SPREAD_SECONDS = 1.5
 """Time in which the air particles of a balloon that starts blown up spread, s."""
 
 FEWEST_FRAMES = 6
 """Frames in which a balloon can be blown up: the pump's flow changes from frame to frame."""
+ROUNDING = 1e-9
+"""Frames by which a product of times and frames may miss a whole number."""
 
 
 def choreograph(recipe: Recipe, strips: Mapping[str, Strip], table: RingTable) -> Choreography:
@@ -37,8 +38,8 @@ def choreograph(recipe: Recipe, strips: Mapping[str, Strip], table: RingTable) -
     score = Score(LaidOut(strips, table), recipe.problem, recipe.physics.traits.starts_blown_up)
     if score.blown_up:
         score.add(Move(0.0, SPREAD_SECONDS, -1, "air spreads"))
-    else:
-        _inflate(score, strips)
+    elif balloons := _of_the_beginning(recipe):
+        score.inflate(balloons, -1)
     for index, step in enumerate(recipe.steps):
         begin, first = score.now, len(score.moves)
         step.perform(score, index)
@@ -49,26 +50,33 @@ def choreograph(recipe: Recipe, strips: Mapping[str, Strip], table: RingTable) -
     return Choreography(tuple(score.moves), score.now)
 
 
-def _inflate(score: Score, strips: Mapping[str, Strip]) -> None:
-    longest = 0.0
-    for name, strip in strips.items():
-        seconds = max(1.0, (strip.bubbles[-1].end - strip.bubbles[0].start) / INFLATE_SPEED)
-        seconds = seconds if strip.shape is None else strip.shape.seconds
-        score.moves.append(Inflate(0.0, seconds, -1, f"inflate: {name}", balloon=name))
-        longest = max(longest, seconds)
-    score.now = longest
-    score.add(Move(score.now, SETTLE_SECONDS, -1, "inflated"))
-    score.add(LetGo(score.now, 0.0, -1, "let go"))
+def _of_the_beginning(recipe: Recipe) -> list[str]:
+    """Return the balloons that no step blows up."""
+    later = {name for step in recipe.steps if isinstance(step, InflateStep) for name in step.inflate}
+    return [name for name in recipe.balloons if name not in later]
 
 
-def pace_problems(recipe: Recipe, choreography: Choreography) -> list[Problem]:
-    """Return whether balloons are blown up in too few frames."""
-    seconds = min((m.seconds for m in choreography.moves if isinstance(m, Inflate)), default=math.inf)
-    if seconds * recipe.fps >= FEWEST_FRAMES:
-        return []
-    frames = math.floor(seconds * recipe.fps)
-    text = (
-        f"{recipe.fps:g} frames/s leave {frames} for the {seconds:.1f} s in which a balloon is blown up, "
-        f"expected at least {math.ceil(FEWEST_FRAMES / seconds)} frames/s"
-    )
-    return [recipe.problem(("fps",), text)]
+def pace_problems(recipe: Recipe, choreography: Choreography) -> Iterator[Problem]:
+    """Yield where balloons are blown up in too few frames."""
+    shortest: dict[int, float] = {}
+    for move in choreography.moves:
+        if isinstance(move, Inflate):
+            shortest[move.step] = min(move.seconds, shortest.get(move.step, math.inf))
+    for step, seconds in shortest.items():
+        frames = seconds * recipe.fps
+        if frames > FEWEST_FRAMES - ROUNDING:
+            continue
+        path, expected = _pace_remedy(recipe, step, seconds)
+        given = f"{recipe.fps:g} frames/s leave {math.floor(frames + ROUNDING)}"
+        text = f"{given} for the {round(seconds, 2)} s in which a balloon is blown up, expected {expected}"
+        yield recipe.problem(path, text)
+
+
+def _pace_remedy(recipe: Recipe, step: int, seconds: float) -> tuple[Path, str]:
+    """Return where a pace is to be changed, and how; `step`: of the inflating, -1 of the beginning."""
+    quicker = f"at least {math.ceil(FEWEST_FRAMES / seconds - ROUNDING)} frames/s"
+    if step < 0:
+        return ("fps",), quicker
+    slower = math.ceil(100.0 * FEWEST_FRAMES / recipe.fps - ROUNDING) / 100.0
+    key = ("seconds",) if getattr(recipe.steps[step], "seconds", None) is not None else ()
+    return ("steps", step, *key), f"seconds: {slower:g}, or {quicker}"

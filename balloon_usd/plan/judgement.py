@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 from balloon_usd.balloon.bubble_shape import shortest_stable_bubble
 from balloon_usd.balloon.rubber import BURST_ENERGY, BURST_STRETCH
-from balloon_usd.language.lengths import at_least, cm
+from balloon_usd.language.lengths import at_least, at_most, cm
 from balloon_usd.operations.caution import Caution
 from balloon_usd.operations.modifiers import HOLDING_TURNS, Turned
-from balloon_usd.plan.open_tube import softened
+from balloon_usd.plan.open_tube import MILLIMETRE, roomy_share, softened, tail_range
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -40,9 +40,9 @@ def cautions_of(
     """Return all cautions, those of the whole sculpture last."""
     found = chain(
         chain.from_iterable(step.cautions(index, layout) for index, step in enumerate(recipe.steps)),
-        chain.from_iterable(_tail(budget) for budget in budgets.values()),
+        chain.from_iterable(_tail(recipe, strips[name], budget) for name, budget in budgets.items()),
         _of_latex(recipe, strips, graph, budgets) if recipe.physics.traits.winds else (),
-        _loose_pieces(strips, graph),
+        _loose_pieces(recipe, strips, graph),
         _bulging(strips),
     )
     return tuple(
@@ -56,7 +56,7 @@ def _of_latex(
     """What springs with frozen joints do not know: they neither harden, soften, burst nor unwind."""
     yield from _turns(recipe)
     yield from _short_bubbles(strips)
-    yield from chain.from_iterable(_burst(budget) for budget in budgets.values())
+    yield from chain.from_iterable(_burst(recipe, strips[name], it) for name, it in budgets.items())
     yield from _softening(recipe)
     yield from _unwinding(strips, graph)
 
@@ -94,11 +94,11 @@ def _short_bubbles(strips: Mapping[str, Strip]) -> Iterator[Caution]:
                     bubble.step,
                     f"{bubble.name} ({cm(bubble.length)}) will be a hard little ball",
                     f"below {cm(shortest)} a {strip.size.name} bubble needs more pressure than the tube has",
-                    "soften the balloon before this twist, or make the bubble longer",
+                    f"make it {at_least(shortest)} or longer",
                 )
 
 
-def _tail(budget: Budget) -> Iterator[Caution]:
+def _tail(recipe: Recipe, strip: Strip, budget: Budget) -> Iterator[Caution]:
     out = budget.runs_out
     if out is None:
         return
@@ -106,11 +106,27 @@ def _tail(budget: Budget) -> Iterator[Caution]:
         out.step,
         f"{budget.balloon} runs out of tail at the twist that ends {out.bubble}",
         f"{len(budget.twists)} twists fill {cm(budget.tail_needed)} of flat tail, of {cm(budget.tail)} left",
-        f"leave a tail of at least {at_least(budget.tail_needed)}",
+        _more_tail(recipe, strip, budget),
     )
 
 
-def _burst(budget: Budget) -> Iterator[Caution]:
+def _more_tail(recipe: Recipe, strip: Strip, budget: Budget) -> str:
+    """What to do about a balloon whose twists use up its tail, in the words in which it is filled."""
+    lengths = [bubble.length for bubble in strip.bubbles[:-1]]
+    full, needed = budget.longest_inflation, budget.tail_needed
+    remedy = ""
+    if needed + MILLIMETRE > budget.most_tail:
+        share = roomy_share(strip.size, strip.rubber, lengths)
+        room = tail_range(strip.size, strip.rubber, [share * length for length in lengths])
+        needed = room.least
+        full = budget.full_length * (1.0 - needed / budget.flat_length)
+        remedy = f"make the bubbles shorter by {at_least((1.0 - share) * sum(lengths))} in all, and "
+    if recipe.balloons[strip.balloon].inflated is not None:
+        return f"{remedy}write inflated: at most {at_most(full)}"
+    return f"{remedy}leave a tail of at least {at_least(needed)}"
+
+
+def _burst(recipe: Recipe, strip: Strip, budget: Budget) -> Iterator[Caution]:
     burst = next((twist for twist in budget.twists if twist.tail_left <= 0.0 and _bursts(twist)), None)
     if burst is not None:
         yield Caution(
@@ -118,7 +134,7 @@ def _burst(budget: Budget) -> Iterator[Caution]:
             f"{budget.balloon} may burst at the twist that ends {burst.bubble}",
             f"with no tail left the rubber is stretched {burst.hoop_stretch:.1f} times round, at "
             f"{burst.pressure / 1e3:.1f} kPa; latex bears about {BURST_STRETCH:g} times",
-            f"leave a tail of at least {at_least(budget.tail_needed)}",
+            _more_tail(recipe, strip, budget),
         )
 
 
@@ -168,13 +184,21 @@ def _bulging(strips: Mapping[str, Strip]) -> Iterator[Caution]:
             )
 
 
-def _loose_pieces(strips: Mapping[str, Strip], graph: SculptureGraph) -> Iterator[Caution]:
-    if len(graph.pieces) > 1 and all(strip.shape is None for strip in strips.values()):
-        names = sorted({edge.balloon for edge in graph.edges}, key=list(strips).index)
-        yield Caution(
-            None,
-            f"{', '.join(names)} are not all joined: the sculpture has {len(graph.pieces)} pieces",
-            "no lock brings their joints together",
-            f"lock: {{joints: [{strips[names[0]].bubbles[0].name}.start, "
-            f"{strips[names[1]].bubbles[0].name}.start]}}",
-        )
+def _loose_pieces(recipe: Recipe, strips: Mapping[str, Strip], graph: SculptureGraph) -> Iterator[Caution]:
+    if len(graph.pieces) < 2 or any(strip.shape is not None for strip in strips.values()):
+        return
+    names = sorted({edge.balloon for edge in graph.edges}, key=list(strips).index)
+    firsts = [
+        next(strip.bubbles[0] for strip in strips.values() if strip.bubbles[0].name in piece)
+        for piece in recipe.piece.pieces()
+    ]
+    # Steps know no bubble that none has named.
+    unnamed = [bubble for bubble in firsts if bubble.step == len(recipe.steps)]
+    rests = [f"{{rest: {bubble.name}, balloon: {bubble.balloon}}}" for bubble in unnamed]
+    lock = f"lock: {{joints: [{', '.join(f'{bubble.name}.start' for bubble in firsts)}]}}"
+    yield Caution(
+        None,
+        f"{', '.join(names)} are not all joined: the sculpture has {len(graph.pieces)} pieces",
+        "no lock brings their joints together",
+        ", then ".join([*rests, lock]),
+    )

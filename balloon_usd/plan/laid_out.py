@@ -13,6 +13,12 @@ if TYPE_CHECKING:
     from balloon_usd.plan.strip import PlannedBubble, Strip
 
 
+INFLATE_SPEED = 0.38
+"""Inflated length blown up per second, m/s: a maker with a hand pump."""
+INFLATE_LEAST = 1.0
+"""Shortest time in which a tube is blown up, s."""
+
+
 @dataclass(frozen=True)
 class _Placed:
     """A bubble on its strip."""
@@ -44,7 +50,7 @@ class LaidOut:
     """Rings and bubbles of laid strips, as operations ask for them; see `operations.score.Layout`."""
 
     def __init__(self, strips: Mapping[str, Strip], table: RingTable) -> None:
-        self._table = table
+        self._table, self._strips = table, strips
         self._bubbles = {b.name: _Placed(strip, b) for strip in strips.values() for b in strip.bubbles}
 
     def ring(self, index: int) -> PlannedRing:
@@ -62,6 +68,13 @@ class LaidOut:
     def ends(self, bubble: str) -> tuple[int, int | None]:
         """Return the rings of a bubble's start and end."""
         return self._table.ends(bubble)
+
+    def pump_seconds(self, balloon: str) -> float:
+        """Return how long a maker takes to blow a balloon up, s."""
+        strip = self._strips[balloon]
+        if strip.shape is not None:
+            return strip.shape.seconds
+        return max(INFLATE_LEAST, (strip.bubbles[-1].end - strip.bubbles[0].start) / INFLATE_SPEED)
 
     def guides(self, bubble: str) -> tuple[int, ...]:
         """Return the guide rings inside a bubble, from its start to its end."""

@@ -11,7 +11,15 @@ from balloon_usd.language.lengths import at_least, at_most, cm
 from balloon_usd.language.problem import RecipeError, quoted
 from balloon_usd.plan.capsule import capsule_bubbles
 from balloon_usd.plan.laying_shapes import overlap_problems, shaped_strip
-from balloon_usd.plan.open_tube import OpenTube, fitting_share, fitting_tail, inflated_tube
+from balloon_usd.plan.open_tube import (
+    OpenTube,
+    end_rest_length,
+    fitting_length,
+    fitting_share,
+    fitting_tail,
+    inflated_tube,
+    softened,
+)
 from balloon_usd.plan.strip import Made, PlannedBubble, Strip
 
 if TYPE_CHECKING:
@@ -108,9 +116,9 @@ def _tail(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> float
             text = _beyond_full(balloon.inflated, size, full)
             raise RecipeError([recipe.problem(("balloons", name, "inflated"), text)])
         return max(size.length * (1.0 - balloon.inflated / full), 0.0)
-    tail = balloon.tail or 0.0
-    if tail >= size.length:
-        text = f"a tail of {cm(tail)} leaves nothing of a {size.name}, expected less than {cm(size.length)}"
+    tail, most = balloon.tail or 0.0, size.length - end_rest_length(size, softened(rubber))
+    if tail >= most:
+        text = f"a tail of {cm(tail)} leaves nothing of a {size.name}, expected at most {at_most(most)}"
         raise RecipeError([recipe.problem(("balloons", name, "tail"), text)])
     return tail
 
@@ -167,4 +175,8 @@ def _misfit(recipe: Recipe, name: str, tail: float, bubble: str, length: float, 
         least = full * (1.0 - fitting / tube.size.length)
         return f"{text}, expected inflated: at least {at_least(least)}"
     shorter = sum(lengths) * (1.0 - fitting_share(tube.size, tube.rubber, tail, lengths))
-    return f"{text}, expected bubbles shorter by {at_least(shorter)} in all, or a longer balloon"
+    text += f", expected bubbles shorter by {at_least(shorter)} in all"
+    if inflated is None:
+        longer = fitting_length(tube.size, tube.rubber, tail, lengths)
+        text += f", or a balloon with length: at least {at_least(longer)}"
+    return text

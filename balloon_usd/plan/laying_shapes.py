@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from itertools import combinations
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -31,6 +31,8 @@ LIKELY_SMALLEST, LIKELY_LARGEST = 0.05, 2.0
 """Longest side of what artists usually model, m."""
 THICKEST = 0.05
 """Thickness of a wall in radii of a ball of it, up to which it bends and stretches as a membrane."""
+APART = 0.01
+"""Distance between the boxes of two balloons, m."""
 LEAST_AIR = 1.05
 """Volume when blown up, in that of the shape before."""
 USUAL_VOLUME, USUAL_SECONDS = 2.0e-3, 2.0
@@ -48,12 +50,13 @@ def shaped_strip(recipe: Recipe, name: str, rubber: Rubber) -> Strip:
     thickness, swell = balloon.thickness or WALL, balloon.swell or USUAL_SWELL
     if thickness > THICKEST * surface.ball_radius:
         text = f"a wall of {1e3 * thickness:g} mm is no thin skin of a balloon of {cm(max(surface.size))}"
-        most = f"expected at most {1e3 * THICKEST * surface.ball_radius:.2g} mm"
+        most = f"expected at most {math.floor(1e5 * THICKEST * surface.ball_radius) / 100.0:g} mm"
         raise RecipeError([recipe.problem(("balloons", name, "thickness"), f"{text}, {most}")])
     volume = swell**3 * surface.ball_volume
     least = (LEAST_AIR * ClosedShape(surface.parted(), surface.quads).volume / surface.ball_volume) ** (1 / 3)
     if swell < least:
-        text = f"{swell:g} is less than {name} holds before it is blown up, expected at least {least:.2f}"
+        text = f"{swell:g} is less than {name} holds before it is blown up"
+        text += f", expected at least {math.ceil(100.0 * least) / 100.0:g}"
         raise RecipeError([recipe.problem(("balloons", name, "swell"), text)])
     shape = Shaped(
         surface,
@@ -93,10 +96,17 @@ def overlap_problems(recipe: Recipe, strips: Mapping[str, Strip]) -> Iterator[Pr
     """Yield the balloons from meshes that lie in the box of one before them: walls must start apart."""
     shapes = [(name, strip.shape.surface.points) for name, strip in strips.items() if strip.shape is not None]
     boxes = [(name, points.min(axis=0), points.max(axis=0)) for name, points in shapes]
-    for (one, low, high), (name, least, most) in combinations(boxes, 2):
-        if (least <= high).all() and (low <= most).all():
-            text = f"lies where {one} is, expected its box beside that: at: [x, y, z]"
-            yield recipe.problem(("balloons", name), text)
+    free = max((float(high[0]) for _, _, high in boxes), default=0.0)
+    for at, (name, least, most) in enumerate(boxes):
+        met = [one for one, low, high in boxes[:at] if (least <= high).all() and (low <= most).all()]
+        if not met:
+            continue
+        x, y, z = recipe.balloons[name].at or (0.0, 0.0, 0.0)
+        beside = math.ceil(1e3 * (x + free + APART - float(least[0]))) / 1e3
+        free = beside - x + float(most[0])
+        place = ", ".join(f"{round(100.0 * value, 4):g} cm" for value in (beside, y, z))
+        text = f"lies where {met[0]} is, expected its box beside that, such as at: [{place}]"
+        yield recipe.problem(("balloons", name), text)
 
 
 def _surface(recipe: Recipe, name: str) -> tuple[ClosedShape, str]:

@@ -157,27 +157,53 @@ def fitting_tail(size: BalloonSize, rubber: Rubber, lengths: Sequence[float]) ->
     """Return the longest flat tail (m, to a millimetre) with which bubbles of these inflated lengths (m) fit,
     also where they use it up and blow up what is left harder; None where they fit with none.
     """
-    if not _fit(size, rubber, 0.0, lengths):
+    if not _fit(inflated_tube(size, rubber, 0.0), lengths):
         return None
     low, high = 0, math.ceil(size.length / MILLIMETRE)
     while high - low > 1:
         middle = (low + high) // 2
-        low, high = (middle, high) if _fit(size, rubber, middle * MILLIMETRE, lengths) else (low, middle)
+        fits = _fit(inflated_tube(size, rubber, middle * MILLIMETRE), lengths)
+        low, high = (middle, high) if fits else (low, middle)
     return low * MILLIMETRE
 
 
 def fitting_share(size: BalloonSize, rubber: Rubber, tail: float, lengths: Sequence[float]) -> float:
     """Return the share of their inflated lengths (m) with which bubbles fit beside a flat tail (m)."""
     low, high = 0.0, 1.0
+    tube = inflated_tube(size, rubber, tail)
     while high - low > SHARE:
         middle = 0.5 * (low + high)
-        fits = _fit(size, rubber, tail, [middle * length for length in lengths])
+        fits = _fit(tube, [middle * length for length in lengths])
         low, high = (middle, high) if fits else (low, middle)
     return low
 
 
-def _fit(size: BalloonSize, rubber: Rubber, tail: float, lengths: Sequence[float]) -> bool:
+def fitting_length(size: BalloonSize, rubber: Rubber, tail: float, lengths: Sequence[float]) -> float:
+    """Return the least flat length of a balloon (m, to a millimetre) in which bubbles of these inflated
+    lengths (m) fit beside a flat tail (m).
+    """
     tube = inflated_tube(size, rubber, tail)
+    gained = tube_volume_per_rest_length(size, tube.rubber)
+    low, high = 0, math.ceil(sum(lengths) / MILLIMETRE)
+    while high - low > 1:
+        middle = (low + high) // 2
+        more = middle * MILLIMETRE
+        longer = replace(tube, rest_length=tube.rest_length + more, volume=tube.volume + more * gained)
+        low, high = (low, middle) if _fit(longer, lengths) else (middle, high)
+    return size.length + high * MILLIMETRE
+
+
+def roomy_share(size: BalloonSize, rubber: Rubber, lengths: Sequence[float]) -> float:
+    """Return the share of their inflated lengths (m) with which bubbles fit and leave a flat tail."""
+    low, high = 0.0, 1.0
+    while high - low > SHARE:
+        middle = 0.5 * (low + high)
+        room = tail_range(size, rubber, [middle * length for length in lengths])
+        low, high = (middle, high) if room.least + MILLIMETRE <= room.most else (low, middle)
+    return low
+
+
+def _fit(tube: OpenTube, lengths: Sequence[float]) -> bool:
     for length in lengths:
         _, tube = tube.pinched(length)
         if not tube.blown_up:

@@ -64,6 +64,8 @@ def _thick_walls(recipe: Recipe, tubes: Mapping[str, BalloonSize]) -> Iterator[P
 
 def _slow_steps(recipe: Recipe) -> Iterator[Problem]:
     given, least = recipe.physics.substeps, math.ceil(SLOWEST / recipe.fps)
+    if recipe.physics.mass_scaling == "none":
+        return
     if given is not None and given < least:
         text = (
             f"{given} at {recipe.fps:g} frames/s are too few to follow the hands, expected at least {least}"
@@ -77,13 +79,16 @@ def _unscaled_masses(recipe: Recipe, tubes: Mapping[str, BalloonSize]) -> Iterat
         return
     radius = min(size.radius for size in tubes.values())
     needed = 50 * math.ceil(WAVE / radius / recipe.fps / 50.0)
-    if (physics.substeps or 0) >= needed or (physics.substeps or math.inf) < SLOWEST / recipe.fps:
+    if (physics.substeps or 0) >= needed:
         return
+    selective, least = "mass_scaling: selective", math.ceil(SLOWEST / recipe.fps)
+    if physics.substeps is not None and physics.substeps < least:
+        selective += f" and substeps: {least}"
     if needed > MOST_SUBSTEPS:
         more_frames = math.ceil(WAVE / radius / MOST_SUBSTEPS)
-        expected = f"mass_scaling: selective, or fps: {more_frames} and substeps: {MOST_SUBSTEPS}"
+        expected = f"{selective}, or fps: {more_frames} and substeps: {MOST_SUBSTEPS}"
     else:
-        expected = f"substeps: {needed} or more (finer details need more), or mass_scaling: selective"
+        expected = f"substeps: {needed} or more (finer details need more), or {selective}"
     given = "the usual time steps" if physics.substeps is None else f"{physics.substeps} substeps"
     text = f"{given} are too long for rubber of its true mass, expected {expected}"
     key = "mass_scaling" if physics.substeps is None else "substeps"

@@ -15,7 +15,7 @@ from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.plan.particles import experiment_spacing
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterator, Mapping, Sequence
 
     from balloon_usd.balloon.sizes import BalloonSize
     from balloon_usd.language.problem import Path, Problem
@@ -43,6 +43,8 @@ THINNEST_REGION = 0.05
 REGIONS = ("air_offset", "leak_offset", "contact_offset", "gamma")
 HEAVIEST = 0.5
 """Largest gravity, m/s2: the model's air has weight, and more of it runs out through the wall."""
+MOST_ELONGATION = 10.0
+"""Largest elongation that a recipe can give as a limit."""
 CHOSEN = "or no such line: the model chooses it"
 
 
@@ -51,13 +53,10 @@ def kosaka_problems(recipe: Recipe, tubes: Mapping[str, BalloonSize]) -> list[Pr
 
     `tubes`: sizes of its tubes, by balloon.
     """
-    found = (*_steps(recipe), *_gravity(recipe), *_stiff(recipe), *_zero(recipe), *_taut(recipe))
-    sized = [
-        problem
-        for radius in _radii(recipe, tubes)
-        for problem in (*_reach(recipe, radius), *_regions(recipe, radius))
-    ]
-    return list(dict.fromkeys([*found, *sized]))
+    found = [*_steps(recipe), *_gravity(recipe), *_stiff(recipe), *_zero(recipe), *_taut(recipe)]
+    if radii := _radii(recipe, tubes):
+        found += [*_reach(recipe, radii), *_regions(recipe, radii)]
+    return found
 
 
 def _steps(recipe: Recipe) -> Iterator[Problem]:
@@ -81,9 +80,16 @@ def _gravity(recipe: Recipe) -> Iterator[Problem]:
     if gravity > HEAVIEST:
         text = (
             f"at {gravity:g} m/s2 the air of model kosaka, which has weight, runs out through its wall, "
-            f"expected at most {HEAVIEST:g}, or model: latex"
+            f"expected at most {HEAVIEST:g}{'' if _only_kosaka(recipe) else ', or model: latex'}"
         )
         yield recipe.problem(("physics", "gravity"), text)
+
+
+def _only_kosaka(recipe: Recipe) -> bool:
+    """Whether a recipe has what no other model knows."""
+    return "kosaka" in recipe.physics.model_fields_set or any(
+        balloon.capsule is not None for balloon in recipe.balloons.values()
+    )
 
 
 def _stiff(recipe: Recipe) -> Iterator[Problem]:
@@ -111,46 +117,61 @@ def _taut(recipe: Recipe) -> Iterator[Problem]:
     natural = 0.5 if law.natural is None else law.natural
     least = (1.0 + law.swell) / natural - 1.0
     if law.elongation_limit < least:
-        text = (
-            f"{law.elongation_limit:g} is less than the springs of the balloon at rest have, "
-            f"expected at least {math.ceil(100.0 * least) / 100.0:g}, {CHOSEN}"
-        )
-        yield recipe.problem(_place("elongation_limit"), text)
+        text = f"{law.elongation_limit:g} is less than the springs of the balloon at rest have"
+        enough = math.ceil(100.0 * least) / 100.0
+        expected = f"at least {enough:g}, {CHOSEN}" if enough <= MOST_ELONGATION else "no such line"
+        yield recipe.problem(_place("elongation_limit"), f"{text}, expected {expected}")
 
 
-def _reach(recipe: Recipe, radius: float) -> Iterator[Problem]:
-    """Air must reach its neighbours, and there is room for so many of them."""
-    law, usual = recipe.physics.kosaka, experiment_spacing(radius)
-    spacing, reach = law.spacing or usual, law.re or REACH * radius / EXPERIMENT_RADIUS
-    apart = f"repulsion reaches {1e3 * reach:.3g} mm and air is {1e3 * spacing:.3g} mm apart"
-    if law.spacing is not None and spacing < PACKED * usual:
-        least = _mm_up(PACKED * usual)
-        text = f"{1e3 * spacing:.3g} mm packs more air than there is room for, expected at least {least}"
-        yield recipe.problem(_place("spacing"), f"{text}, {CHOSEN}")
-    elif law.re is not None and not spacing < reach <= CROWD * spacing:
-        expected = f"re of more than {_mm_up(spacing)} and at most {_mm_down(CROWD * spacing)}"
-        yield recipe.problem(_place("re"), f"{apart}, expected {expected}")
-    elif law.spacing is not None and spacing >= reach:
-        expected = f"less than {_mm_down(reach)}, or a larger re"
-        yield recipe.problem(_place("spacing"), f"{apart}, so that none meets another, expected {expected}")
+def _reach(recipe: Recipe, radii: Sequence[float]) -> Iterator[Problem]:
+    """Air must reach its neighbours, and there is room for so many of them: in every balloon."""
+    law = recipe.physics.kosaka
+    usual = [experiment_spacing(radius) for radius in radii]
+    spacings = usual if law.spacing is None else [law.spacing]
+    reaches = [REACH * radius / EXPERIMENT_RADIUS for radius in radii] if law.re is None else [law.re]
+    # Told of the balloon in which it is worst.
+    tightest, shortest = PACKED * max(usual), min(reaches)
+    apart = (
+        f"repulsion reaches {1e3 * shortest:.3g} mm and air is {_range([1e3 * s for s in spacings])} mm apart"
+    )
+    if law.spacing is not None and law.spacing < tightest:
+        packed = f"{1e3 * law.spacing:.3g} mm packs more air than there is room for"
+        yield _within(recipe, "spacing", packed, tightest, min(math.inf, *reaches))
+    elif law.re is not None and not max(spacings) < law.re <= CROWD * min(spacings):
+        yield _within(recipe, "re", apart, max(spacings), CROWD * min(spacings), above=True)
+    elif law.spacing is not None and law.spacing >= shortest:
+        text = f"{apart}, so that none meets another"
+        yield _within(recipe, "spacing", text, tightest, shortest)
 
 
-def _regions(recipe: Recipe, radius: float) -> Iterator[Problem]:
+def _range(values: Sequence[float]) -> str:
+    texts = [f"{value:.3g}" for value in (min(values), max(values))]
+    return texts[0] if texts[0] == texts[1] else " to ".join(texts)
+
+
+def _within(recipe: Recipe, key: str, text: str, low: float, high: float, *, above: bool = False) -> Problem:
+    """Return the problem of a length that is not between two others (m); of none if nothing is between."""
+    if above and _up(low) < _down_to(high):
+        text += f", expected re of more than {_mm_up(low)} and at most {_mm_down(high)}, {CHOSEN}"
+    elif not above and _up(low) < _down_to(high):
+        text += f", expected at least {_mm_up(low)} and less than {_mm_down(high)}, {CHOSEN}"
+    else:
+        text += ", and no value suits all balloons, expected no such line: the model chooses it"
+    return recipe.problem(_place(key), text)
+
+
+def _regions(recipe: Recipe, radii: Sequence[float]) -> Iterator[Problem]:
     for key in REGIONS:
         value = getattr(recipe.physics.kosaka, key)
         if value is None:
             continue
-        if value > radius:
-            text = (
-                f"{1e3 * value:g} mm is more than the balloon's radius, expected at most {_mm_down(radius)}"
-            )
+        most, least = min(radii), THINNEST_REGION * max(radii) if key == "air_offset" else 0.0
+        if value > most:
+            text = f"{1e3 * value:g} mm is more than the balloon's radius, expected at most {_mm_down(most)}"
             yield recipe.problem(_place(key), f"{text}, {CHOSEN}")
-        elif key == "air_offset" and value < THINNEST_REGION * radius:
-            least = _mm_up(THINNEST_REGION * radius)
-            text = (
-                f"{1e3 * value:g} mm is so thin that air slips through, expected at least {least}, {CHOSEN}"
-            )
-            yield recipe.problem(_place(key), text)
+        elif value < least:
+            text = f"{1e3 * value:g} mm is so thin that air slips through, expected at least {_mm_up(least)}"
+            yield recipe.problem(_place(key), f"{text}, {CHOSEN}")
 
 
 def _radii(recipe: Recipe, tubes: Mapping[str, BalloonSize]) -> list[float]:
@@ -173,8 +194,18 @@ def _down(value: float) -> str:
 
 
 def _mm_up(length: float) -> str:
-    return f"{math.ceil(1e4 * length - 1e-6) / 10.0:g} mm"
+    return f"{_up(length):g} mm"
 
 
 def _mm_down(length: float) -> str:
-    return f"{math.floor(1e4 * length + 1e-6) / 10.0:g} mm"
+    return f"{_down_to(length):g} mm"
+
+
+def _up(length: float) -> float:
+    """Return a length (m) in tenths of millimetres, rounded up, in mm."""
+    return math.ceil(1e4 * length - 1e-6) / 10.0
+
+
+def _down_to(length: float) -> float:
+    """Return a length (m) in tenths of millimetres, rounded down, in mm."""
+    return math.floor(1e4 * length + 1e-6) / 10.0

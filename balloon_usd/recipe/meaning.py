@@ -35,10 +35,11 @@ def meaning_of(data: object) -> Meaning:
     for balloon, entry in balloons.items():
         if balloon not in meshes:
             _check_filling(balloon, entry, bench)
-    for step in () if meshes else steps:
+    for step in steps:
         if bench.full:
             break
-        step.check(bench)
+        if not meshes or step.pumped:
+            step.check(bench)
     piece = _blown_up(meshes, len(steps)) if meshes else bench.finished(len(steps))
     return Meaning([*bench.complaints, *mesh_complaints(data), *model_complaints(data)], piece)
 

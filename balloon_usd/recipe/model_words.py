@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from balloon_usd.language.problem import Complaint
 from balloon_usd.operations.entries import steps_in
+from balloon_usd.operations.inflate import Inflate
 
 from .balloons import balloons_in
 
@@ -36,10 +37,7 @@ def model_complaints(data: object) -> Iterator[Complaint]:
             if key in LATEX_ONLY:
                 what = f"makes no sense with model kosaka: {LATEX_ONLY[key]}, expected no such line"
                 yield Complaint(("physics", key), what)
-        for step in steps_in(data):
-            if "turns" in step.entries:
-                what = "makes no sense with model kosaka: its joints freeze and are not wound"
-                yield Complaint((*step.path, "turns"), f"{what}, expected no turns")
+        yield from _kosaka_steps(data)
     elif model == "latex":
         if "kosaka" in physics:
             what = "stands beside model latex, which has no such constants, expected model: kosaka"
@@ -49,6 +47,16 @@ def model_complaints(data: object) -> Iterator[Complaint]:
                 what = "a closed capsule has no knot to blow up from in model latex"
                 expected = "inflated here, or physics: {model: kosaka}"
                 yield Complaint(("balloons", balloon, "capsule"), f"{what}, expected {expected}")
+
+
+def _kosaka_steps(data: object) -> Iterator[Complaint]:
+    for step in steps_in(data):
+        if Inflate.word in step.words:
+            what = "makes no sense with model kosaka, whose balloons start blown up"
+            yield Complaint((*step.path, Inflate.word), f"{what}, expected no such step")
+        if "turns" in step.entries:
+            what = "makes no sense with model kosaka: its joints freeze and are not wound"
+            yield Complaint((*step.path, "turns"), f"{what}, expected no turns")
 
 
 def _physics_in(data: object) -> dict[str, Any]:

@@ -6,9 +6,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from balloon_usd.operations.moves import Pinch
 from balloon_usd.report.step_marks import StepMark, step_marks
-from balloon_usd.solver.run_summary import flat_tail
+from balloon_usd.solver.flat_tails import FlatTails
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -16,7 +15,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from balloon_usd.balloon.tube_mesh import BalloonMesh
-    from balloon_usd.plan import Plan, Strip
+    from balloon_usd.plan import Plan
     from balloon_usd.solver.frame import Frame
 
     Floats = NDArray[np.float64]
@@ -28,12 +27,7 @@ class History:
     def __init__(self, plan: Plan, meshes: Sequence[BalloonMesh]) -> None:
         """Begin with nothing seen; one mesh a balloon, in the order of `Plan.strips`."""
         self.plan = plan
-        self._tubes = [
-            (index, strip, mesh)
-            for index, (strip, mesh) in enumerate(zip(plan.strips.values(), meshes, strict=True))
-            if strip.has_tail
-        ]
-        self._necks = [_necks(plan, balloon) for balloon in plan.strips]
+        self._tails = FlatTails(plan, meshes)
         self._owners = _owners(plan, meshes)
         self._time_codes: list[int] = []
         self._pressure: list[Floats] = []
@@ -56,13 +50,7 @@ class History:
             self._contact.append(frame.contact.astype(np.float64))
         for name in frame.undone:
             self._undone.setdefault(name, frame.time_code)
-        self._tail.append([self._tail_in(frame, *tube) for tube in self._tubes])
-
-    def _tail_in(self, frame: Frame, index: int, strip: Strip, mesh: BalloonMesh) -> float:
-        """Return the flat rubber (m) at the tip of a tube, as far as its gas or its last neck."""
-        time = (frame.time_code - 1) / self.plan.recipe.fps
-        neck = max((along for begin, along in self._necks[index] if begin <= time), default=0.0)
-        return flat_tail(mesh, frame.points[index], neck, strip.size.radius)
+        self._tail.append(self._tails.left(frame))
 
     @property
     def time_codes(self) -> tuple[int, ...]:
@@ -107,12 +95,12 @@ class History:
     @property
     def tail_names(self) -> tuple[str, ...]:
         """Balloons that have a tail: only tubes do."""
-        return tuple(strip.balloon for _, strip, _ in self._tubes)
+        return self._tails.names
 
     @property
     def tail(self) -> Floats:
         """Flat rubber at the tip of every such balloon, (N, tails) float64, m."""
-        return np.array(self._tail).reshape(len(self._time_codes), len(self._tubes))
+        return np.array(self._tail).reshape(len(self._time_codes), len(self.tail_names))
 
     @property
     def marks(self) -> tuple[StepMark, ...]:
@@ -153,10 +141,3 @@ def _owners(plan: Plan, meshes: Sequence[BalloonMesh]) -> list[_Owners]:
         owners.append(_Owners(order, starts, bubbles))
         before += len(strip.bubbles)
     return owners
-
-
-def _necks(plan: Plan, balloon: str) -> list[tuple[float, float]]:
-    """Return when each neck of a balloon begins to close (s), and how far from the knot it is (m)."""
-    pinches = [move for move in plan.choreography.moves if isinstance(move, Pinch)]
-    rings = [(move.start, plan.table.rings[move.ring]) for move in pinches]
-    return [(start, ring.along) for start, ring in rings if ring.balloon == balloon]

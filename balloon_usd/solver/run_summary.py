@@ -6,15 +6,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
+from balloon_usd.solver.flat_tails import FlatTails
 
+if TYPE_CHECKING:
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
     from balloon_usd.solver.frame import Frame
-
-FLAT_BELOW = 2.0
-"""Hoop stretch below which rubber counts as flat: between the thin phase (1.15) and the bulged one (5.7)."""
 
 
 class RunSummary:
@@ -24,6 +21,7 @@ class RunSummary:
         """Begin without frames."""
         self._plan = plan
         self._meshes = meshes
+        self._tails = FlatTails(plan, meshes)
         self._last: Frame | None = None
         self.highest_stretch = 0.0
         """Largest principal stretch of any wall so far."""
@@ -55,29 +53,4 @@ class RunSummary:
         """Flat rubber left at the tip of every tube in the last frame, m."""
         if self._last is None:
             return {}
-        pairs = zip(self._plan.strips.items(), self._meshes, self._last.points, strict=True)
-        return {
-            name: flat_tail(mesh, points, strip.bubbles[-1].rest_start, strip.size.radius)
-            for (name, strip), mesh, points in pairs
-            if strip.shape is None
-        }
-
-
-def flat_tail(mesh: BalloonMesh, points: NDArray[np.float32], beyond: float, radius: float) -> float:
-    """Return the unstressed length (m) of the rubber beyond a place that is not inflated.
-
-    Args:
-        mesh: the balloon.
-        points: (V, 3) m.
-        beyond: unstressed distance from the knot (m).
-        radius: unstressed tube radius (m).
-    """
-    rings = mesh.ring_start[:, None] + np.arange(mesh.around)
-    corners = points[rings].astype(np.float64)
-    girth = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).sum(axis=1)
-    unstressed = 2.0 * mesh.around * np.tan(np.pi / mesh.around) * radius
-    flat = (girth / unstressed < FLAT_BELOW) & (mesh.ring_along > beyond)
-    last = len(flat) - 1
-    while last >= 0 and flat[last]:
-        last -= 1
-    return float(mesh.ring_along[-1] + radius - mesh.ring_along[last]) if last < len(flat) - 1 else 0.0
+        return dict(zip(self._tails.names, self._tails.left(self._last), strict=True))

@@ -148,7 +148,7 @@ def test_the_models_own_time_steps_are_those_that_are_assumed():
             "substeps: 40 time steps/s are too few for its springs, expected at least 50",
         ),
         ("substeps: 20", "fps: 120\n", "expected no such line: the model chooses them"),
-        ("gravity: 9.81", "", "expected at most 0.5, or model: latex"),
+        ("gravity: 9.81", "", "runs out through its wall, expected at most 0.5"),
     ],
 )
 def test_what_springs_and_particles_cannot_do_is_refused(physics, head, what):

@@ -133,7 +133,7 @@ def test_the_plan_is_told_drawn_and_given_as_data(heart):
         ),
         (
             "{it: {mesh: cube.obj, swell: 0.6}}",
-            "balloons.it.swell: 0.6 is less than it holds before it is blown up, expected at least 0.91",
+            "balloons.it.swell: 0.6 is less than it holds before it is blown up, expected at least 0.92",
         ),
         (
             "{it: {mesh: cube.obj, thickness: 1 mm}}",
@@ -141,7 +141,7 @@ def test_the_plan_is_told_drawn_and_given_as_data(heart):
         ),
         (
             "{a: {mesh: cube.obj}, b: {mesh: cube.obj, at: [1, 0, 0]}}",
-            "balloons.b: lies where a is, expected its box beside that: at: [x, y, z]",
+            "balloons.b: lies where a is, expected its box beside that, such as at: [4 cm, 0 cm, 0 cm]",
         ),
     ],
 )

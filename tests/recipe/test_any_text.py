@@ -87,6 +87,7 @@ SNIPPETS = st.sampled_from(
             "kosaka",
             "capsule",
             "wait",
+            "inflate",
             "joints",
             "balloon",
             "point",

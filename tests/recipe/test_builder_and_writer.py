@@ -304,9 +304,9 @@ def test_a_step_can_be_added_by_its_word_or_as_a_whole() -> None:
 @pytest.mark.parametrize("operation", OPERATIONS, ids=WORDS)
 def test_the_builder_writes_the_steps_of_every_example(operation: type[Operation]) -> None:
     recipe = Recipe.parse(operation.example)
-    balloon = recipe.balloons["main"]
     builder = RecipeBuilder("f", units="in")
-    builder.balloon("main", size=balloon.size, tail=balloon.tail, length=balloon.length)
+    for name, balloon in recipe.balloons.items():
+        builder.balloon(name, size=balloon.size, tail=balloon.tail, length=balloon.length)
     for step in recipe.steps:
         builder.add(step)
     assert builder.build().steps == recipe.steps

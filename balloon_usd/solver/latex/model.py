@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from balloon_usd.balloon.tube_theory import maxwell_state
+from balloon_usd.operations.moves import Inflate
 from balloon_usd.plan.meshing import joint_places
 from balloon_usd.solver.body import body_ranges, places_beside
 from balloon_usd.solver.checks import crowded, stretch_limits
@@ -145,7 +147,23 @@ class LatexModel(Model):
         got = float(self._state["amount"][self.scene.bubbles_of(balloon)].sum())
         if got >= SHORT_OF_GAS * goal:
             return None
-        return f"the pump brought only {got / goal:.0%} of the gas: give it more seconds"
+        return short_of_gas(self._inflating(balloon), got / goal)
+
+    def _inflating(self, balloon: int) -> Inflate:
+        """Return the move that blows a balloon up."""
+        return next(
+            move
+            for sculpture in self._sculptures
+            for move in sculpture.plan.choreography.moves
+            if isinstance(move, Inflate) and sculpture.body[move.balloon] == balloon
+        )
+
+
+def short_of_gas(move: Inflate, share: float) -> str:
+    """Tell that a pump brought only a share of the gas, and what to write in the recipe."""
+    balloon, longer = move.balloon, math.ceil(20.0 * move.seconds) / 10.0
+    text = f"the pump brought only {share:.0%} of the gas of {balloon} in {move.seconds:.3g} s"
+    return f"{text}: expected a step inflate: {balloon} with seconds: {longer:g}"
 
 
 def _bodies(plan: Plan, meshes: Sequence[BalloonMesh]) -> list[LatexBody]:

@@ -141,7 +141,9 @@ class Contacts:
     ring_radius: wp.array[float] = array("rings", unit="m", meaning="girth over 2 pi")
     vertex_own: wp.array[wp.vec2i] = array("vertices", meaning="run of quads about it that it never touches")
     target: wp.array2d[int] = array("vertices", TARGETS, meaning="quads that it may touch; -1 for none")
-    slip: wp.array2d[wp.vec3] = array("vertices", TARGETS, unit="m", meaning="how far it has slipped on them")
+    slip: wp.array2d[wp.vec3] = array(
+        "vertices", TARGETS, unit="m", meaning="deflection of its friction on them"
+    )
     contact_force: wp.array2d[float] = array(3 * TARGETS, "vertices", unit="N", meaning="force of them on it")
     contact_place: wp.array[wp.vec2] = array("contacts", meaning="where on the quad, -1/2 to 1/2")
     hit_count: wp.array[int] = array("quads", meaning="contacts on it")

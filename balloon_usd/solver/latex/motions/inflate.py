@@ -58,7 +58,8 @@ class Inflate(Motion):
         hands.pump_goal[b] = (atmosphere + shape.pressure) * shape.volume / float(scene.air.molar_energy)
         # No wall is so stiff: the pump gives its air in time whatever the shape is.
         hands.pump_limit[b] = atmosphere
-        hands.touch([b])
+        # Also those that are still flat.
+        hands.touch(self._sculpture.bodies)
 
     def advance(self, share: float) -> None:
         """Pump: it starts and stops gently, as a tube is pushed along by its own front."""
