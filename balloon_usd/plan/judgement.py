@@ -11,7 +11,7 @@ from balloon_usd.balloon.rubber import BURST_ENERGY, BURST_STRETCH
 from balloon_usd.language.lengths import at_least, at_most, cm
 from balloon_usd.operations.caution import Caution
 from balloon_usd.operations.modifiers import HOLDING_TURNS, Turned
-from balloon_usd.plan.open_tube import MILLIMETRE, roomy_share, softened, tail_range
+from balloon_usd.plan.open_tube import MILLIMETRE, roomy_share, shortened, softened, tail_range
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -117,10 +117,10 @@ def _more_tail(recipe: Recipe, strip: Strip, budget: Budget) -> str:
     remedy = ""
     if needed + MILLIMETRE > budget.most_tail:
         share = roomy_share(strip.size, strip.rubber, lengths)
-        room = tail_range(strip.size, strip.rubber, [share * length for length in lengths])
-        needed = room.least
+        shorter, lengths = shortened(lengths, share)
+        needed = tail_range(strip.size, strip.rubber, lengths).least
         full = budget.full_length * (1.0 - needed / budget.flat_length)
-        remedy = f"make the bubbles shorter by {at_least((1.0 - share) * sum(lengths))} in all, and "
+        remedy = f"make the bubbles shorter by {at_least(shorter)} in all, and "
     if recipe.balloons[strip.balloon].inflated is not None:
         return f"{remedy}write inflated: at most {at_most(full)}"
     return f"{remedy}leave a tail of at least {at_least(needed)}"

@@ -18,12 +18,14 @@ from balloon_usd.plan.open_tube import (
     fitting_share,
     fitting_tail,
     inflated_tube,
+    roomy_share,
+    shortened,
     softened,
 )
 from balloon_usd.plan.strip import Made, PlannedBubble, Strip
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from balloon_usd.balloon.rubber import Rubber
     from balloon_usd.balloon.sizes import BalloonSize
@@ -33,6 +35,9 @@ if TYPE_CHECKING:
 
 FULL_TOLERANCE = 0.02
 """An inflated length beyond the full one by this share means full: nominal lengths are rounded."""
+
+LEAST_SHARE = 0.25
+"""Share of their lengths to which bubbles are advised to be shortened."""
 
 
 def lay_strips(recipe: Recipe, tubes: Mapping[str, BalloonSize]) -> dict[str, Strip]:
@@ -118,6 +123,8 @@ def _tail(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> float
         return max(size.length * (1.0 - balloon.inflated / full), 0.0)
     tail, most = balloon.tail or 0.0, size.length - end_rest_length(size, softened(rubber))
     if tail >= most:
+        fitting = fitting_tail(size, rubber, [made.length for made in _made(recipe, name)])
+        most = most if fitting is None else min(fitting, most)
         text = f"a tail of {cm(tail)} leaves nothing of a {size.name}, expected at most {at_most(most)}"
         raise RecipeError([recipe.problem(("balloons", name, "tail"), text)])
     return tail
@@ -174,9 +181,25 @@ def _misfit(recipe: Recipe, name: str, tail: float, bubble: str, length: float, 
     if fitting is not None:
         least = full * (1.0 - fitting / tube.size.length)
         return f"{text}, expected inflated: at least {at_least(least)}"
-    shorter = sum(lengths) * (1.0 - fitting_share(tube.size, tube.rubber, tail, lengths))
-    text += f", expected bubbles shorter by {at_least(shorter)} in all"
-    if inflated is None:
-        longer = fitting_length(tube.size, tube.rubber, tail, lengths)
-        text += f", or a balloon with length: at least {at_least(longer)}"
-    return text
+    return f"{text}, expected {_shorter(tube.size, tube.rubber, tail, lengths, by_tail=inflated is None)}"
+
+
+def _shorter(
+    size: BalloonSize, rubber: Rubber, tail: float, lengths: Sequence[float], *, by_tail: bool
+) -> str:
+    """What to do about bubbles that fit with no tail; `by_tail`: whether the recipe tells the tail."""
+    share, filling = fitting_share(size, rubber, tail, lengths), ""
+    if share < LEAST_SHARE:
+        share = roomy_share(size, rubber, lengths)
+        fitting = fitting_tail(size, rubber, shortened(lengths, share)[1])
+        if share < LEAST_SHARE or fitting is None:
+            return "fewer bubbles"
+        least = size.length * maxwell_state(rubber).bulged.b * (1.0 - fitting / size.length)
+        filled = (
+            f"a tail of at most {at_most(fitting)}" if by_tail else f"inflated: at least {at_least(least)}"
+        )
+        filling = f", and {filled}"
+    elif by_tail:
+        longer = fitting_length(size, rubber, tail, lengths)
+        filling = f", or a balloon with length: at least {at_least(longer)}"
+    return f"bubbles shorter by {at_least(shortened(lengths, share)[0])} in all{filling}"

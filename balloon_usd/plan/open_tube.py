@@ -203,6 +203,15 @@ def roomy_share(size: BalloonSize, rubber: Rubber, lengths: Sequence[float]) -> 
     return low
 
 
+def shortened(lengths: Sequence[float], share: float) -> tuple[float, list[float]]:
+    """Return by how much lengths (m) are shorter in all at a share of them, up to a millimetre, and what they
+    are then.
+    """
+    total = sum(lengths)
+    shorter = math.ceil((1.0 - share) * total / MILLIMETRE) * MILLIMETRE
+    return shorter, [length * (1.0 - shorter / total) for length in lengths]
+
+
 def _fit(tube: OpenTube, lengths: Sequence[float]) -> bool:
     for length in lengths:
         _, tube = tube.pinched(length)

@@ -99,7 +99,7 @@ def test_dimensions_of_a_brand_replace_those_of_the_size(planned):
 def test_a_tail_longer_than_the_balloon_is_refused_at_its_place(planned):
     text = problem_of(planned, "balloons:\n  a: {size: 260, tail: 40}\nsteps: [{bubbles: {c: 6}}]")
     assert text.startswith("figure.yaml:5:")
-    assert "balloons.a.tail: a tail of 40 cm leaves nothing of a 260, expected at most 36.2 cm" in text
+    assert "balloons.a.tail: a tail of 40 cm leaves nothing of a 260, expected at most 35.2 cm" in text
 
 
 def test_more_than_a_full_balloon_is_refused_with_the_full_length(planned):

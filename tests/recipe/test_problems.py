@@ -401,7 +401,7 @@ LOCKS = [
     (
         "[a, c]",
         5,
-        "lock: no neighbours (b between them), expected all of them or lock: {joints: [a.start, c.end]}",
+        "lock: no neighbours (b between them), expected [a, b, c] or lock: {joints: [a.start, c.end]}",
     ),
     ("[b, a]", 5, "lock: not in the order of the balloon, expected [a, b]"),
     ("[a, a]", 5, "lock: names a bubble twice, expected each once"),
