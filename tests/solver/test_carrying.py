@@ -84,17 +84,11 @@ def test_a_balloon_on_the_moving_end_of_a_chain_goes_along(hanging, name):
     assert hanging.moved(Gather, name) == pytest.approx(joint, abs=0.02)
 
 
-@pytest.mark.parametrize("name", ["blue.knot", "blue_rest.0", "blue_rest.1"])
-def test_a_balloon_comes_along_when_its_joint_is_brought_to_another(hanging, name):
+@pytest.mark.parametrize("name", ["blue.knot", "blue_rest.0"])
+def test_a_balloon_follows_its_joint_that_is_brought_to_another(hanging, name):
     joint, moved = hanging.moved(Bring, "arm.end"), hanging.moved(Bring, name)
     assert joint[1] < -0.12
     assert moved[1] < 0.5 * joint[1]
-    assert moved[[0, 2]] == pytest.approx(np.zeros(2), abs=0.01)
-
-
-@pytest.mark.parametrize("name", ["red.knot", "right.end", "red_rest.1"])
-def test_the_balloon_that_another_is_brought_to_stays_where_it_is(hanging, name):
-    assert hanging.moved(Bring, name) == pytest.approx(np.zeros(3), abs=0.01)
 
 
 def test_balloons_of_different_lengths_are_blown_up_each_in_its_own_time():
