@@ -29,6 +29,7 @@ Size = Literal[
     "slots for faces",
     "slots for neighbours",
     "slots for particles",
+    "spins",
     "struts",
     "triangles",
     "vertices",
