@@ -34,6 +34,8 @@ class LatexControls(Hands):
         """Balloon of every ring, (J,)."""
         self._ends = scene.end_joint.numpy()
         """Joint that ends every segment, (S,); -1 at the tip of a balloon."""
+        self._edges = scene.flow_from.numpy().copy(), scene.flow_to.numpy().copy()
+        """Segments that the edges along which gas flows lead from and to."""
         self.pump_flow = np.zeros(len(scene.bodies), dtype=np.float32)
         self.pump_limit = np.ones(len(scene.bodies), dtype=np.float32)
         self.pump_goal = np.zeros(len(scene.bodies))
@@ -107,12 +109,28 @@ class LatexControls(Hands):
         blowing[self._joint_body[necks[: len(self._joint_body)]]] = 1
         return blowing
 
+    def _flows(self, last: NDArray[np.int64]) -> dict[str, NDArray[Any]]:
+        """Return the chambers that edges lead from and to, and the edges at every chamber in order, given the
+        last segment of the chamber that every segment lies in, (S,).
+        """
+        source, sink = (last[segments] for segments in self._edges)
+        between = np.flatnonzero(source != sink)
+        # What comes into a chamber and what leaves it, in the order of the edges.
+        chamber = np.stack([sink[between], source[between]], axis=1).reshape(-1)
+        edge = np.stack([between + 1, -between - 1], axis=1).reshape(-1)
+        order = np.argsort(chamber, kind="stable")
+        ends = np.zeros(2 * len(source), dtype=np.int32)
+        ends[: len(edge)] = edge[order]
+        start = np.searchsorted(chamber[order], np.arange(len(last) + 1))
+        return {"flow_from": source, "flow_to": sink, "chamber_end": start, "flow_ends": ends}
+
     def _goals(self) -> dict[str, NDArray[Any]]:
         passages = self.passage.tobytes(), self.passage_goal.tobytes()
         if passages != self._passages:
             self._passages = passages
             first, last = self.chambers()
             self._necks = {"blowing": self._blowing(), "chamber_first": first, "chamber_last": last}
+            self._necks |= self._flows(last)
         return (
             super()._goals()
             | self._necks

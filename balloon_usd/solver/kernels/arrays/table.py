@@ -15,6 +15,8 @@ Size = Literal[
     "contacts",
     "corner rows",
     "curve segments",
+    "flow edges",
+    "flow ends",
     "joints",
     "packed vertices",
     "packing rings",
