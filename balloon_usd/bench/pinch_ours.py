@@ -16,6 +16,7 @@ from balloon_usd.solver.kernels.physics.gas import OPEN_PASSAGE
 from balloon_usd.solver.latex.body import LatexBody
 from balloon_usd.solver.latex.controls import LatexControls
 from balloon_usd.solver.latex.scene import build_scene
+from balloon_usd.solver.latex.spins import VertexSet
 from balloon_usd.solver.latex.stepper import Stepper
 from balloon_usd.solver.settings import SceneSettings
 
@@ -49,7 +50,8 @@ class PinchedTube:
         self.hands.touch([0])
         self._whole = np.full(len(self.neck), RADIUS)
         middle = task.middle
-        self._beyond = float(body.along[task.mesh.ring_start[middle : middle + 2]].mean())
+        beyond = body.along > float(body.along[task.mesh.ring_start[middle : middle + 2]].mean())
+        self._halves = [VertexSet.of(np.flatnonzero(side)) for side in (beyond, ~beyond)]
 
     def advance(self) -> None:
         """Advance by one frame."""
@@ -80,15 +82,10 @@ class PinchedTube:
 
     def _turn(self, rate: float) -> None:
         """Turn both ends at a rate (rad/s) in this frame, against each other."""
-        self.hands.spin(
-            0,
-            point=self.scene.ring_middle.numpy()[len(self.neck) // 2],
-            beyond=self._beyond,
-            axis=(1.0, 0.0, 0.0),
-            back_axis=(-1.0, 0.0, 0.0),
-            rate=rate,
-            back_rate=rate,
-        )
+        point = self.scene.ring_middle.numpy()[len(self.neck) // 2]
+        for half, along in zip(self._halves, (1.0, -1.0), strict=True):
+            spin = {"point": point, "axis": (along, 0.0, 0.0), "rate": rate, "free": 1}
+            self.hands.spins.turn(half, spin)
 
 
 def tube_body(task: PinchTask) -> LatexBody:

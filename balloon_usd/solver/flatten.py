@@ -28,7 +28,6 @@ def mesh_arrays(scene: FlatBodies, host: Arrays) -> None:
     host["quad_segment"] = np.concatenate([g + s[k] for k, g in enumerate(segments)]).astype(np.int32)
     host["quad_balloon"] = np.repeat(index, np.diff(q)).astype(np.int32)
     host["vertex_balloon"] = np.repeat(index, np.diff(v)).astype(np.int32)
-    host["vertex_along"] = np.concatenate([b.along for b in bodies]).astype(np.float32)
     places = [b.along_only if b.place is None else b.place for b in bodies]
     host["vertex_place"] = np.concatenate(places).astype(np.float32)
     middles = [place[b.quads].mean(axis=1) for place, b in zip(places, bodies, strict=True)]

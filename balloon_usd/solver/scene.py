@@ -10,7 +10,7 @@ import numpy as np
 from balloon_usd.solver.device_arrays import DeviceArrays
 from balloon_usd.solver.flat_bodies import FlatBodies
 from balloon_usd.solver.flatten import Arrays, chunk_arrays, mesh_arrays, ring_arrays, segment_arrays
-from balloon_usd.solver.kernels.arrays.rows import TARGETS, Touch
+from balloon_usd.solver.kernels.arrays.rows import SPINS, TARGETS, Touch
 from balloon_usd.solver.kernels.arrays.shared import (
     Balloons,
     Checks,
@@ -59,6 +59,7 @@ class Scene(FlatBodies):
             "sculpture starts": worlds + 1,
             "segments": int(self.segment_start[-1]),
             "segment starts": int(self.segment_start[-1]) + 1,
+            "spins": SPINS * worlds,
             "triangles": 2 * quads,
             "vertices": vertices,
         }

@@ -89,10 +89,15 @@ class Sculpture:
         """Return for each of some rings of the plan the joints by which hands lead what hangs on it, on all
         balloons.
         """
+        return [
+            [self.joints[ring] for ring in each if self._led[ring]] for each in self.rings_hanging_on(rings)
+        ]
+
+    def rings_hanging_on(self, rings: Sequence[int]) -> tuple[tuple[int, ...], ...]:
+        """Return for each of some rings of the plan the rings that hang on it, on all balloons."""
         ring_of = {joint: ring for ring, joint in enumerate(self.joints)}
         welds = [[ring_of[joint] for joint in weld] for weld in self.hands.welds_of(self.joints)]
-        hanging = hanging_on(rings, [ring.balloon for ring in self.plan.table.rings], welds)
-        return [[self.joints[ring] for ring in each if self._led[ring]] for each in hanging]
+        return hanging_on(rings, [ring.balloon for ring in self.plan.table.rings], welds)
 
     def carry(self, rings: Sequence[int]) -> Carried:
         """Begin to lead what hangs on some rings of the plan: on the last one, which is held, it stays."""

@@ -76,6 +76,12 @@ class Room:
     def joint(self, name):
         return self.sculpture.joints[self.ring(name)]
 
+    def turning(self, balloon):
+        """Which vertices of a balloon turn in the coming frame."""
+        self.hands.spins.settle()
+        first = self.model.scene.vertex_start[(body := self.sculpture.body[balloon])]
+        return self.hands.spins.of_vertex[first : self.model.scene.vertex_start[body + 1]] > 0
+
     def weld(self, *names):
         self.hands.weld(tuple(self.joint(name) for name in names))
 
@@ -229,9 +235,57 @@ def test_a_spin_winds_the_neck_by_its_turns_in_frames_of_any_length():
         room.sculpture.frame = ComingFrame(begin, end, room.middle)
         spin.advance(min(1.0, end / move.seconds))
     assert room.sculpture.torsion.joints[ring].turns == pytest.approx(3.0)
-    assert room.hands.spins["rate"][1:] == pytest.approx(0.0)
-    room.hands.stop_turning()
-    assert not room.hands.spins["rate"].any()
+    assert room.turning("red").any()
+    assert not room.turning("blue").any()
+    assert not room.turning("green").any()
+    room.hands.spins.stop()
+    assert not room.turning("red").any()
+
+
+def spin_beyond(room, name):
+    """Turn what lies beyond a ring."""
+    ring = room.ring(name)
+    room.sculpture.torsion.pinch(ring, 0.01)
+    Spin(moves.Spin(**DONE, ring=ring, turns=3.0), room.sculpture).advance(0.5)
+
+
+def test_a_spin_turns_its_balloon_beyond_the_ring_and_no_other():
+    room = Room()
+    spin_beyond(room, "nose.end")
+    ring = room.plan.table.rings[room.ring("nose.end")]
+    along = room.model.scene.bodies[room.sculpture.body["red"]].along
+    assert (room.turning("red") == (along > ring.along + 1e-6)).all()
+    assert not room.turning("blue").any()
+
+
+def test_a_spin_turns_a_balloon_that_hangs_beyond_the_ring():
+    room, alone = Room(), Room()
+    room.weld("left.end", "blue.knot")
+    room.weld("arm.end", "green.knot")
+    spin_beyond(room, "nose.end")
+    spin_beyond(alone, "nose.end")
+    assert room.turning("blue").all()
+    assert room.turning("green").all()
+    assert (room.turning("red") == alone.turning("red")).all()
+    # About the axis of its own balloon, whatever hangs on it.
+    assert room.hands.spins.rows.tobytes() == alone.hands.spins.rows.tobytes()
+
+
+@pytest.mark.parametrize("name", ["nose.end", "red.knot"])
+def test_a_spin_leaves_a_balloon_that_hangs_on_its_ring_or_before_it(name):
+    room = Room()
+    room.weld(name, "blue.knot")
+    spin_beyond(room, "nose.end")
+    assert not room.turning("blue").any()
+
+
+def test_a_spin_leaves_a_balloon_that_is_tied_on_both_sides_of_its_ring():
+    room = Room()
+    room.weld("left.end", "arm.end")
+    room.weld("red.knot", "blue_rest.0")
+    spin_beyond(room, "nose.end")
+    assert room.turning("red").any()
+    assert not room.turning("blue").any()
 
 
 def test_a_ring_of_a_net_is_drawn_together_before_its_time_is_over():

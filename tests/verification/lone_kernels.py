@@ -21,6 +21,6 @@ def quad_forces(mesh: Mesh, rubber: Rubber, chambers: Chambers, forces: Forces, 
 
 
 @wp.kernel
-def balloon_gas(air: Air, dt: float, fraction: float, mesh: Mesh, chambers: Chambers, state: State):
+def balloon_gas(air: Air, dt: float, fraction: float, chambers: Chambers, state: State):
     """Advance the gas of every balloon."""
-    advance_gas(wp.tid(), 0, 1, air, dt, fraction, mesh, chambers, state)
+    advance_gas(wp.tid(), 0, 1, air, dt, fraction, chambers, state)

@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from balloon_usd.solver.hands import Floats, Hands, fill_row
+from balloon_usd.solver.hands import Floats, Hands
 from balloon_usd.solver.kernels.physics.gas import OPEN_PASSAGE, WIDE_OPEN
+from balloon_usd.solver.latex.spins import Spins
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -15,6 +16,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from balloon_usd.solver.latex.scene import LatexScene
+    from balloon_usd.solver.latex.spins import VertexSet
 
 
 class LatexControls(Hands):
@@ -32,12 +34,12 @@ class LatexControls(Hands):
         """Balloon of every ring, (J,)."""
         self._ends = scene.end_joint.numpy()
         """Joint that ends every segment, (S,); -1 at the tip of a balloon."""
+        self._edges = scene.flow_from.numpy().copy(), scene.flow_to.numpy().copy()
+        """Segments that the edges along which gas flows lead from and to."""
         self.pump_flow = np.zeros(len(scene.bodies), dtype=np.float32)
         self.pump_limit = np.ones(len(scene.bodies), dtype=np.float32)
         self.pump_goal = np.zeros(len(scene.bodies))
-        self.spins = scene.spin.numpy().copy()
-        self._turning: set[int] = set()
-        """Balloons of which a part turns."""
+        self.spins = Spins(scene)
         self.softening = scene.softening_rate.numpy().copy()
         self.amount, self.volume = scene.amount.numpy().copy(), scene.volume.numpy().copy()
         """Gas of every segment, mol, and its volume, m3."""
@@ -45,17 +47,15 @@ class LatexControls(Hands):
         """How wide all necks are at both ends of the frame, as last looked at."""
         self._necks: dict[str, NDArray[Any]] = {}
         """Arrays that follow from that."""
-        self._beyond: dict[tuple[int, float], slice | NDArray[np.int64]] = {}
-        """Vertices of the scene that lie beyond a place on a balloon."""
         self.upload()
 
     def _rarely_changed(self) -> tuple[str, ...]:
-        return (*super()._rarely_changed(), "amount")
+        return (*super()._rarely_changed(), "amount", "vertex_spin")
 
     def begin_frame(self, state: Mapping[str, NDArray[Any]]) -> None:
         """Take over the state read back last, lift all fingers and stop all spins."""
         super().begin_frame(state)
-        self.stop_turning()
+        self.spins.stop()
         self.amount, self.volume = state["amount"].copy(), state["volume"]
 
     def squeeze(self, joint: int, radius: float, passage: float) -> None:
@@ -72,28 +72,15 @@ class LatexControls(Hands):
         """Set which share of a new largest energy the rubber of a balloon takes note of in one substep."""
         self.softening[balloon] = rate
 
-    def turn(self, balloon: int, point: Floats, beyond: float, rate: float) -> None:
-        """Spin the part of a balloon farther than `beyond` (m along it) about its own axis through a point
-        (3,), m, in this frame, at a rate (rad/s).
+    def turn(self, vertices: VertexSet, point: Floats, middle_of: VertexSet, rate: float) -> None:
+        """Turn some vertices in this frame, at a rate (rad/s), about the axis from a point (3,), m, to the
+        middle of others. Not at all where the rate is 0: velocities keep their last digit.
         """
-        s = self.scene
-        if (balloon, beyond) not in self._beyond:
-            chosen = np.flatnonzero(s.bodies[balloon].along > beyond) + s.vertex_start[balloon]
-            self._beyond[balloon, beyond] = _run(chosen)
-        axis = _middle(self.places[self._beyond[balloon, beyond]]) - point
+        if rate == 0.0:
+            return
+        axis = _middle(self.places[middle_of.indices]) - point
         axis /= max(float(np.sqrt(axis.dot(axis))), 1e-12)
-        self.spin(balloon, beyond=beyond, rate=rate, axis=axis, point=point)
-
-    def spin(self, balloon: int, **fields: Any) -> None:
-        """Turn both parts of a balloon in this frame; `fields`: of a `Spin`."""
-        fill_row(self.spins, balloon, fields)
-        self._turning.add(balloon)
-
-    def stop_turning(self) -> None:
-        """End the spins of all balloons."""
-        for balloon in self._turning:
-            fill_row(self.spins, balloon, {})
-        self._turning.clear()
+        self.spins.turn(vertices, {"point": point, "axis": axis, "rate": rate})
 
     def split_gas(self, joint: int) -> None:
         """Share the gas of the open chambers by volume, before a neck between them begins to close."""
@@ -122,12 +109,28 @@ class LatexControls(Hands):
         blowing[self._joint_body[necks[: len(self._joint_body)]]] = 1
         return blowing
 
+    def _flows(self, last: NDArray[np.int64]) -> dict[str, NDArray[Any]]:
+        """Return the chambers that edges lead from and to, and the edges at every chamber in order, given the
+        last segment of the chamber that every segment lies in, (S,).
+        """
+        source, sink = (last[segments] for segments in self._edges)
+        between = np.flatnonzero(source != sink)
+        # What comes into a chamber and what leaves it, in the order of the edges.
+        chamber = np.stack([sink[between], source[between]], axis=1).reshape(-1)
+        edge = np.stack([between + 1, -between - 1], axis=1).reshape(-1)
+        order = np.argsort(chamber, kind="stable")
+        ends = np.zeros(2 * len(source), dtype=np.int32)
+        ends[: len(edge)] = edge[order]
+        start = np.searchsorted(chamber[order], np.arange(len(last) + 1))
+        return {"flow_from": source, "flow_to": sink, "chamber_end": start, "flow_ends": ends}
+
     def _goals(self) -> dict[str, NDArray[Any]]:
         passages = self.passage.tobytes(), self.passage_goal.tobytes()
         if passages != self._passages:
             self._passages = passages
             first, last = self.chambers()
             self._necks = {"blowing": self._blowing(), "chamber_first": first, "chamber_last": last}
+            self._necks |= self._flows(last)
         return (
             super()._goals()
             | self._necks
@@ -138,9 +141,19 @@ class LatexControls(Hands):
                 "pump_limit": self.pump_limit,
                 "pump_goal": self.pump_goal,
                 "softening_rate": self.softening,
-                "spin": self.spins,
+                "spins": self.spins.rows,
             }
         )
+
+    def upload(self) -> None:
+        """Send the goals of the coming frame to the device; its starts are where the last frame ended.
+
+        Raises:
+            ValueError: more welds or spins than the capacity.
+        """
+        if self.spins.settle():
+            self._due["vertex_spin"] = self.spins.of_vertex
+        super().upload()
 
     def arrived(self) -> None:
         """Make this frame's goals the next frame's starts."""
@@ -152,9 +165,3 @@ def _middle(points: Floats) -> Floats:
     """Return the mean of points (N, 3), added up one by one: as `mean` does, in half the time."""
     total: Floats = np.add.accumulate(points.T, axis=1)[:, -1]
     return total / np.float32(len(points))
-
-
-def _run(chosen: NDArray[np.int64]) -> slice | NDArray[np.int64]:
-    """Return some indices as a slice, which copies nothing, if they are one run."""
-    run = len(chosen) > 0 and chosen[-1] - chosen[0] + 1 == len(chosen)
-    return slice(int(chosen[0]), int(chosen[-1]) + 1) if run else chosen

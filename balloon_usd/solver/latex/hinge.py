@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from balloon_usd.solver.latex.spins import VertexSet
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
@@ -101,11 +103,12 @@ class Hinge:
                 lies beyond (m); infinite where all of it lies on one side.
             segments: before and beyond the joint.
         """
-        self._place = {b: place + CLEAR for b, place in beyond.items()}
-        spans = [np.arange(scene.vertex_start[b], scene.vertex_start[b + 1]) for b in self._place]
+        spans = [np.arange(scene.vertex_start[b], scene.vertex_start[b + 1]) for b in beyond]
         self._vertices = np.concatenate(spans)
         self._mass = scene.mass.numpy()[self._vertices].astype(float)
-        self._beyond = np.concatenate([scene.bodies[b].along > place for b, place in self._place.items()])
+        self._beyond = np.concatenate([scene.bodies[b].along > at + CLEAR for b, at in beyond.items()])
+        self._sides = [VertexSet.of(self._vertices[side]) for side in (~self._beyond, self._beyond)]
+        """What lies before the joint, and what lies beyond."""
         of = scene.vertex_segment.numpy()[self._vertices]
         self._bubbles = [np.flatnonzero(of == segment) for segment in segments]
 
@@ -120,16 +123,10 @@ class Hinge:
 
     def follow(self, hands: LatexControls, parts: HingedParts, seconds: float) -> None:
         """Let all vertices follow the motion of both parts in the coming frame of so many seconds."""
-        beyond = screw(parts.beyond.turned, parts.moved, seconds)
-        before = screw(parts.before.turned, parts.moved, seconds)
-        for body, place in self._place.items():
-            hands.spin(
-                body,
-                beyond=place,
-                point=parts.point,
-                **dict(zip(("rate", "axis", "drift"), beyond, strict=True)),
-                **dict(zip(("back_rate", "back_axis", "back_drift"), before, strict=True)),
-            )
+        for vertices, part in zip(self._sides, (parts.before, parts.beyond), strict=True):
+            rate, axis, drift = screw(part.turned, parts.moved, seconds)
+            spin = {"point": parts.point, "axis": axis, "rate": rate, "drift": drift, "free": 1}
+            hands.spins.turn(vertices, spin)
 
 
 def screw(turned: Floats, moved: Floats, seconds: float) -> tuple[float, Floats, Floats]:

@@ -91,6 +91,22 @@ def _gas_arrays(scene: LatexScene) -> Arrays:
         "inlet": (scene.segment_start[:-1] + [b.inlet for b in scene.bodies]).astype(np.int32),
         "chamber_first": segments,
         "chamber_last": segments,
+    } | _flow_arrays(scene)
+
+
+def _flow_arrays(scene: LatexScene) -> Arrays:
+    """Edges of every balloon, along which gas can flow: from each segment to the next; nothing flows yet."""
+    end_joint = scene.end_joint.numpy()
+    source = np.flatnonzero(end_joint >= 0).astype(np.int32)
+    # Device arrays are never empty: a scene without edges gets one that does nothing.
+    some = source if len(source) else np.zeros(1, dtype=np.int32)
+    return {
+        "balloon_edge": np.searchsorted(source, scene.segment_start).astype(np.int32),
+        "flow_from": some,
+        "flow_to": some + np.int32(len(source) > 0),
+        "flow_joint": np.maximum(end_joint[some], 0),
+        "chamber_end": np.zeros(len(end_joint) + 1, dtype=np.int32),
+        "flow_ends": np.zeros(2 * len(some), dtype=np.int32),
     }
 
 

@@ -30,7 +30,9 @@ class Rubber:
 
 @array_struct
 class Chambers:
-    """Gas: segments whose common neck is fully open form one chamber."""
+    """Gas: segments whose common neck is fully open form one chamber, called by its last segment. Gas flows
+    along edges, each a neck between two segments of a balloon.
+    """
 
     balloon_segment: wp.array[int] = array("balloons", meaning="first segment")
     balloon_segment_end: wp.array[int] = array("balloons", meaning="end of its segments")
@@ -47,8 +49,18 @@ class Chambers:
     chamber_volume: wp.array[float] = array(
         "segments", unit="m3", meaning="of the chamber that it is the last of"
     )
+    balloon_edge: wp.array[int] = array("balloon starts", meaning="first edge")
+    flow_from: wp.array[int] = array("flow edges", meaning="chamber that it leads from")
+    flow_to: wp.array[int] = array("flow edges", meaning="chamber that it leads to; the same: no flow")
+    flow_joint: wp.array[int] = array("flow edges", meaning="joint that is its neck")
     flow: wp.array[wp.float64] = array(
-        "segments", unit="mol", meaning="scratch: gas that leaves it in a substep"
+        "flow edges", unit="mol", meaning="scratch: gas that flows along it in a substep"
+    )
+    chamber_end: wp.array[int] = array(
+        "segment starts", meaning="of the chamber that it is the last of: first end of an edge"
+    )
+    flow_ends: wp.array[int] = array(
+        "flow ends", meaning="edges at each chamber in order: edge + 1, negative where it leads from there"
     )
     amount: wp.array[wp.float64] = array("segments", unit="mol", meaning="its gas")
     pressure: wp.array[float] = array("segments", unit="Pa", meaning="its gauge pressure")

@@ -8,6 +8,8 @@ HITS = 24
 """Vertices that may press on one quad at a time."""
 STRUT_SLOTS = 24
 """Most struts that may end at one joint."""
+SPINS = 8
+"""Sets of vertices that may turn at a time, for each sculpture of a scene."""
 
 Axes = wp.types.matrix(shape=(3, 2), dtype=float)
 """The two in-plane unit axes of a ring, as columns."""
@@ -39,26 +41,18 @@ class Finger:
 
 @wp.struct
 class Spin:
-    """Rigid turns of the two parts of a balloon at a joint, about one point."""
+    """A rigid turn of some vertices about an axis through a point."""
 
-    beyond: float
-    """Unstressed distance from the knot beyond which the balloon turns, m."""
-    rate: float
-    """Angular velocity of what lies beyond, rad/s; 0 for none."""
-    axis: wp.vec3
-    """Its unit axis."""
     point: wp.vec3
     """The point, m."""
-    back_rate: float
-    """Angular velocity of what lies before, rad/s; 0 where hands hold it. Where both parts turn freely they
-    are only displaced: their momentum stays as it is.
-    """
-    back_axis: wp.vec3
-    """Its unit axis."""
+    axis: wp.vec3
+    """Unit axis."""
+    rate: float
+    """Angular velocity, rad/s."""
     drift: wp.vec3
-    """Velocity of what lies beyond, besides, m/s."""
-    back_drift: wp.vec3
-    """Velocity of what lies before, besides, m/s."""
+    """Velocity besides, m/s."""
+    free: int
+    """1 where they turn freely and are only displaced: their momentum stays as it is."""
 
 
 @wp.struct

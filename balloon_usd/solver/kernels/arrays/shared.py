@@ -44,7 +44,6 @@ class Mesh:
     vertex_joint: wp.array[int] = array("vertices", meaning="the joint that moves it; -1 for none")
     vertex_ring: wp.array[int] = array("vertices", meaning="its ring")
     vertex_place: wp.array[wp.vec3] = array("vertices", unit="m", meaning="its unstressed place")
-    vertex_along: wp.array[float] = array("vertices", unit="m", meaning="unstressed distance from the knot")
     mass: wp.array[float] = array(
         "vertices", unit="kg", meaning="its mass, scaled where the time step asks it"
     )
@@ -121,7 +120,8 @@ class Hands:
     radius_to: wp.array[float] = array(
         "joints", unit="m", meaning="radius at the end of the frame; 0: not closed"
     )
-    spin: wp.array[Spin] = array("balloons", unit="SI", meaning="the turn that a hand gives to a part of it")
+    spins: wp.array[Spin] = array("spins", unit="SI", meaning="a turn of some vertices")
+    vertex_spin: wp.array[int] = array("vertices", meaning="the spin that turns it + 1; 0 for none")
     fingers: wp.array[Finger] = array("balloons", unit="SI", meaning="a finger that presses on its wall")
     finger_share: wp.array[float] = array("vertices", meaning="share of the finger's force")
 

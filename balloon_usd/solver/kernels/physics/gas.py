@@ -135,8 +135,8 @@ def blow_through(
     chamber_volume: wp.array[float],
     pressure: wp.array[float],
 ):
-    """Return the gas (mol) that flows in a substep through the neck behind segment `s`, an orifice of area
-    `gap` (m2), into the chamber that ends with segment `end`.
+    """Return the gas (mol) that flows in a substep through a neck, an orifice of area `gap` (m2), from the
+    chamber that ends with segment `s` into the one that ends with segment `end`.
     """
     difference = float_at(pressure, s) - float_at(pressure, end)
     speed = wp.sqrt(2.0 * wp.abs(difference) / air.density)
@@ -159,7 +159,6 @@ def advance_gas(
     air: Air,
     dt: float,
     fraction: float,
-    mesh: Mesh,
     chambers: Chambers,
     state: State,
 ):
@@ -182,28 +181,23 @@ def advance_gas(
     if blows == 0:
         return
     warp_barrier()
-    for s in range(first + lane, last, lanes):
-        chambers.flow[s] = wp.float64(0.0)
-        if int_at(chambers.chamber_last, s) == s and s + 1 < last:
-            gap = passage_of(int_at(mesh.end_joint, s), fraction, chambers.open_from, chambers.open_to)
+    for e in range(int_at(chambers.balloon_edge, b) + lane, int_at(chambers.balloon_edge, b + 1), lanes):
+        source = int_at(chambers.flow_from, e)
+        sink = int_at(chambers.flow_to, e)
+        chambers.flow[e] = wp.float64(0.0)
+        if source != sink:
+            gap = passage_of(int_at(chambers.flow_joint, e), fraction, chambers.open_from, chambers.open_to)
             if gap > 0.0:
-                chambers.flow[s] = blow_through(
-                    s,
-                    int_at(chambers.chamber_last, s + 1),
-                    gap,
-                    air,
-                    dt,
-                    chambers.chamber_volume,
-                    chambers.pressure,
+                chambers.flow[e] = blow_through(
+                    source, sink, gap, air, dt, chambers.chamber_volume, chambers.pressure
                 )
     warp_barrier()
     for s in range(first + lane, last, lanes):
-        # What a neck lets through leaves one chamber's last segment for the next one's.
-        if int_at(chambers.chamber_last, s) == s:
-            before = int_at(chambers.chamber_first, s) - 1
-            if before >= first:
-                chambers.amount[s] = chambers.amount[s] + chambers.flow[before]
-            chambers.amount[s] = chambers.amount[s] - chambers.flow[s]
+        # Gas of a chamber comes and goes in its last segment.
+        for n in range(int_at(chambers.chamber_end, s), int_at(chambers.chamber_end, s + 1)):
+            end_of = int_at(chambers.flow_ends, n)
+            flow = chambers.flow[wp.abs(end_of) - 1]
+            chambers.amount[s] = chambers.amount[s] + wp.where(end_of > 0, flow, -flow)
 
 
 @wp.func

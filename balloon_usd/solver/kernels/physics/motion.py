@@ -1,4 +1,4 @@
-"""Motion: gathered forces, symplectic Euler, and the spin that a hand gives to a part of a balloon."""
+"""Motion: gathered forces, symplectic Euler, and the spins that hands give to sets of vertices."""
 
 import warp as wp
 
@@ -84,24 +84,17 @@ def step_of_vertex(
     (Kosaka 2008, eqs. 3.22 and 3.23).
     """
     b = int_at(mesh.vertex_balloon, i)
-    turn = hands.spin[b]
-    along = float_at(mesh.vertex_along, i)
+    spin = int_at(hands.vertex_spin, i)
     pull = wp.vec3(0.0, 0.0, -float_at(balloons.gravity, b) * float_at(rubber.true_mass, i))
     velocity = (coherent_vec3(state.v, i, shared) + (f + pull) * (dt / float_at(mesh.mass, i))) * wp.max(
         1.0 - float_at(balloons.drag, b) * dt, 0.0
     )
     p = coherent_vec3(state.x, i, shared) + velocity * dt
-    rate = turn.back_rate
-    axis = turn.back_axis
-    drift = turn.back_drift
-    if turn.rate != 0.0 and along > turn.beyond:
-        rate = turn.rate
-        axis = turn.axis
-        drift = turn.drift
-    if rate != 0.0:
-        r = wp.quat_from_axis_angle(axis, rate * dt)
-        p = turn.point + wp.quat_rotate(r, p - turn.point) + drift * dt
-        if turn.back_rate == 0.0:
+    if spin > 0:
+        turn = hands.spins[spin - 1]
+        r = wp.quat_from_axis_angle(turn.axis, turn.rate * dt)
+        p = turn.point + wp.quat_rotate(r, p - turn.point) + turn.drift * dt
+        if turn.free == 0:
             velocity = wp.quat_rotate(r, velocity)
     return p, velocity
 

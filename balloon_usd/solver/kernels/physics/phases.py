@@ -217,7 +217,7 @@ def advance_chambers(
     measure_volumes(threads, own, mesh, chambers, joints, state)
     block_barrier()
     for b in range(own.balloon_begin + threads.block_warp, own.balloon_end, threads.block_warps):
-        advance_gas(b, threads.warp_lane, threads.warp_lanes, air, dt, fraction, mesh, chambers, state)
+        advance_gas(b, threads.warp_lane, threads.warp_lanes, air, dt, fraction, chambers, state)
 
 
 @wp.func
