@@ -27,7 +27,7 @@ def sustained(counts):
     """Return the most of what was held in several looks in a row: files that are read at a start are open
     for moments.
     """
-    return max((min(counts[at : at + LOOKS]) for at in range(max(1, len(counts) - LOOKS + 1))))
+    return max(min(counts[at : at + LOOKS]) for at in range(max(1, len(counts) - LOOKS + 1)))
 
 
 def most_held(recipes, folder):
