@@ -18,7 +18,7 @@ from tests.verification.kosaka_experiments import (
     told,
 )
 
-FIGURES = ("lock", "loop", "dog")
+FIGURES = ("lock", "loop", pytest.param("dog", marks=pytest.mark.long))
 NECKS_APART = 12.0
 """Farthest that two necks of one twist may lie from each other, mm."""
 DEEPEST = 1.0
@@ -89,6 +89,7 @@ def test_a_loop_stays_open(verify, loop):
     verify("K7e", "loop, what its hole lacks of 10 mm", max(HOLE - hole, 0.0), 0.0, 1e-6, told)
 
 
+@pytest.mark.long
 def test_the_dog_stands_on_its_legs_with_ears_above_and_nose_before(dog):
     place = {
         ring.name: middle(dog, dog.points[-1], ring.along) for ring in dog.plan.table.rings if ring.joint
