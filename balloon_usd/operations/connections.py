@@ -7,6 +7,7 @@ what comes undone in the end.
 from __future__ import annotations
 
 from collections import deque
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -53,8 +54,9 @@ class Connections:
                         coming.append(there)
         return frozenset(found)
 
+    @cached_property
     def bridges(self) -> frozenset[str]:
-        """Return the bubbles that belong to no closed ring: without any of them a piece falls apart."""
+        """Bubbles that belong to no closed ring: without any of them a piece falls apart."""
         ways, order = self._spanning_trees()
         walked = {bubble for bubble, _ in ways.values()}
         # Bubbles that close a ring, by the joints at or behind which they have just one of their ends.

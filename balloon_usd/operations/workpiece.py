@@ -76,6 +76,12 @@ class Workpiece:
         self._joints: DisjointSets[Joint] = DisjointSets()
         self._brought: set[Joint] = set()
         """Ends that a step brought together with others."""
+        self._known: Connections | None = None
+        """What hangs together, if it was asked for since the last event."""
+
+    def __getstate__(self) -> dict[str, object]:
+        """Leave out what follows from the rest."""
+        return self.__dict__ | {"_known": None}
 
     # Effects.
 
@@ -108,6 +114,7 @@ class Workpiece:
         elif isinstance(event, Cut):
             self._cut(event.end)
         self.history.append(event)
+        self._known = None
 
     def _make(self, made: Made) -> None:
         trails = self._trails[made.balloon]
@@ -226,18 +233,19 @@ class Workpiece:
 
     def bridges(self) -> frozenset[str]:
         """Return the bubbles that belong to no closed ring."""
-        return self._connections.bridges()
+        return self._connections.bridges
 
     def pieces(self) -> list[frozenset[str]]:
         """Return the bubbles of each connected piece, in the order of their first ones."""
         return self._connections.pieces()
 
-    def free_joints(self, bridges: frozenset[str]) -> list[tuple[Joint, ...]]:
+    def free_joints(self) -> list[tuple[Joint, ...]]:
         """Return the joints that unwind when they are let go.
 
         That is where just two bubbles meet, not brought together by any step, and neither belongs to a closed
         ring: within a ring, turning one bubble would have to turn the ring.
         """
+        bridges = self.bridges()
         return [
             ends
             for ends in self.joints
@@ -246,7 +254,7 @@ class Workpiece:
 
     def free_to_spin(self, end: Joint) -> bool:
         """Whether a joint unwinds when it is let go."""
-        return any(end in ends for ends in self.free_joints(self.bridges()))
+        return any(end in ends for ends in self.free_joints())
 
     def hangs_on(self, end: Joint) -> frozenset[str]:
         """Return what hangs on one end of a bubble: all other bubbles that come along when it is moved."""
@@ -259,7 +267,10 @@ class Workpiece:
 
     @property
     def _connections(self) -> Connections:
-        return Connections({bubble: self._ends(bubble) for trail in self.trails for bubble in trail})
+        if self._known is None:
+            ends = {bubble: self._ends(bubble) for trail in self.trails for bubble in trail}
+            self._known = Connections(ends)
+        return self._known
 
     def _ends(self, bubble: str) -> tuple[Joint, Joint]:
         """Return the joints of a bubble's start and end, each named by one of its ends."""

@@ -120,8 +120,7 @@ class SculptureGraph:
 
 def sculpture_graph(piece: Workpiece) -> SculptureGraph:
     """Return the graph of what is made of the balloons."""
-    bridges = piece.bridges()
-    free = set(piece.free_joints(bridges))
+    free = set(piece.free_joints())
     joints = tuple(
         GraphJoint(index, ends, piece.is_merged(ends), ends in free)
         for index, ends in enumerate(piece.joints)
@@ -134,4 +133,4 @@ def sculpture_graph(piece: Workpiece) -> SculptureGraph:
     )
     ends_of = {edge.bubble: (edge.start, edge.end) for edge in edges}
     pieces = tuple(frozenset(end for b in found for end in ends_of[b]) for found in piece.pieces())
-    return SculptureGraph(joints, edges, pieces, bridges, piece.contacts)
+    return SculptureGraph(joints, edges, pieces, piece.bridges(), piece.contacts)

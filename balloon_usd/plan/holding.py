@@ -39,5 +39,5 @@ def loose_joints(recipe: Recipe, step: int) -> tuple[LooseJoint, ...]:
     piece = recipe.piece.after(step, without=slipping_steps(recipe))
     return tuple(
         LooseJoint(before, piece.hangs_on(before), piece.hangs_on(after))
-        for before, after in piece.free_joints(piece.bridges())
+        for before, after in piece.free_joints()
     )
