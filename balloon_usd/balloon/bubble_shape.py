@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -221,11 +221,11 @@ class _BubbleFamily:
     start: float
     """u of the bubble with the least rest length."""
 
-    @property
+    @cached_property
     def shortest(self) -> BubbleShape:
         return self.at(self.start)
 
-    @property
+    @cached_property
     def longest(self) -> BubbleShape:
         return self.at(_FAMILY_END)
 

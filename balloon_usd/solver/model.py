@@ -5,6 +5,8 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING, Any, Protocol
 
+from balloon_usd.solver.sculpture import ComingFrame
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -47,9 +49,10 @@ class Model(ABC):
         """Let the performers act and start the physics from `begin` to `end` (s)."""
         middle = self._state["ring_middle"].copy()
         self._hands.begin_frame(self._state)
+        frame = ComingFrame(begin, end, middle)
         for performer, astray in zip(self.performers, self.layout.astray(middle), strict=True):
             if not astray:
-                performer.act(begin, end, middle)
+                performer.act(frame)
         self._start_physics(begin, end, middle)
 
     @abstractmethod

@@ -4,18 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
-from balloon_usd.solver.sculpture import ComingFrame
 from balloon_usd.solver.status import Status
 
 if TYPE_CHECKING:
     from balloon_usd.operations.moves import Move
     from balloon_usd.solver.motions.motion import Motion, Motions
-    from balloon_usd.solver.sculpture import Sculpture
-
-Floats = NDArray[np.float32]
+    from balloon_usd.solver.sculpture import ComingFrame, Sculpture
 
 
 class _Running(NamedTuple):
@@ -49,17 +43,16 @@ class Performer:
         self.status = Status("")
         """Status of the sculpture after the coming frame."""
 
-    def act(self, begin: float, end: float, middle: Floats) -> None:
-        """Set the hands' goals for the frame from `begin` to `end` (s), given where all rings are (J, 3),
-        m.
-        """
-        self.sculpture.frame = ComingFrame(begin, end, middle)
+    def act(self, frame: ComingFrame) -> None:
+        """Set the hands' goals for a frame."""
+        self.sculpture.frame, end = frame, frame.end
         for running in self._running:
             running.advance(end)
         while self._begun < len(self._moves) and self._moves[self._begun].start < end:
             self._begin(self._moves[self._begun], end)
             self._begun += 1
-        self._running = [each for each in self._running if each.over > end or not each.motion.ended]
+        if self._running:
+            self._running = [each for each in self._running if each.over > end or not each.motion.ended]
         self._update_status()
 
     def _begin(self, move: Move, end: float) -> None:
@@ -75,6 +68,6 @@ class Performer:
     def _update_status(self) -> None:
         """Set the status, a new object only where it differs."""
         loose, undone = self.sculpture.unwinding, self.sculpture.undone
-        status = Status(self._text if loose is None else f"comes undone: {loose}", undone)
-        if status != self.status:
-            self.status = status
+        doing = self._text if loose is None else f"comes undone: {loose}"
+        if (doing, undone) != self.status:
+            self.status = Status(doing, undone)

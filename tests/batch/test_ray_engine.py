@@ -29,9 +29,9 @@ SOON_MISSED = {
     "health_check_initial_delay_ms": 0,
     "health_check_period_ms": 500,
     "health_check_timeout_ms": 500,
-    "health_check_failure_threshold": 2,
+    "health_check_failure_threshold": 6,
 }
-"""A machine that says nothing for a second is lost; Ray waits half a minute."""
+"""A machine that says nothing for three seconds is lost; Ray waits half a minute."""
 ONE_CPU = Needs(cpus=1)
 
 

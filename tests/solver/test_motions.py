@@ -358,7 +358,7 @@ def performed(*timeline, frames=3):
     stub = Stub(*timeline)
     performer = Performer(stub, {moves.Move: Told})
     for frame in range(frames):
-        performer.act(float(frame), frame + 1.0, None)
+        performer.act(ComingFrame(float(frame), frame + 1.0, None))
         stub.told.append(performer.status.doing)
     return stub.told
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -11,14 +12,15 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
 
+@lru_cache(maxsize=4096)
 def hanging_on(
-    held: Sequence[int], balloons: Sequence[str], welds: Iterable[Sequence[int]]
+    held: tuple[int, ...], balloons: tuple[str, ...], welds: tuple[tuple[int, ...], ...]
 ) -> tuple[tuple[int, ...], ...]:
     """Return for every held ring the rings that hang on it alone, on all balloons, in order.
 
     A ring hangs on a held one if bubbles and welds connect both on a way that passes no other held ring.
     What is welded to a held ring lies on no side of it and hangs on it. What hangs on several is drawn by all
-    of these, and so is given to none.
+    of these, and so is given to none. Kept, as variants of a recipe ask the same.
 
     Args:
         held: rings that hands hold or move.

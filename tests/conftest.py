@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from pathlib import Path
 
 import pytest
 
-PAGE = Path(__file__).parents[2] / "docs/theory/verification.md"
+PAGE = Path(__file__).parents[1] / "docs/theory/verification.md"
 BEGIN, END = "<!-- verification table -->", "<!-- end of verification table -->"
-TABLE = pytest.StashKey[list["Row"]]()
-NOTES = pytest.StashKey[list[str]]()
 MODELS_BEGIN, MODELS_END = "<!-- table of both models -->", "<!-- end of table of both models -->"
 MODELS_HEAD = ("what", "theory", "`latex`", "`kosaka`")
-MODELS = pytest.StashKey[list[tuple[str, ...]]]()
+MEASURED = pytest.StashKey[dict[str, list[list]]]()
+"""What the tests measured, by its kind: a row of theory, a note, a line of both models."""
 
 
 @dataclass(frozen=True)
@@ -48,7 +47,7 @@ def verify(request):
 
     def check(case, quantity, measured, theory, tolerance, told=""):
         row = Row(case, quantity, float(theory), float(measured), tolerance)
-        request.config.stash.setdefault(TABLE, []).append(row)
+        measured_by(request, "row", astuple(row))
         assert row.error <= tolerance, (
             f"{case} {quantity}: error {row.error:.2e}, {measured} against {theory}\n{told}"
         )
@@ -61,7 +60,7 @@ def note(request):
     """Tell at the end of a run what was measured where theory has no number."""
 
     def tell(case, text):
-        request.config.stash.setdefault(NOTES, []).append(f"{case:5} {text}")
+        measured_by(request, "note", (f"{case:5} {text}",))
 
     return tell
 
@@ -71,13 +70,36 @@ def side_by_side(request):
     """Write one line of the table of both models: what theory says, and what each model does."""
 
     def line(what, theory, latex, kosaka):
-        request.config.stash.setdefault(MODELS, []).append((what, theory, latex, kosaka))
+        measured_by(request, "models", (what, theory, latex, kosaka))
 
     return line
 
 
+def measured_by(request, kind, cells):
+    """Send cells with the test's report, which is all that reaches the process that prints from a worker."""
+    request.node.user_properties.append((kind, cells))
+
+
+class Gathering:
+    """Gathers what the tests of all workers measured."""
+
+    def __init__(self, config):
+        self.measured = config.stash.setdefault(MEASURED, {"row": [], "note": [], "models": []})
+
+    def pytest_runtest_logreport(self, report):
+        if report.when == "call":
+            for kind, cells in report.user_properties:
+                self.measured[kind].append(cells)
+
+
+def pytest_configure(config):
+    config.pluginmanager.register(Gathering(config))
+
+
 def pytest_terminal_summary(terminalreporter, config):
-    rows, notes, models = (config.stash.get(key, []) for key in (TABLE, NOTES, MODELS))
+    measured = config.stash[MEASURED]
+    rows = [Row(*cells) for cells in measured["row"]]
+    notes, models = [text for (text,) in measured["note"]], measured["models"]
     if rows or notes:
         terminalreporter.section("verification")
     if rows:
