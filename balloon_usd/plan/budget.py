@@ -89,11 +89,17 @@ class Budget:
 
     @property
     def gas_amount(self) -> float:
-        """Gas blown in, mol, at room temperature: (atmosphere + gauge pressure) volume / (R T)."""
-        return (ATMOSPHERE + self.pressure) * self.volume / (GAS_CONSTANT * ROOM_TEMPERATURE)
+        """Gas blown in, mol, at room temperature."""
+        return _amount(self.pressure, self.volume)
 
     def _inflated(self, tail: float) -> float:
         return self.full_length * (1.0 - min(tail, self.flat_length) / self.flat_length)
+
+
+def blown_in(strip: Strip) -> float:
+    """Return the gas that is blown into a tube, mol, at room temperature, without the rest of its budget."""
+    pressure = gauge_pressure(strip.size, maxwell_state(softened(strip.rubber)).p_star)
+    return _amount(pressure, inflated_tube(strip.size, strip.rubber, strip.tail).volume)
 
 
 def budget_of(strip: Strip) -> Budget:
@@ -123,3 +129,8 @@ def budget_of(strip: Strip) -> Budget:
         volume=volume,
         pressure=gauge_pressure(strip.size, maxwell.p_star),
     )
+
+
+def _amount(pressure: float, volume: float) -> float:
+    """Return the gas in a volume (m3), mol: (atmosphere + gauge pressure) volume / (R T)."""
+    return (ATMOSPHERE + pressure) * volume / (GAS_CONSTANT * ROOM_TEMPERATURE)

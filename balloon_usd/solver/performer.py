@@ -46,14 +46,19 @@ class Performer:
     def act(self, frame: ComingFrame) -> None:
         """Set the hands' goals for a frame."""
         self.sculpture.frame, end = frame, frame.end
+        if not self._running and not self._begins(end):
+            return
         for running in self._running:
             running.advance(end)
-        while self._begun < len(self._moves) and self._moves[self._begun].start < end:
+        while self._begins(end):
             self._begin(self._moves[self._begun], end)
             self._begun += 1
-        if self._running:
-            self._running = [each for each in self._running if each.over > end or not each.motion.ended]
+        self._running = [each for each in self._running if each.over > end or not each.motion.ended]
         self._update_status()
+
+    def _begins(self, end: float) -> bool:
+        """Tell whether another move begins before a time (s)."""
+        return self._begun < len(self._moves) and self._moves[self._begun].start < end
 
     def _begin(self, move: Move, end: float) -> None:
         # A move begins where others have brought the rings.

@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from balloon_usd.balloon.tube_theory import pressure_maximum
+from balloon_usd.plan.budget import blown_in
 from balloon_usd.solver.latex.motions.tail import Tail
 from balloon_usd.solver.motions.motion import Motion
 
@@ -43,11 +44,11 @@ class Inflate(Motion):
 
     def _hold_tube(self, balloon: str) -> None:
         scene, hands, b = self._sculpture.scene, self._sculpture.hands, self._body
-        strip, budget = self._sculpture.plan.strips[balloon], self._sculpture.plan.budgets[balloon]
+        strip = self._sculpture.plan.strips[balloon]
         scale = strip.size.thickness / strip.size.radius
         n = scene.bodies[b].rings[0].around
         # The polygon holds more than the circle that it is drawn about.
-        hands.pump_goal[b] = budget.gas_amount * n * math.tan(math.pi / n) / math.pi
+        hands.pump_goal[b] = blown_in(strip) * n * math.tan(math.pi / n) / math.pi
         hands.pump_limit[b] = PUMP_RESERVE * pressure_maximum(strip.rubber).p_star * scale
         hands.grip(int(scene.joint_start[b]) + 1, self._sculpture.frame.middle)
         hands.set_drag(b, 0.0)
