@@ -96,10 +96,14 @@ class Budget:
         return self.full_length * (1.0 - min(tail, self.flat_length) / self.flat_length)
 
 
+def blown_up_pressure(strip: Strip) -> float:
+    """Return the gauge pressure of a tube that is blown up, Pa: the Maxwell pressure."""
+    return gauge_pressure(strip.size, maxwell_state(softened(strip.rubber)).p_star)
+
+
 def blown_in(strip: Strip) -> float:
     """Return the gas that is blown into a tube, mol, at room temperature, without the rest of its budget."""
-    pressure = gauge_pressure(strip.size, maxwell_state(softened(strip.rubber)).p_star)
-    return _amount(pressure, inflated_tube(strip.size, strip.rubber, strip.tail).volume)
+    return _amount(blown_up_pressure(strip), inflated_tube(strip.size, strip.rubber, strip.tail).volume)
 
 
 def budget_of(strip: Strip) -> Budget:
@@ -127,7 +131,7 @@ def budget_of(strip: Strip) -> Budget:
         full_length=strip.size.length * maxwell.bulged.b,
         flat_length=strip.size.length,
         volume=volume,
-        pressure=gauge_pressure(strip.size, maxwell.p_star),
+        pressure=blown_up_pressure(strip),
     )
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from balloon_usd.balloon.bubble_shape import tail_volume_per_rest_length, tube_volume_per_rest_length
 from balloon_usd.balloon.tube_theory import maxwell_state
+from balloon_usd.plan.budget import blown_up_pressure
 from balloon_usd.solver.sculpture import ALONG
 
 if TYPE_CHECKING:
@@ -30,7 +31,7 @@ class Tail:
         gained = tube_volume_per_rest_length(strip.size, strip.rubber) - tail_volume_per_rest_length(
             strip.size, strip.rubber
         )
-        pressure = scene.settings.atmosphere + plan.budgets[balloon].pressure
+        pressure = scene.settings.atmosphere + blown_up_pressure(strip)
         state = maxwell_state(strip.rubber)
         longer = float(scene.air.molar_energy) * (state.bulged.b - state.thin.b)
         self._step = longer / (pressure * gained * plan.recipe.fps)
