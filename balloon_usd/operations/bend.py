@@ -85,5 +85,6 @@ steps:
             guides = score.layout.guides(bubble)
             rings = (start, *guides) if end is None else (start, *guides, end)
             text = f"bend: {bubble}"
-            score.add(BendMove(score.now, BEND_SECONDS, index, text, rings=rings, angle=angle, point=point))
+            seconds = BEND_SECONDS / score.pace.leading
+            score.add(BendMove(score.now, seconds, index, text, rings=rings, angle=angle, point=point))
             score.let_go(index)

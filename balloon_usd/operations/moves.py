@@ -119,6 +119,14 @@ class Weld(Move):
 
 
 @dataclass(frozen=True)
+class TurnFold(Move):
+    """Turn what is folded between two joints about the one joint that they have become."""
+
+    rings: tuple[int, ...] = ()
+    turns: float = 0.0
+
+
+@dataclass(frozen=True)
 class LetGo(Move):
     """Take the hands away."""
 

@@ -6,7 +6,19 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, NoReturn, Protocol
 
 from balloon_usd.language.problem import RecipeError
-from balloon_usd.operations.moves import POINTS, Bring, Gather, Inflate, LetGo, Move, Pinch, Spin, Weld
+from balloon_usd.operations.moves import (
+    POINTS,
+    Bring,
+    Gather,
+    Inflate,
+    LetGo,
+    Move,
+    Pinch,
+    Spin,
+    TurnFold,
+    Weld,
+)
+from balloon_usd.operations.tempo import PACES, Pace
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
@@ -19,8 +31,6 @@ SETTLE_SECONDS = 0.4
 """Pause after inflating, gathering or bending, in which the rubber comes to rest, s."""
 PINCH_SECONDS = 0.55
 """Closing of a neck between two fingers, s."""
-TURN_SECONDS = 0.14
-"""One full turn of a twist, s."""
 HAND_SPEED = 0.22
 """Mean speed of a hand that brings joints together, m/s; its peak is 1.9 times this."""
 CARRYING_SPEED = 0.08
@@ -103,6 +113,7 @@ class Score:
     """Makes a problem at its place in the recipe."""
     blown_up: bool
     """Whether balloons start blown up and joints freeze instead of being wound, as in model kosaka."""
+    pace: Pace = PACES["calm"]
     now: float = 0.0
     moves: list[Move] = field(default_factory=list)
 
@@ -133,10 +144,10 @@ class Score:
         ring = self.layout.ends(bubble)[1]
         if ring is None:
             return
-        seconds = DRAWING_SECONDS if self.blown_up else PINCH_SECONDS
+        seconds = DRAWING_SECONDS if self.blown_up else PINCH_SECONDS / self.pace.leading
         self.add(Pinch(self.now, seconds, index, f"pinch: {bubble}", ring=ring))
         if not self.blown_up:
-            seconds = turns * TURN_SECONDS
+            seconds = self.pace.turning_seconds(turns)
             self.add(Spin(self.now, seconds, index, f"twist: {bubble}", ring=ring, turns=turns))
         self.let_go(index)
 
@@ -145,7 +156,7 @@ class Score:
         if self.layout.ring(first).balloon == self.layout.ring(last).balloon:
             self.gather(first, last, point, text, index)
         else:
-            self.add(Bring(self.now, BRING_SECONDS, index, text, ring=last, to=first))
+            self.add(Bring(self.now, BRING_SECONDS / self.pace.leading, index, text, ring=last, to=first))
 
     def gather(self, first: int, last: int, point: Point | None, text: str, index: int) -> None:
         """Bring two joints of one balloon together, what is between them to a side."""
@@ -159,14 +170,22 @@ class Score:
             cheeks = tuple((layout.guides(layout.ring(j).bubble)[0], k) for k, j in enumerate(joints[1:]))
         length = sum(layout.bubble(layout.ring(j).bubble).length for j in joints[1:])
         seconds = max(GATHER_LEAST, length / (CARRYING_SPEED if self.blown_up else HAND_SPEED))
+        seconds /= self.pace.leading
         aim = POINTS[point or "up"]
         self.add(Gather(self.now, seconds, index, text, corners=corners, cheeks=cheeks, point=aim))
 
     def weld(self, rings: tuple[int, ...], turns: float, text: str, index: int) -> None:
         """Twist joints that lie together into one."""
         self.add(Weld(self.now, 0.0, index, text, rings=rings, turns=turns))
+        if not self.blown_up and self._is_fold(rings):
+            seconds = self.pace.turning_seconds(turns)
+            self.add(TurnFold(self.now, seconds, index, text, rings=rings, turns=turns))
         self.add(Move(self.now, SETTLE_SECONDS, index, text))
         self.let_go(index)
+
+    def _is_fold(self, rings: tuple[int, ...]) -> bool:
+        """Tell whether joints of one balloon come together, with bubbles folded between them."""
+        return len(rings) == 2 and self.layout.ring(rings[0]).balloon == self.layout.ring(rings[1]).balloon
 
     def retime(self, first: int, begin: float, seconds: float) -> None:
         """Stretch the moves from a first one on to the time that the recipe gives their step."""

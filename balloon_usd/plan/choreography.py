@@ -9,6 +9,7 @@ from balloon_usd.operations.inflate import Inflate as InflateStep
 from balloon_usd.operations.modifiers import Timed
 from balloon_usd.operations.moves import Choreography, Inflate, LetGo, Move
 from balloon_usd.operations.score import Score
+from balloon_usd.operations.tempo import PACES
 from balloon_usd.plan.laid_out import LaidOut
 
 if TYPE_CHECKING:
@@ -35,7 +36,8 @@ def choreograph(recipe: Recipe, strips: Mapping[str, Strip], table: RingTable) -
         RecipeError: a lock asks for the tip of a balloon, or a finger presses beyond a bubble, with its place
             in the file.
     """
-    score = Score(LaidOut(strips, table), recipe.problem, recipe.physics.traits.starts_blown_up)
+    blown_up = recipe.physics.traits.starts_blown_up
+    score = Score(LaidOut(strips, table), recipe.problem, blown_up, PACES[recipe.tempo])
     if score.blown_up:
         score.add(Move(0.0, SPREAD_SECONDS, -1, "air spreads"))
     elif balloons := _of_the_beginning(recipe):

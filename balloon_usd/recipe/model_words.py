@@ -37,6 +37,9 @@ def model_complaints(data: object) -> Iterator[Complaint]:
             if key in LATEX_ONLY:
                 what = f"makes no sense with model kosaka: {LATEX_ONLY[key]}, expected no such line"
                 yield Complaint(("physics", key), what)
+        if isinstance(data, dict) and "tempo" in data:
+            what = "makes no sense with model kosaka: its hands go as slowly as air particles follow"
+            yield Complaint(("tempo",), f"{what}, expected no such line")
         yield from _kosaka_steps(data)
     elif model == "latex":
         if "kosaka" in physics:

@@ -21,6 +21,7 @@ from balloon_usd.language.quantities import METRES, Between, Reading, Units
 from balloon_usd.language.yaml_reader import Document, read_yaml
 from balloon_usd.operations.modifiers import Entries
 from balloon_usd.operations.table import Step
+from balloon_usd.operations.tempo import Tempo
 from balloon_usd.operations.workpiece import Workpiece
 
 from .balloons import Balloon
@@ -66,6 +67,8 @@ class Recipe(Entries):
     """Unit of lengths written as bare numbers."""
     fps: Annotated[float, Between(1.0, 240.0, "frames/s")] = FRAMES_PER_SECOND
     """Frames in a second."""
+    tempo: Tempo = "calm"
+    """How fast hands twist and lead; `seconds` of a step rule for that step."""
     balloons: Annotated[dict[Name, Balloon], Field(min_length=1)]
     """Balloons by name."""
     steps: Annotated[tuple[Step, ...], Field(min_length=1)]

@@ -116,6 +116,10 @@ class Hands:
             self.start[joint] = self.goal[joint] = middle[joint]
             self.free[joint] = 0.0
 
+    def leads(self, joint: int) -> bool:
+        """Tell whether a hand leads a ring."""
+        return bool(self.mode[joint] == LEAD_MODE)
+
     def close(self, joint: int, radius: float) -> None:
         """Set the radius (m) that a neck has at the end of the frame."""
         self.radius_goal[joint] = radius

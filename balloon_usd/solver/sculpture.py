@@ -51,7 +51,7 @@ class Sculpture:
         """Joint of the scene of every ring of the plan."""
         self.all_joints = np.array(self.joints, dtype=np.int64)
         self._ring_of = {joint: ring for ring, joint in enumerate(self.joints)}
-        self._balloons = tuple(ring.balloon for ring in plan.table.rings)
+        self.balloons = tuple(ring.balloon for ring in plan.table.rings)
         """Balloon of every ring."""
         rests = {strip.bubbles[-1].name for strip in plan.strips.values()}
         self._led = [ring.joint or ring.bubble in rests for ring in plan.table.rings]
@@ -98,11 +98,13 @@ class Sculpture:
 
     def rings_hanging_on(self, rings: Sequence[int]) -> tuple[tuple[int, ...], ...]:
         """Return for each of some rings of the plan the rings that hang on it, on all balloons."""
-        ring_of = self._ring_of
-        welds = tuple(
-            [tuple([ring_of[joint] for joint in weld]) for weld in self.hands.welds_of(self.joints)]
-        )
-        return hanging_on(tuple(rings), self._balloons, welds)
+        return hanging_on(tuple(rings), self.balloons, self.welds)
+
+    @property
+    def welds(self) -> tuple[tuple[int, ...], ...]:
+        """Rings of the plan that are one joint by now."""
+        ring_of, welds = self._ring_of, self.hands.welds_of(self.joints)
+        return tuple([tuple([ring_of[joint] for joint in weld]) for weld in welds])
 
     def carry(self, rings: Sequence[int]) -> Carried:
         """Begin to lead what hangs on some rings of the plan: on the last one, which is held, it stays."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from balloon_usd.solver.hands import Floats, Hands
 from balloon_usd.solver.kernels.physics.gas import OPEN_PASSAGE, WIDE_OPEN
@@ -13,10 +14,10 @@ from balloon_usd.solver.latex.spins import Spins
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from numpy.typing import NDArray
-
     from balloon_usd.solver.latex.scene import LatexScene
     from balloon_usd.solver.latex.spins import VertexSet
+
+Points = NDArray[np.float32] | NDArray[np.float64]
 
 
 class LatexControls(Hands):
@@ -80,7 +81,12 @@ class LatexControls(Hands):
             return
         axis = _middle(self.places[middle_of.indices]) - point
         axis /= max(float(np.sqrt(axis.dot(axis))), 1e-12)
-        self.spins.turn(vertices, {"point": point, "axis": axis, "rate": rate})
+        self.spin(vertices, point, axis, rate)
+
+    def spin(self, vertices: VertexSet, point: Points, axis: Points, rate: float) -> None:
+        """Turn some vertices in this frame about a unit axis through a point, (3,), m, at a rate (rad/s)."""
+        if rate != 0.0:
+            self.spins.turn(vertices, {"point": point, "axis": axis, "rate": rate})
 
     def split_gas(self, joint: int) -> None:
         """Share the gas of the open chambers by volume, before a neck between them begins to close."""

@@ -51,6 +51,33 @@ def hanging_on(
     return tuple(map(tuple, found))
 
 
+@lru_cache(maxsize=4096)
+def folded_between(
+    first: int, last: int, balloons: tuple[str, ...], welds: tuple[tuple[int, ...], ...]
+) -> tuple[int, ...]:
+    """Return the rings that hang between two rings that are one joint, with all that hangs on them, in order;
+    none where they also hang together with what lies beyond either ring.
+
+    `first`, `last`: rings of one balloon; `balloons`, `welds`: as of `hanging_on`.
+    """
+    joint = _joints(len(balloons), welds)
+    closed = joint[first]
+    pieces: DisjointSets[int] = DisjointSets()
+    for before, after in pairwise(range(len(balloons))):
+        ends = joint[before], joint[after]
+        if balloons[before] == balloons[after] and closed not in ends:
+            pieces.merge(ends)
+    outside = {
+        pieces.root(joint[ring])
+        for ring in (first - 1, last + 1)
+        if 0 <= ring < len(balloons) and balloons[ring] == balloons[first] and joint[ring] != closed
+    }
+    inside = {pieces.root(joint[ring]) for ring in range(first + 1, last) if joint[ring] != closed}
+    if inside & outside:
+        return ()
+    return tuple(ring for ring, at in enumerate(joint) if at != closed and pieces.root(at) in inside)
+
+
 def _joints(rings: int, welds: Iterable[Sequence[int]]) -> list[int]:
     """Return for every ring the one that stands for all that are one joint with it."""
     joints: DisjointSets[int] = DisjointSets()

@@ -10,6 +10,7 @@ from balloon_usd.solver.latex.motions.inflate import Inflate
 from balloon_usd.solver.latex.motions.let_go import LatexLetGo
 from balloon_usd.solver.latex.motions.pinch import Pinch
 from balloon_usd.solver.latex.motions.spin import Spin
+from balloon_usd.solver.latex.motions.turn_fold import TurnFold
 from balloon_usd.solver.motions.bring import Bring
 from balloon_usd.solver.motions.gather import Gather
 from balloon_usd.solver.motions.press import Press
@@ -29,5 +30,6 @@ LATEX_MOTIONS: Motions = {
     moves.Bend: LatexBend,
     moves.Press: Press,
     moves.Weld: Weld,
+    moves.TurnFold: TurnFold,
     moves.LetGo: LatexLetGo,
 }

@@ -1,0 +1,90 @@
+"""Turning a fold about its joint: the gesture of a lock twist."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from balloon_usd.operations.tempo import eased
+from balloon_usd.solver.latex.motions.beyond import CLEAR
+from balloon_usd.solver.latex.spins import VertexSet
+from balloon_usd.solver.motions.hanging import folded_between
+from balloon_usd.solver.motions.motion import Motion
+
+if TYPE_CHECKING:
+    from balloon_usd.operations import moves
+    from balloon_usd.solver.latex.sculpture import LatexSculpture
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+
+class TurnFold(Motion):
+    """Bubbles folded between two joints, which hands turn about the joint that these have become.
+
+    The other hand holds all that does not turn. Where the fold hangs together with the rest elsewhere, as in
+    a closed net, nothing can turn.
+    """
+
+    def __init__(self, move: moves.TurnFold, sculpture: LatexSculpture) -> None:
+        """Take the fold, and hold the rest."""
+        self._move, self._sculpture, self._hands = move, sculpture, sculpture.hands
+        self._share = 0.0
+        """Share of its turns that are done."""
+        rings = folded_between(*move.rings, sculpture.balloons, sculpture.welds)
+        self._turning = VertexSet.of(_vertices(sculpture, rings)) if rings else None
+        if self._turning is None:
+            return
+        middle, joints = sculpture.frame.middle, sculpture.joints
+        hands, fold = self._hands, {joints[ring] for ring in rings}
+        bases = [joints[ring] for ring in move.rings]
+        for joint in bases:
+            hands.clasp(joint, middle)
+        for joint in set(joints) - fold - set(bases):
+            hands.lead(joint, middle)
+        self._point: Floats = middle[bases].mean(axis=0, dtype=np.float64)
+        away: Floats = hands.places[self._turning.indices].mean(axis=0, dtype=np.float64) - self._point
+        self._axis = away / max(float(np.linalg.norm(away)), 1e-9)
+        self._led = np.array([joint for joint in sorted(fold) if hands.leads(joint)], dtype=np.int64)
+        self._began: Floats = hands.goal[self._led] - self._point
+
+    def advance(self, share: float) -> None:
+        """Turn as far as the time of the move that is over then asks, with ease in and out."""
+        if self._turning is None:
+            return
+        turns = self._move.turns * (eased(share) - self._share)
+        self._share = eased(share)
+        begin, end, _ = self._sculpture.frame
+        rate = 2.0 * math.pi * turns / (end - begin)
+        self._hands.spin(self._turning, self._point, self._axis, rate)
+        angle = 2.0 * math.pi * self._move.turns * self._share
+        self._hands.goal[self._led] = self._point + _rotated(self._began, self._axis, angle)
+
+
+def _vertices(sculpture: LatexSculpture, rings: tuple[int, ...]) -> Ints:
+    """Return the vertices of the scene that lie at some rings of the plan or in bubbles beside them."""
+    table, scene, chosen = sculpture.plan.table.rings, sculpture.scene, set(rings)
+    found = [np.arange(0)]
+    for balloon in {table[ring].balloon for ring in rings}:
+        body = sculpture.body[balloon]
+        own = [k for k, ring in enumerate(table) if ring.balloon == balloon]
+        places = np.array([table[ring].along for ring in own])
+        inside = np.array([False, *(ring in chosen for ring in own), False])
+        along = scene.bodies[body].along
+        before, after = (np.searchsorted(places, along + off) for off in (-CLEAR, CLEAR))
+        # Beside no ring both are the same, and the bubble goes with either ring beside it.
+        at_ring = inside[after]
+        between = inside[before] | inside[np.minimum(before + 1, len(own) + 1)]
+        turns = np.where(after > before, at_ring, between)
+        found.append(np.flatnonzero(turns) + int(scene.vertex_start[body]))
+    return np.concatenate(found)
+
+
+def _rotated(vectors: Floats, axis: Floats, angle: float) -> Floats:
+    """Return vectors (N, 3) turned about a unit axis by an angle, rad (Rodrigues' formula)."""
+    along = (vectors @ axis)[:, None] * axis
+    across = vectors - along
+    return along + math.cos(angle) * across + math.sin(angle) * np.cross(axis, across)
