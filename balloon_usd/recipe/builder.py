@@ -8,6 +8,7 @@ from balloon_usd.language.choices import unknown
 from balloon_usd.language.quantities import LengthLike, Units, written_length
 from balloon_usd.operations.operation import Operation
 from balloon_usd.operations.table import BY_WORD, WORDS
+from balloon_usd.operations.tempo import Tempo
 
 from .kosaka import kosaka_entries
 from .operation_methods import with_operations
@@ -36,9 +37,11 @@ class RecipeBuilder:
         source: str = "",
         units: Units = "cm",
         fps: float | None = None,
+        tempo: Tempo | None = None,
     ) -> None:
         self._units = units
-        self._head = _given({"title": title or None, "source": source or None, "units": units, "fps": fps})
+        head = {"title": title or None, "source": source or None, "units": units, "fps": fps, "tempo": tempo}
+        self._head = _given(head)
         self._name = name
         self._balloons: dict[str, Entries] = {}
         self._steps: list[Entries] = []

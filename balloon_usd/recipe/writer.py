@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 Entries = dict[str, object]
 
-HEAD = ("name", "title", "source", "units", "fps")
+HEAD = ("name", "title", "source", "units", "fps", "tempo")
 """Keys between the format and the balloons, in this order."""
 
 _PLAIN_WORD = re.compile(r"[A-Za-z_][A-Za-z0-9_.+ -]*", re.ASCII)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from balloon_usd.solver.motions.hanging import hanging_on
+from balloon_usd.solver.motions.hanging import folded_between, hanging_on
 
 RED, BLUE, GREEN = ("red",) * 5, ("blue",) * 3, ("green",) * 2
 
@@ -47,3 +47,20 @@ def test_no_way_passes_what_is_welded_to_a_held_ring():
 
 def test_a_loop_hangs_on_the_joint_that_it_is_closed_at():
     assert hanging_on((2, 4), RED, ((0, 2),)) == ((0, 1), ())
+
+
+def test_what_is_folded_between_two_joined_rings_is_all_between_them():
+    assert folded_between(1, 3, RED, ((1, 3),)) == (2,)
+
+
+def test_what_hangs_on_a_fold_is_of_it():
+    assert folded_between(1, 3, RED + BLUE, ((1, 3), (2, 6))) == (2, 5, 6, 7)
+
+
+def test_a_fold_that_hangs_together_with_the_rest_elsewhere_is_none():
+    assert folded_between(1, 3, RED, ((1, 3), (2, 4))) == ()
+    assert folded_between(1, 3, RED + BLUE, ((1, 3), (2, 5), (0, 7))) == ()
+
+
+def test_what_hangs_on_the_joint_itself_is_not_of_the_fold():
+    assert folded_between(1, 3, RED + BLUE, ((1, 3, 6),)) == (2,)

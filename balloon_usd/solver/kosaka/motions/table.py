@@ -22,6 +22,7 @@ KOSAKA_MOTIONS: Motions = {
     # Capsules start blown up, and rings freeze instead of being wound.
     moves.Inflate: Wait,
     moves.Spin: Wait,
+    moves.TurnFold: Wait,
     moves.Pinch: Draw,
     moves.Gather: Gather,
     moves.Bring: Bring,
