@@ -8,7 +8,6 @@ from balloon_usd.language.choices import unknown
 from balloon_usd.language.quantities import LengthLike, Units, written_length
 from balloon_usd.operations.operation import Operation
 from balloon_usd.operations.table import BY_WORD, WORDS
-from balloon_usd.operations.tempo import Tempo
 
 from .kosaka import kosaka_entries
 from .operation_methods import with_operations
@@ -17,6 +16,8 @@ from .writer import Entries, recipe_text, step_entries
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
+
+    from balloon_usd.operations.tempo import Tempo
 
 BUILDER_FILE = "<builder>"
 

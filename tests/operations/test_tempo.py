@@ -74,7 +74,7 @@ def test_the_seconds_of_a_step_rule():
 
 
 def test_another_tempo_is_refused_with_those_there_are():
-    with pytest.raises(RecipeError, match="'quick' is no tempo|calm"):
+    with pytest.raises(RecipeError, match="calm, brisk"):
         head("tempo: quick")
 
 
