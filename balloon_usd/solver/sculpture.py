@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from balloon_usd.operations.table import BY_KIND
 from balloon_usd.solver.motions.carried import Carried
 from balloon_usd.solver.motions.hanging import hanging_on
 
@@ -54,8 +55,13 @@ class Sculpture:
         self.balloons = tuple(ring.balloon for ring in plan.table.rings)
         """Balloon of every ring."""
         rests = {strip.bubbles[-1].name for strip in plan.strips.values()}
-        self._led = [ring.joint or ring.bubble in rests for ring in plan.table.rings]
-        """Whether hands lead a ring when they carry what it is of: a joint, or one in an open rest."""
+        tops = _tops(plan)
+        self._led = [
+            ring.joint or ring.bubble in rests or k in tops for k, ring in enumerate(plan.table.rings)
+        ]
+        """Whether hands lead a ring when they carry what it is of: a joint, one in an open rest, or the middle
+        of a bubble that closes on itself, without which it would roll about the balloon.
+        """
 
     def _joints(self) -> list[int]:
         """Joint of every planned ring: a body's rings are its plan's, after its spare ones."""
@@ -140,3 +146,9 @@ class Sculpture:
                     last -= cap if index == len(strip.bubbles) - 1 else 0
                     return self.body[name], np.arange(first, last)
         raise KeyError(bubble)
+
+
+def _tops(plan: Plan) -> set[int]:
+    """Return the rings of a plan in the middle of bubbles that close on themselves."""
+    guides = [plan.table.guides(bubble.name) for bubble in plan.bubbles if BY_KIND[bubble.kind].closes]
+    return {each[len(each) // 2] for each in guides if each}
