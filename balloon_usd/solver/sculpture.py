@@ -59,8 +59,8 @@ class Sculpture:
         self._led = [
             ring.joint or ring.bubble in rests or k in tops for k, ring in enumerate(plan.table.rings)
         ]
-        """Whether hands lead a ring when they carry what it is of: a joint, one in an open rest, or the middle
-        of a bubble that closes on itself, without which it would roll about the balloon.
+        """Whether hands lead a ring when they carry what it is of: a joint, one in an open rest, or the
+        middle of a bubble that closes on itself, without which it would roll about the balloon.
         """
 
     def _joints(self) -> list[int]:
