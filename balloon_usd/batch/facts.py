@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from balloon_usd.batch.order import Order
     from balloon_usd.plan import Plan
 
-LOOKS = ("recipe", "clear", "chrome", "clay", "stress")
+LOOKS = ("recipe", "clear", "chrome", "clay", "print", "stress")
 """Looks of every stage."""
 WITH_AIR = "thesis"
 """Look of stages of the model kosaka only; it needs a texture."""

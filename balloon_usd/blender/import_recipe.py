@@ -44,6 +44,7 @@ LOOK = bpy.props.EnumProperty(
         ("clear", "Clear", "Latex that can be seen through"),
         ("chrome", "Chrome", "Foil"),
         ("clay", "Clay", "Matt, without colours"),
+        ("print", "Print", "Latex with a print that shows how it turns"),
         ("stress", "Stress", "How far the rubber is stretched, as colours"),
     ),
     default=AS_IT_IS,

@@ -31,13 +31,13 @@ SETTLE_SECONDS = 0.4
 """Pause after inflating, gathering or bending, in which the rubber comes to rest, s."""
 PINCH_SECONDS = 0.55
 """Closing of a neck between two fingers, s."""
-HAND_SPEED = 0.22
-"""Mean speed of a hand that brings joints together, m/s; its peak is 1.9 times this."""
+HAND_SPEED = 0.16
+"""Mean speed of a hand that brings joints together, m/s: no point of the bubbles goes faster than 1.5 m/s."""
 CARRYING_SPEED = 0.08
 """The same in model kosaka, where air particles must follow the bubble that carries them, m/s."""
 DRAWING_SECONDS = 1.0
 """Closing of a ring by force in model kosaka, with time for the air to leave, s."""
-GATHER_LEAST = 0.8
+GATHER_LEAST = 1.1
 """Shortest gathering, s."""
 BRING_SECONDS = 1.5
 """Bringing a joint to one of another balloon, s."""
@@ -178,7 +178,7 @@ class Score:
         """Twist joints that lie together into one."""
         self.add(Weld(self.now, 0.0, index, text, rings=rings, turns=turns))
         if not self.blown_up and self._is_fold(rings):
-            seconds = self.pace.turning_seconds(turns)
+            seconds = self.pace.turning_seconds(turns, self._reach(*rings))
             self.add(TurnFold(self.now, seconds, index, text, rings=rings, turns=turns))
         self.add(Move(self.now, SETTLE_SECONDS, index, text))
         self.let_go(index)
@@ -186,6 +186,20 @@ class Score:
     def _is_fold(self, rings: tuple[int, ...]) -> bool:
         """Tell whether joints of one balloon come together, with bubbles folded between them."""
         return len(rings) == 2 and self.layout.ring(rings[0]).balloon == self.layout.ring(rings[1]).balloon
+
+    def _reach(self, first: int, last: int) -> float:
+        """Return about how far what is folded between two rings reaches from the axis of its turn, m:
+        a pair lies side by side, a ring or a loop opens as it is turned.
+        """
+        bubbles = [
+            self.layout.bubble(ring.bubble)
+            for ring in map(self.layout.ring, range(first + 1, last + 1))
+            if ring.joint
+        ]
+        width = max(bubble.width for bubble in bubbles)
+        if len(bubbles) == 2:
+            return width
+        return 0.5 * width + 0.25 * sum(bubble.length for bubble in bubbles)
 
     def retime(self, first: int, begin: float, seconds: float) -> None:
         """Stretch the moves from a first one on to the time that the recipe gives their step."""

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from typing import Literal, NamedTuple
 
 Tempo = Literal["calm", "brisk", "show"]
 
 EASE = 0.25
 """Share of the time of a turn in which hands gather speed, and again in which they slow down."""
+
+FASTEST_RIM = 1.1
+"""Speed at the rim of a fold that a calm maker turns, m/s: a wide loop is turned more slowly."""
 
 
 class Pace(NamedTuple):
@@ -18,9 +22,13 @@ class Pace(NamedTuple):
     leading: float
     """Speed of hands that bring joints somewhere, pinch and bend, over that of a calm maker."""
 
-    def turning_seconds(self, turns: float) -> float:
-        """Return how long so many turns take, s: with ease in and out."""
-        return turns / (self.turning * (1.0 - EASE))
+    def turning_seconds(self, turns: float, reach: float = 0.0) -> float:
+        """Return how long so many turns take, s: with ease in and out.
+
+        `reach`: largest distance from the axis of what is turned, m.
+        """
+        fastest = min(self.turning, self.leading * FASTEST_RIM / (2.0 * math.pi * max(reach, 1e-3)))
+        return turns / (fastest * (1.0 - EASE))
 
 
 PACES: dict[Tempo, Pace] = {

@@ -15,6 +15,7 @@ import numpy as np
 from balloon_usd.openusd import Gf, Sdf, UsdGeom, UsdShade, Vt
 from balloon_usd.stage.error import StageError
 from balloon_usd.stage.prim_paths import part_path, root_path
+from balloon_usd.stage.printed import author_print
 from balloon_usd.stage.variant_sets import LOOK
 
 if TYPE_CHECKING:
@@ -30,12 +31,14 @@ CHROME = "chrome"
 """Metallic foil, tinted by the colours of the recipe."""
 CLAY = "clay"
 """All in one matt grey, to judge the form."""
+PRINT = "print"
+"""Latex in the colours of the recipe, with a print that shows how it turns."""
 STRESS = "stress"
 """Stretch as a colour, see `balloon_usd.stage.stretch_color`."""
 THESIS = "thesis"
 """Orange wire, one a spring, and the air inside, as Kosaka 2008, chapter 4, shows it."""
 
-ON_EVERY_STAGE = (RECIPE, CLEAR, CHROME, CLAY, STRESS)
+ON_EVERY_STAGE = (RECIPE, CLEAR, CHROME, CLAY, PRINT, STRESS)
 """Looks that need nothing but rubber."""
 SHOWS_AIR = frozenset({CLEAR, THESIS})
 """Looks in which one sees into the balloons."""
@@ -99,7 +102,9 @@ def author_look(stage: Any, description: StageDescription, look: str, materials:
         prim = stage.OverridePrim(part_path(description.name, mesh.name))
         UsdShade.MaterialBindingAPI(prim).Bind(materials[mesh.name])
         UsdGeom.Gprim(prim).CreateDoubleSidedAttr(look in SHOWS_AIR)
-        if look != STRESS:
+        if look == PRINT:
+            author_print(prim, mesh)
+        elif look != STRESS:
             _author_display_color(prim, mesh, look)
     for cloud in description.airs:
         prim = stage.OverridePrim(part_path(description.name, cloud.name))

@@ -11,13 +11,19 @@ from balloon_usd.stage.looks import (
     CLAY,
     CLAY_COLOR,
     CLEAR,
+    PRINT,
     RECIPE,
     STRESS,
     THESIS,
     author_look,
     author_looks,
 )
-from balloon_usd.stage.painted_material import AIR_ROUGHNESS, STRESS_ROUGHNESS, author_painted_material
+from balloon_usd.stage.painted_material import (
+    AIR_ROUGHNESS,
+    PRINT_ROUGHNESS,
+    STRESS_ROUGHNESS,
+    author_painted_material,
+)
 from balloon_usd.stage.prim_paths import materials_path, part_path
 from balloon_usd.stage.thesis_materials import author_wire_material
 
@@ -71,6 +77,8 @@ def _materials_of(stage: Any, description: StageDescription, look: str) -> dict[
         return {mesh.name: made[mesh.color] for mesh in description.meshes}
     if look == THESIS:
         shared = author_wire_material(stage, scope.AppendChild(WIRE))
+    elif look == PRINT:
+        shared = author_painted_material(stage, scope.AppendChild(PRINT), PRINT_ROUGHNESS)
     elif look == STRESS:
         shared = author_painted_material(stage, scope.AppendChild(STRESS), STRESS_ROUGHNESS)
     else:
@@ -83,7 +91,7 @@ def material_names(description: StageDescription) -> dict[str, dict[Color, str]]
 
     The first mesh of a colour names it; a name that is taken is numbered.
     """
-    taken = {CLAY, STRESS, *((AIR, WIRE) if description.airs else ())}
+    taken = {CLAY, PRINT, STRESS, *((AIR, WIRE) if description.airs else ())}
     found: dict[str, dict[Color, str]] = {}
     for look in COLORED:
         names: dict[Color, str] = {}

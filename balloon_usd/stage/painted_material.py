@@ -8,6 +8,8 @@ from balloon_usd.openusd import Sdf, UsdGeom
 from balloon_usd.stage.shaders import preview_surface, primvar_reader
 
 AIR_ROUGHNESS = 0.4
+PRINT_ROUGHNESS = 0.15
+"""As shiny as latex."""
 STRESS_ROUGHNESS = 0.6
 """Dull, so that no reflection is taken for a colour."""
 

@@ -81,7 +81,7 @@ def test_a_shot_arrives_with_camera_lights_and_ground(blender, written, name):
 
 def test_the_selections_are_those_of_detail_state_and_look(written):
     chosen = all_selections(written("air"))
-    looks = {"recipe", "clear", "chrome", "clay", "stress", "thesis"}
+    looks = {"recipe", "clear", "chrome", "clay", "print", "stress", "thesis"}
     assert {one["detail"] for one in chosen} == {"draft", "full"}
     assert {one["state"] for one in chosen} == {"made", "finished"}
     assert {one["look"] for one in chosen} == looks

@@ -103,7 +103,7 @@ def test_every_look_of_every_detail_has_every_property(capsule: Usd.Stage) -> No
 
 
 COLORED = ("recipe", "clear", "chrome")
-LOOKS = {"recipe", "clear", "chrome", "clay", "stress"}
+LOOKS = {"recipe", "clear", "chrome", "clay", "print", "stress"}
 
 
 def surface_of(stage: Usd.Stage, path: str) -> UsdShade.Shader:

@@ -29,7 +29,7 @@ def test_a_stage_shows_the_sculpture_as_it_is_made(dog: Usd.Stage) -> None:
     assert f"{MAIN}.points" in sampled(dog)
 
 
-@pytest.mark.parametrize("look", ["recipe", "clear", "chrome", "clay", "stress"])
+@pytest.mark.parametrize("look", ["recipe", "clear", "chrome", "clay", "print", "stress"])
 @pytest.mark.parametrize(("detail", "rings"), [("draft", 7), ("full", 9)])
 def test_the_finished_sculpture_is_the_last_frame_without_any_sample(
     detail: str, rings: int, look: str, dog: Usd.Stage

@@ -38,7 +38,7 @@ def test_a_package_says_nothing_of_the_run(package: Path) -> None:
     assert entry.date_time == (1980, 1, 1, 0, 0, 0)
 
 
-@pytest.mark.parametrize("look", ["recipe", "clear", "chrome", "clay", "stress"])
+@pytest.mark.parametrize("look", ["recipe", "clear", "chrome", "clay", "print", "stress"])
 def test_the_validators_of_usd_have_nothing_to_say(look: str, tmp_path: Path) -> None:
     stage = Usd.Stage.Open(str(write_stage(sculpture(), frames(3), tmp_path, usdz=True, look=look).files[0]))
     assert complaints(stage) == []
