@@ -17,6 +17,7 @@ from balloon_usd.stage.looks import looks_of
 from balloon_usd.stage.materials import author_materials
 from balloon_usd.stage.payload import finished_layer, payload_layer
 from balloon_usd.stage.prim_paths import root_path
+from balloon_usd.stage.printed import author_print_variant
 from balloon_usd.stage.provenance import provenance_of
 from balloon_usd.stage.samples import Layers
 from balloon_usd.stage.stretch_color import ramp_legend
@@ -81,7 +82,9 @@ def complete_asset(
 def _geometry_layer(description: StageDescription, take: Take) -> Any:
     layer = Sdf.Layer.CreateAnonymous(".usda")
     set_units(layer, description.name)
-    author_geometry(Usd.Stage.Open(layer), description, take.final)
+    stage = Usd.Stage.Open(layer)
+    author_geometry(stage, description, take.final)
+    author_print_variant(stage, description)
     return layer
 
 

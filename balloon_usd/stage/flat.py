@@ -10,9 +10,10 @@ from balloon_usd.stage.built import Built
 from balloon_usd.stage.error import writing
 from balloon_usd.stage.geometry import author_geometry
 from balloon_usd.stage.interface import author_failure, author_root, set_asset_info, set_extents_hint
-from balloon_usd.stage.looks import STRESS, looks_of
+from balloon_usd.stage.looks import PRINT, STRESS, looks_of
 from balloon_usd.stage.materials import author_materials
 from balloon_usd.stage.prim_paths import root_path
+from balloon_usd.stage.printed import author_print
 from balloon_usd.stage.provenance import provenance_of
 from balloon_usd.stage.samples import Layers
 from balloon_usd.stage.wire_texture import FILE_NAME, wire_png
@@ -79,3 +80,5 @@ def author_rest(
     stage = Usd.Stage.Open(layer)
     author_geometry(stage, description, take.final)
     author_materials(stage, description, looks, wanted.look)
+    if wanted.look == PRINT:
+        author_print(stage, description)

@@ -15,7 +15,6 @@ import numpy as np
 from balloon_usd.openusd import Gf, Sdf, UsdGeom, UsdShade, Vt
 from balloon_usd.stage.error import StageError
 from balloon_usd.stage.prim_paths import part_path, root_path
-from balloon_usd.stage.printed import author_print
 from balloon_usd.stage.variant_sets import LOOK
 
 if TYPE_CHECKING:
@@ -102,9 +101,8 @@ def author_look(stage: Any, description: StageDescription, look: str, materials:
         prim = stage.OverridePrim(part_path(description.name, mesh.name))
         UsdShade.MaterialBindingAPI(prim).Bind(materials[mesh.name])
         UsdGeom.Gprim(prim).CreateDoubleSidedAttr(look in SHOWS_AIR)
-        if look == PRINT:
-            author_print(prim, mesh)
-        elif look != STRESS:
+        # Colours of faces or vertices come with the geometry or the samples.
+        if look not in (PRINT, STRESS):
             _author_display_color(prim, mesh, look)
     for cloud in description.airs:
         prim = stage.OverridePrim(part_path(description.name, cloud.name))

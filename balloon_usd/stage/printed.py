@@ -7,11 +7,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from balloon_usd.openusd import Sdf, UsdGeom, Vt
+from balloon_usd.stage.looks import PRINT
+from balloon_usd.stage.prim_paths import part_path, root_path
+from balloon_usd.stage.variant_sets import LOOK
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from balloon_usd.stage.description import MeshDescription
+    from balloon_usd.stage.description import MeshDescription, StageDescription
 
 INK = (0.9, 0.9, 0.9)
 """Colour of the print, linear rgb: white ink that lets a little of the rubber through."""
@@ -30,8 +33,23 @@ def printed(st: NDArray[np.float32]) -> NDArray[np.bool_]:
     return dashed
 
 
-def author_print(prim: Any, mesh: MeshDescription) -> None:
-    """Author the colours of a mesh's quads, with their print."""
+def author_print(stage: Any, description: StageDescription) -> None:
+    """Author the colours of all quads, with their print, at the stage's edit target."""
+    for mesh in description.meshes:
+        _author_colors(stage.OverridePrim(part_path(description.name, mesh.name)), mesh)
+
+
+def author_print_variant(stage: Any, description: StageDescription) -> None:
+    """Author these colours in the look that shows them, and in no other: their number is that of the mesh."""
+    looks = stage.GetPrimAtPath(root_path(description.name)).GetVariantSets().AddVariantSet(LOOK)
+    looks.AddVariant(PRINT)
+    looks.SetVariantSelection(PRINT)
+    with looks.GetVariantEditContext():
+        author_print(stage, description)
+    looks.ClearVariantSelection()
+
+
+def _author_colors(prim: Any, mesh: MeshDescription) -> None:
     colors = np.where(printed(mesh.st)[:, None], np.array(INK), np.array(mesh.color)).astype(np.float32)
     primvar = UsdGeom.PrimvarsAPI(prim).CreatePrimvar(
         "displayColor", Sdf.ValueTypeNames.Color3fArray, UsdGeom.Tokens.uniform

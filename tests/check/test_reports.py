@@ -47,7 +47,7 @@ def test_a_fault_that_shows_in_every_variant_is_told_once(dog: Path) -> None:
 
 def test_every_variant_and_three_frames_are_looked_at(details: Path) -> None:
     report = check_file(str(details))
-    assert len(report.selections) == 2 * 2 * 5
+    assert len(report.selections) == 2 * 2 * 6
     assert report.selections[0] == "detail=draft state=made look=recipe"
     assert report.frames == [1.0, 7.0, 12.0]
     assert report.validators[0].startswith("usd-core ")

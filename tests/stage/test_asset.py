@@ -168,7 +168,7 @@ def test_meshes_of_one_colour_share_one_material(tmp_path: Path) -> None:
     }
     assert bound == {"/dog/mtl/latex_main"}
     names = stage.GetPrimAtPath("/dog/mtl").GetAllChildrenNames()
-    assert names == ["latex_main", "clear_main", "chrome_main", "clay", "stress"]
+    assert names == ["latex_main", "clear_main", "chrome_main", "clay", "print", "stress"]
 
 
 def test_two_colours_under_one_material_name_get_two_materials(tmp_path: Path) -> None:

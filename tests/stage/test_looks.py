@@ -238,7 +238,10 @@ def test_another_look_of_the_next_run_keeps_the_other_details(tmp_path: Path) ->
     ("choices", "message"),
     [
         ({"look": "crome"}, '"dog" has no look "crome", did you mean "chrome"?'),
-        ({"look": "wood"}, '"dog" has no look "wood", expected one of recipe, clear, chrome, clay, stress'),
+        (
+            {"look": "wood"},
+            '"dog" has no look "wood", expected one of recipe, clear, chrome, clay, print, stress',
+        ),
         ({"look": "thesis"}, '"dog" has no look "thesis" since it has no air, take "recipe"'),
         ({"flat": True, "usdz": True}, "flat and usdz exclude each other: a stage has one form at a time"),
         (

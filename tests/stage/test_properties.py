@@ -141,7 +141,7 @@ def test_what_is_wrong_with_a_variant_that_is_not_selected_is_found_out(
 
 def test_every_selection_of_nested_variants_is_looked_at(layered: Usd.Stage) -> None:
     found = [tuple(selection.items()) for selection, _, _ in check_selections(layered)]
-    assert len(found) == len(set(found)) == 2 * 2 * 6
+    assert len(found) == len(set(found)) == 2 * 2 * 7
     assert dict(found[0]) == {"detail": "draft", "state": "made", "look": "thesis"}
 
 
