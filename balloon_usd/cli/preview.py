@@ -40,8 +40,8 @@ SMALLEST, LARGEST = 16, 4096
 @click.option(
     "--look",
     metavar="LOOK",
-    help="Draw another look than the one selected in the stage: recipe, clear, chrome, clay, print, stress or "
-    "thesis.",
+    help="Draw another look than the one selected in the stage: "
+    "recipe, clear, chrome, clay, print, stress, thesis.",
 )
 @click.option("--view", type=click.Choice(VIEWS), default="three-quarter", show_default=True)
 @click.option(
