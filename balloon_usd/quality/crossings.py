@@ -31,8 +31,8 @@ class Pierced(NamedTuple):
     """Ends of the edges, (P, 2) vertices."""
     triangles: Numbers
     """Index of the triangles, (P,)."""
-    depth: Floats
-    """How far the edge reaches behind the triangle's plane, (P,) m."""
+    behind: Floats
+    """How far an end of the edge is behind the triangle's plane, (P,) m."""
 
 
 def pierced_triangles(points: Floats, triangles: Numbers, faces: Numbers | None = None) -> Pierced:
@@ -54,9 +54,9 @@ def pierced_triangles(points: Floats, triangles: Numbers, faces: Numbers | None 
     ends = edges[pairs[:, 0]]
     apart = ~(ends[:, :, None] == around[:, None, :]).any(axis=(1, 2))
     pairs = pairs[apart]
-    found, depth = _pierce(spans[pairs[:, 0]], corners[pairs[:, 1]])
+    found, behind = _pierce(spans[pairs[:, 0]], corners[pairs[:, 1]])
     pairs = pairs[found]
-    return Pierced(edges[pairs[:, 0]], pairs[:, 1], depth * unit)
+    return Pierced(edges[pairs[:, 0]], pairs[:, 1], behind * unit)
 
 
 def _unit(points: Floats, triangles: Numbers) -> float:
@@ -68,7 +68,7 @@ def _unit(points: Floats, triangles: Numbers) -> float:
 
 
 def _pierce(ends: Numbers, corners: Numbers) -> tuple[NDArray[np.bool_], Floats]:
-    """Tell which edges, (N, 2, 3), pass through triangles, (N, 3, 3), and how far those reach behind them."""
+    """Tell which edges, (N, 2, 3), pass through triangles, (N, 3, 3), and how far behind those reach."""
     p, q = ends[:, 0], ends[:, 1]
     a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
     normal = np.cross(b - a, c - a)

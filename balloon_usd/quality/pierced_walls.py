@@ -8,17 +8,23 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from balloon_usd.quality.crossings import pierced_triangles
+from balloon_usd.quality.depth import deepest
 from balloon_usd.quality.measures import MEASURES
 from balloon_usd.quality.walls import NO_NECK, walls_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from numpy.typing import NDArray
+
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
+    from balloon_usd.quality.crossings import Pierced
     from balloon_usd.solver.frame import Frame
 
 MICROMETRE_DIGITS = 6
+MOST_DEPTHS = 128
+"""Vertices whose depth is measured, each against all walls."""
 
 
 def crossings_of(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame) -> dict[str, Any]:
@@ -37,7 +43,15 @@ def crossings_of(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame) -> dic
         len(both),
         {
             "in_necks": int(in_neck.sum()),
-            "depth": round(float(pierced.depth[~in_neck].max(initial=0.0)), MICROMETRE_DIGITS),
+            "depth": round(deepest(points, walls.triangles, _ends(pierced, ~in_neck)), MICROMETRE_DIGITS),
             "bubbles": [{"pair": list(pair), "count": count} for pair, count in counts.most_common()],
         },
     )
+
+
+def _ends(pierced: Pierced, of_these: NDArray[np.bool_]) -> NDArray[np.int64]:
+    """Return the ends of edges that pierce faces, those that reach farthest behind them first."""
+    order = np.argsort(-pierced.behind[of_these], kind="stable")
+    ends = pierced.edges[of_these][order].ravel()
+    _, first = np.unique(ends, return_index=True)
+    return ends[np.sort(first)][:MOST_DEPTHS]
