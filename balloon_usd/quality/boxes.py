@@ -45,9 +45,12 @@ def overlapping_boxes(low: Numbers, high: Numbers, other_low: Numbers, other_hig
         base = (column + np.array(offset)) @ strides
         here, there = _in_ranges(keys, base + bottom, base + top)
         other = order[there]
-        over = (other_low[other] <= high[here]) & (other_high[other] >= low[here])
-        kept = over.all(axis=1)
-        found.append(np.stack([here[kept], other[kept]], axis=1))
+        # Axis by axis: most pairs fall out at once.
+        for axis in range(3):
+            over = other_low[:, axis][other] <= high[:, axis][here]
+            over &= other_high[:, axis][other] >= low[:, axis][here]
+            here, other = here[over], other[over]
+        found.append(np.stack([here, other], axis=1))
     pairs = np.concatenate(found)
     return pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))]
 
