@@ -29,7 +29,7 @@ def _parts(data: Data) -> Iterator[str]:
     yield f"{'moving' if _off(data['speed']) else 'calm'} ({speed}/s)"
     yield f"{'crept' if _off(data['creep']) else 'stays'} ({creep})"
     yield from _joints(data["joints"])
-    yield _crossings(data["crossings"])
+    yield _crossings(data["crossings"], data["depth"])
     yield from _symmetry(data)
 
 
@@ -49,12 +49,12 @@ def _joints(result: Data) -> Iterator[str]:
     yield f"{result['held']} of {result['meant']} joints held{lost}"
 
 
-def _crossings(result: Data) -> str:
+def _crossings(result: Data, depth: Data) -> str:
     if not result["value"]:
         return "0 crossings"
     a, b = result["bubbles"][0]["pair"]
     where = f"{a} with itself" if a == b else f"{a} and {b}"
-    return f"{result['value']} crossings ({where}, {MILLI * result['depth']:.1f} mm)"
+    return f"{result['value']} crossings ({where}, {MILLI * depth['value']:.1f} mm)"
 
 
 def _symmetry(data: Data) -> Iterator[str]:

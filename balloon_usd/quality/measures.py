@@ -61,6 +61,7 @@ MEASURES = _table(
     Measure("creep", "m", 0.01, 5, "largest way of a vertex from the moment the hands let go to the end"),
     Measure("joints", "1", 0, 0, "joints that were meant to hold and do not"),
     Measure("crossings", "1", 0, 0, "pairs of an edge and a face that it pierces, but for those in one neck"),
+    Measure("depth", "m", 0.001, 6, "depth of the deepest vertex at such a pair that lies inside a wall"),
     Measure("symmetric_volume", "1", 0.05, 4, "largest difference of volume in a pair, as a share of it"),
     Measure("symmetric_length", "1", 0.05, 4, "largest difference of length in a pair, as a share of it"),
     Measure("symmetric_place", "m", 0.02, 5, "largest distance of a bubble from its twin's mirror image"),

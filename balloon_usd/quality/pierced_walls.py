@@ -22,13 +22,12 @@ if TYPE_CHECKING:
     from balloon_usd.quality.crossings import Pierced
     from balloon_usd.solver.frame import Frame
 
-MICROMETRE_DIGITS = 6
 MOST_DEPTHS = 128
 """Vertices whose depth is measured, each against all walls."""
 
 
-def crossings_of(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame) -> dict[str, Any]:
-    """Return the crossings of a frame as plain data: their count, those inside necks, bubbles, and depth."""
+def crossings_of(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame) -> dict[str, dict[str, Any]]:
+    """Return the crossings of a frame and their depth, as results by the keys of measures."""
     walls = walls_of(plan, meshes)
     points = np.concatenate(frame.points).astype(np.float64)
     pierced = pierced_triangles(points, walls.triangles, walls.faces)
@@ -39,14 +38,15 @@ def crossings_of(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame) -> dic
     own = walls.bubble_of_vertex[pierced.edges[:, 0]]
     both = np.sort(np.stack([own, walls.bubble_of_triangle[pierced.triangles]], axis=1), axis=1)[~in_neck]
     counts = Counter((names[a], names[b]) for a, b in both.tolist())
-    return MEASURES["crossings"].result(
-        len(both),
-        {
-            "in_necks": int(in_neck.sum()),
-            "depth": round(deepest(points, walls.triangles, _ends(pierced, ~in_neck)), MICROMETRE_DIGITS),
-            "bubbles": [{"pair": list(pair), "count": count} for pair, count in counts.most_common()],
-        },
-    )
+    told = {
+        "in_necks": int(in_neck.sum()),
+        "bubbles": [{"pair": list(pair), "count": count} for pair, count in counts.most_common()],
+    }
+    depth = deepest(points, walls.triangles, _ends(pierced, ~in_neck))
+    return {
+        "crossings": MEASURES["crossings"].result(len(both), told),
+        "depth": MEASURES["depth"].result(depth),
+    }
 
 
 def _ends(pierced: Pierced, of_these: NDArray[np.bool_]) -> NDArray[np.int64]:

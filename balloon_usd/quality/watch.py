@@ -48,7 +48,7 @@ class QualityWatch:
             "tail": MEASURES["tail"].largest(self._tails.off),
             **self._rest.results(),
             "joints": _joints(plan, meshes, end),
-            "crossings": crossings_of(plan, meshes, end),
+            **crossings_of(plan, meshes, end),
             **symmetry_of(plan, meshes, end),
         }
         off = [key for key in MEASURES if found[key]["verdict"] == Verdict.OFF]

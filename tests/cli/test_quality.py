@@ -24,7 +24,7 @@ def figure(name, **values):
         key: measure.result(values.get(key, 0.0), {"worst": "neck"}) for key, measure in MEASURES.items()
     }
     found["joints"] |= {"held": 3, "meant": 3, "lost": []}
-    found["crossings"] |= {"bubbles": [{"pair": ["nose", "tail"], "count": 1}], "depth": 0.001}
+    found["crossings"] |= {"bubbles": [{"pair": ["nose", "tail"], "count": 1}]}
     off = [key for key, result in found.items() if result["verdict"] == "off"]
     told = {"fps": 24.0, "tails_left": {}, "highest_stretch": 5.0, "burst_stretch": 7.0}
     quality = {"verdict": "off" if off else "good", "off": off, **found}
@@ -67,7 +67,7 @@ def test_a_run_that_ends_before_the_last_frame_has_no_quality(cli, solver, write
 
 
 def test_the_worst_figures_of_a_batch_are_told_first_and_good_ones_not_at_all(printed):
-    lines = printed(figure("good"), figure("gas", gas=0.3), figure("both", gas=0.2, crossings=2))
+    lines = printed(figure("good"), figure("gas", gas=0.3), figure("both", gas=0.2, crossings=2, depth=0.001))
     assert [line.split(":")[0] for line in lines] == ["quality of both", "quality of gas"]
     assert "2 crossings (nose and tail, 1.0 mm)" in lines[0]
     assert lines[1].startswith("quality of gas: gas 30.0 % off (neck)")
