@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 LEFT, RIGHT = "left_", "right_"
 SAME_LENGTH = 1e-6
 """Largest difference of planned lengths of twins, m."""
+MIRRORED = {"left": "right", "right": "left"}
+"""Where the right one of a pair points if the left one does not point the same way."""
 PLACES = 9
 """Places along each bubble that are mirrored."""
 
@@ -70,7 +72,17 @@ def _said_equal(plan: Plan, left: PlannedBubble, right: PlannedBubble) -> bool:
         and abs(left.length - right.length) < SAME_LENGTH
         and (a.size, a.rubber) == (b.size, b.rubber)
         and rests.isdisjoint({left.name, right.name})
+        and _point(plan, right) == _mirrored_point(_point(plan, left))
     )
+
+
+def _point(plan: Plan, bubble: PlannedBubble) -> str:
+    """Return where the step that makes a bubble points; "" if it does not say so."""
+    return getattr(plan.recipe.steps[bubble.step], "point", None) or ""
+
+
+def _mirrored_point(point: str) -> str:
+    return MIRRORED.get(point, point)
 
 
 def mirrored(pairs: Mapping[str, tuple[Floats, Floats]]) -> dict[str, float]:

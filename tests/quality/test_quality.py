@@ -224,6 +224,23 @@ def test_pairs_are_left_and_right_bubbles_of_equal_recipes(figure):
     assert pairs_of(plan_of(other)) == []
 
 
+@pytest.mark.parametrize(
+    ("left", "right", "count"),
+    [("left", "right", 1), ("up", "up", 1), ("up", "down", 0), ("left", "left", 0)],
+)
+def test_what_points_elsewhere_than_its_mirror_image_is_no_pair(left, right, count):
+    steps = f"""\
+steps:
+  - bubbles: {{nose: 8}}
+  - loop: {{left_ring: 30}}
+    point: {left}
+  - loop: {{right_ring: 30}}
+    point: {right}
+"""
+    text = EARS[: EARS.index("steps:")].replace("length: 30, tail: 6", "tail: 12") + steps
+    assert len(pairs_of(plan_of(Recipe.parse(text, file="rings.yaml")))) == count
+
+
 def test_a_loop_of_two_ears_is_its_own_mirror_image_and_an_ear_that_is_turned_is_not(figure, still):
     assert still["symmetric_place"]["value"] < 1e-3
     assert still["symmetric_volume"]["value"] == 0.0
