@@ -22,9 +22,9 @@ def quality_line(data: Data) -> str:
 
 
 def _parts(data: Data) -> Iterator[str]:
-    yield _difference("gas", data["gas"], CENTI, "%")
-    if data["tail"]["verdict"] != Verdict.NONE:
-        yield _difference("tail", data["tail"], CENTI, "cm")
+    for key, unit in (("gas", "%"), ("tail", "cm")):
+        if data[key]["verdict"] != Verdict.NONE:
+            yield _difference(key, data[key], unit)
     speed, creep = (f"{MILLI * data[key]['value']:.1f} mm" for key in ("speed", "creep"))
     yield f"{'moving' if _off(data['speed']) else 'calm'} ({speed}/s)"
     yield f"{'crept' if _off(data['creep']) else 'stays'} ({creep})"
@@ -37,8 +37,8 @@ def _off(result: Data) -> bool:
     return bool(result["verdict"] == Verdict.OFF)
 
 
-def _difference(what: str, result: Data, scale: float, unit: str) -> str:
-    amount = f"{scale * result['value']:.1f} {unit}"
+def _difference(what: str, result: Data, unit: str) -> str:
+    amount = f"{CENTI * result['value']:.1f} {unit}"
     return f"{what} {amount} off ({result['worst']})" if _off(result) else f"{what} within {amount}"
 
 

@@ -47,7 +47,8 @@ def _due(plan: Plan) -> dict[int, list[tuple[str, str, float]]]:
             if isinstance(move, Pinch) and rings[move.ring].balloon == balloon
         ]
         ends = [*[move.start for move in pinches[1:]], plan.choreography.seconds]
-        for move, end in zip(pinches, ends, strict=True):
+        # A balloon that is not twisted has no pinches.
+        for move, end in zip(pinches, ends, strict=False):
             bubble = rings[move.ring].bubble
             if bubble in planned:
                 # The time of a frame is (code - 1) / fps.

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from dataclasses import replace
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -22,6 +23,7 @@ from balloon_usd.quality.watch import QualityWatch
 from balloon_usd.recipe import Recipe
 from balloon_usd.solver.frame import Frame
 
+RECIPES = Path(__file__).parents[2] / "recipes"
 EARS = """\
 format: 1
 name: ears
@@ -270,6 +272,30 @@ def test_a_figure_whose_last_frame_was_not_seen_has_no_quality(figure):
     for code in range(1, figure[0].frame_count):
         watch.add(as_planned(*figure, code))
     assert watch.data() is None
+
+
+@pytest.mark.parametrize(
+    ("recipe", "nothing"),
+    [
+        # A balloon of it is not twisted.
+        ("book/maple_nj", {"symmetric_volume", "symmetric_length", "symmetric_place"}),
+        # Capsules have no tail, nothing holds their twists.
+        ("kosaka/bubbles", {"tail", "joints", "symmetric_volume", "symmetric_length", "symmetric_place"}),
+        ("meshes/heart", {"tail", "joints", "symmetric_volume", "symmetric_length", "symmetric_place"}),
+    ],
+)
+def test_figures_of_any_kind_are_measured_in_what_they_have(recipe, nothing):
+    plan = plan_of(Recipe.load(RECIPES / f"{recipe}.yaml"))
+    meshes = [mesh_of(strip, detail_named("draft")) for strip in plan.strips.values()]
+    watch = QualityWatch(plan, meshes)
+    points = tuple(mesh.points + np.float32([0, 0.3 * k, 0]) for k, mesh in enumerate(meshes))
+    volume = np.array([bubble.volume for bubble in plan.bubbles], dtype=np.float32)
+    for code in range(1, plan.frame_count + 1):
+        watch.add(Frame(code, points, (), volume, volume, "hold"))
+    data = watch.data()
+    assert {key for key in MEASURES if data[key]["verdict"] == "none"} == nothing
+    assert data["crossings"]["value"] == 0
+    assert quality_line(data).startswith("gas within ")
 
 
 def test_the_line_tells_all_and_names_what_is_worst(figure, still):
