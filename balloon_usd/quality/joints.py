@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 OPEN_NECK = 0.25
 """Radius from which on a neck is open, in radii of the blown-up balloon: a closed one has a tenth."""
 APART = 0.5
-"""Distance from which on two necks of a joint have come apart, in the same."""
+"""Distance to the next neck from which on a neck has left its joint, in the same; many lie side by side."""
 
 
 class PlannedJoint(NamedTuple):
@@ -72,9 +72,13 @@ def _together(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame, joint: Pl
         if np.linalg.norm(corners - middles[-1], axis=1).mean() > OPEN_NECK * radius:
             return False
         wide.append(radius)
-    return _farthest(np.array(middles)) <= APART * max(wide)
+    return _hang_together(np.array(middles), APART * max(wide))
 
 
-def _farthest(places: Floats) -> float:
-    """Return the largest distance between any of some places, (N, 3) m."""
-    return float(np.linalg.norm(places[:, None] - places[None], axis=2).max())
+def _hang_together(places: Floats, reach: float) -> bool:
+    """Tell whether one comes from each of some places, (N, 3) m, to all others in steps of a reach (m)."""
+    near = np.linalg.norm(places[:, None] - places[None], axis=2) <= reach
+    found = near[0]
+    for _ in places:
+        found = near[found].any(axis=0)
+    return bool(found.all())
