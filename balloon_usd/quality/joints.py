@@ -72,10 +72,10 @@ def _together(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame, joint: Pl
         if np.linalg.norm(corners - middles[-1], axis=1).mean() > OPEN_NECK * radius:
             return False
         wide.append(radius)
-    return _hang_together(np.array(middles), APART * max(wide))
+    return hang_together(np.array(middles), APART * max(wide))
 
 
-def _hang_together(places: Floats, reach: float) -> bool:
+def hang_together(places: Floats, reach: float) -> bool:
     """Tell whether one comes from each of some places, (N, 3) m, to all others in steps of a reach (m)."""
     near = np.linalg.norm(places[:, None] - places[None], axis=2) <= reach
     found = near[0]

@@ -14,7 +14,7 @@ from balloon_usd.balloon.detail import detail_named
 from balloon_usd.operations.moves import LetGo
 from balloon_usd.plan import plan as plan_of
 from balloon_usd.plan.meshing import mesh_of
-from balloon_usd.quality.joints import _hang_together, joints_of
+from balloon_usd.quality.joints import hang_together, joints_of
 from balloon_usd.quality.line import quality_line
 from balloon_usd.quality.measures import MEASURES
 from balloon_usd.quality.ranking import worst_first
@@ -186,10 +186,10 @@ def test_an_open_neck_a_parted_joint_and_what_the_simulation_tells_of_are_lost(f
     assert (told["lost"], told["undone"]) == (["left_ear.end"], ["left_ear.end", "neck.end"])
 
 
-def test_necks_in_a_row_hang_together_and_a_gap_parts_them():
+def test_necks_in_a_rowhang_together_and_a_gap_parts_them():
     row = np.linspace([0.0, 0.0, 0.0], [0.05, 0.0, 0.0], 6)
-    assert _hang_together(row[[3, 0, 5, 1, 4, 2]], 0.011)
-    assert not _hang_together(row[[0, 1, 2, 4, 5]], 0.011)
+    assert hang_together(row[[3, 0, 5, 1, 4, 2]], 0.011)
+    assert not hang_together(row[[0, 1, 2, 4, 5]], 0.011)
 
 
 def test_walls_that_cross_are_told_with_their_bubbles_and_depth(figure, still):
