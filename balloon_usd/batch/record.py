@@ -49,7 +49,7 @@ class Record:
     size: int = 0
     """Of the stage's files [B]."""
     summary: dict[str, Any] = field(default_factory=dict)
-    """Flat tail left [m], highest stretch, what would burst, what came undone."""
+    """Flat tail left [m], highest stretch, what would burst, what came undone, and the quality."""
     products: dict[str, tuple[str, ...]] = field(default_factory=dict)
     """Files of the stage, the shot, the report and the contact sheet, where there are any."""
     files: dict[str, str] = field(default_factory=dict)

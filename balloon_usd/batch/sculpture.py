@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from contextlib import ExitStack
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from balloon_usd.balloon.detail import detail_named
 from balloon_usd.batch.leftovers import remove_failed
@@ -14,6 +14,7 @@ from balloon_usd.files.failed_name import failed_name
 from balloon_usd.files.hashes import hashes_of
 from balloon_usd.origin import provenance_of
 from balloon_usd.plan.meshing import mesh_of
+from balloon_usd.quality.watch import QualityWatch
 from balloon_usd.report import History, write_report
 from balloon_usd.solver.run_summary import RunSummary
 from balloon_usd.stage import StageWriter
@@ -48,6 +49,7 @@ class Sculpture:
         self._codes = order.frames.within(plan.frame_count)
         self._run_summary = RunSummary(plan, meshes)
         self._history = History(plan, meshes) if order.report else None
+        self._quality = QualityWatch(plan, meshes)
         self._open = ExitStack()
         self._writer = StageWriter(describe_stage(plan, meshes), order.folder, **order.form)
         self._undone: tuple[str, ...] = ()
@@ -72,6 +74,7 @@ class Sculpture:
     def add(self, frame: Frame) -> None:
         """Take the next frame; raises `StageError` when the stage cannot be written."""
         self._run_summary.add(frame)
+        self._quality.add(frame)
         if frame.time_code in self._codes:
             if self._history is not None:
                 self._history.add(frame)
@@ -93,7 +96,8 @@ class Sculpture:
                 raise NoFrames
         written = self._writer.finish(self.failed)
         self._open.close()
-        products = self._products(written)
+        quality = self._quality.data()
+        products = self._products(written, quality)
         if not self.failed:
             remove_failed(folder, name)
         hashes = {file.relative_to(folder).as_posix(): sha256 for file, sha256 in written.sha256.items()}
@@ -105,12 +109,12 @@ class Sculpture:
             {key: tuple(f.relative_to(folder).as_posix() for f in found) for key, found in products.items()},
             written.frames,
             written.size,
-            self._summary(written),
+            self._summary(written, quality),
             time.perf_counter() - self._begun,
             self.failed and f"{self.failed}; {self._what_is_left(written)}",
         )
 
-    def _products(self, written: WrittenStage) -> dict[str, tuple[Path, ...]]:
+    def _products(self, written: WrittenStage, quality: dict[str, Any] | None) -> dict[str, tuple[Path, ...]]:
         """Write the report; return the files of the stage, the shot and the report."""
         report: tuple[Path, ...] = ()
         if self._history is not None:
@@ -119,6 +123,7 @@ class Sculpture:
                 self._order.folder,
                 detail=self._order.detail,
                 provenance=provenance_of(self._plan.recipe),
+                quality=quality,
                 failed=self.failed,
             )
         name = self._plan.recipe.name
@@ -133,7 +138,7 @@ class Sculpture:
         earlier = self._order.stage(self._plan.recipe.name)
         return f"{told}; {earlier} stays as an earlier run made it" if earlier.exists() else told
 
-    def _summary(self, written: WrittenStage) -> dict[str, object]:
+    def _summary(self, written: WrittenStage, quality: dict[str, Any] | None) -> dict[str, object]:
         """What the run came to, in numbers that a table shows."""
         summary = self._run_summary
         return {
@@ -146,4 +151,5 @@ class Sculpture:
             "bursts": summary.bursts,
             "undone": list(summary.undone),
             "stale": list(written.stale),
+            "quality": quality,
         }

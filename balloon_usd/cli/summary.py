@@ -9,6 +9,8 @@ from rich.console import Console
 from rich.table import Table
 
 from balloon_usd.batch.record import Status
+from balloon_usd.quality.line import quality_line
+from balloon_usd.quality.ranking import worst_first
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -21,6 +23,8 @@ CENTIMETRES = 100.0
 """In a metre."""
 MOST_ROWS = 64
 """Recipes that are listed one by one; of more, only what needs attention."""
+WORST = 8
+"""Figures of a batch whose quality is told."""
 THERE = (Status.DONE, Status.SKIPPED)
 
 
@@ -43,7 +47,7 @@ def print_summary(records: Sequence[Record], order: Order, seconds: float, devic
         console.print(
             f"{len(records) - len(listed)} more are told in {order.folder / 'batch.jsonl'}", markup=False
         )
-    for line in _warnings(records):
+    for line in (*_warnings(records), *_qualities(records)):
         console.print(line, markup=False)
     console.print(_totals(records, order, seconds, device), markup=False)
     if len(records) <= MOST_ROWS:
@@ -77,6 +81,19 @@ def _warnings(records: Sequence[Record]) -> Iterator[str]:
             yield f"{record.name}: {bubble} would burst: use less gas, or make it longer or softer"
         if undone := record.summary.get("undone"):
             yield f"{record.name}: came undone: {', '.join(undone)}: lock them, with 2 turns or more"
+
+
+def _qualities(records: Sequence[Record]) -> Iterator[str]:
+    """Tell the quality of a figure that was made alone, or of the worst of a batch."""
+    judged = {record.name: quality for record in records if (quality := record.summary.get("quality"))}
+    if len(records) == 1:
+        yield from (f"quality: {quality_line(quality)}" for quality in judged.values())
+        return
+    off = worst_first([name for name, quality in judged.items() if quality["off"]], judged.__getitem__)
+    for name in off[:WORST]:
+        yield f"quality of {name}: {quality_line(judged[name])}"
+    if len(off) > WORST:
+        yield f"{len(off) - WORST} more of {len(judged)} figures are off"
 
 
 def _totals(records: Sequence[Record], order: Order, seconds: float, device: str) -> str:

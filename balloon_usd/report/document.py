@@ -23,7 +23,12 @@ INDENT = "  "
 
 
 def report_data(
-    history: History, *, detail: str, provenance: Mapping[str, str], failed: str = ""
+    history: History,
+    *,
+    detail: str,
+    provenance: Mapping[str, str],
+    quality: Mapping[str, Any] | None = None,
+    failed: str = "",
 ) -> dict[str, Any]:
     """Return a report as plain data, its keys in a fixed order.
 
@@ -31,6 +36,7 @@ def report_data(
         history: the frames that were seen.
         detail: level of detail of the mesh.
         provenance: where the numbers come from: recipe, its hash and the solver.
+        quality: of the finished figure, see `QualityWatch`; None if its last frame was not seen.
         failed: why the simulation ended after the last of the frames, if it did before its end.
     """
     recipe = history.plan.recipe
@@ -58,6 +64,7 @@ def report_data(
         ],
         "undone": [{"joint": name, **_moment(code, recipe.fps)} for name, code in history.undone],
         "failed": _failure(history, failed),
+        "quality": None if quality is None else dict(quality),
         "time_code": list(history.time_codes),
         "time": _rounded("time", history.times),
         "bubbles": [

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from balloon_usd.files.failed_name import failed_name
 from balloon_usd.files.whole_file import write_whole
@@ -30,6 +30,7 @@ def write_report(
     *,
     detail: str,
     provenance: Mapping[str, str],
+    quality: Mapping[str, Any] | None = None,
     failed: str = "",
 ) -> tuple[Path, Path]:
     """Write the numbers and the figure of a run and return their files; see `report_data`.
@@ -44,7 +45,8 @@ def write_report(
         raise ReportError(f"{history.plan.recipe.name}: there is nothing to report, no frame was seen")
     picture = BytesIO()
     draw_figure(history, detail=detail, failed=failed).save(picture, format="PNG")
-    text = report_text(report_data(history, detail=detail, provenance=provenance, failed=failed))
+    data = report_data(history, detail=detail, provenance=provenance, quality=quality, failed=failed)
+    text = report_text(data)
     name = history.plan.recipe.name
     numbers, figure = report_files(folder, failed_name(name) if failed else name)
     try:

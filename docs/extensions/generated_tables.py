@@ -9,6 +9,7 @@ from sphinx.util.docutils import SphinxDirective
 
 from balloon_usd.operations.modifiers import MODIFIERS
 from balloon_usd.operations.table import BY_WORD, OPERATIONS
+from balloon_usd.quality.measures import MEASURES
 from balloon_usd.recipe import recipe_schema
 from balloon_usd.report.document import DIGITS, UNITS
 from balloon_usd.solver.kernels.arrays import kosaka, latex, shared  # noqa: F401  # they fill the table
@@ -78,6 +79,15 @@ class ReportUnits(SphinxDirective):
         return self.parse_text_to_nodes(table(("quantity", "unit", "digits after the point"), rows))
 
 
+class QualityMeasures(SphinxDirective):
+    """`quality-measures`: what is measured of a finished figure, and its limits."""
+
+    def run(self) -> list[nodes.Node]:
+        """Return the table of all measures, in the order in which they are told."""
+        rows = ((f"`{it.key}`", it.meaning, it.unit, f"{it.limit:g}") for it in MEASURES.values())
+        return self.parse_text_to_nodes(table(("measure", "value", "unit", "limit"), rows))
+
+
 class DeviceArrays(SphinxDirective):
     """`device-arrays`: every array on the device, in the structs in which kernels take them."""
 
@@ -123,6 +133,7 @@ def setup(app: Sphinx) -> dict[str, bool]:
     app.add_directive("modifiers", Modifiers)
     app.add_directive("stage-properties", StageProperties)
     app.add_directive("report-units", ReportUnits)
+    app.add_directive("quality-measures", QualityMeasures)
     app.add_directive("device-arrays", DeviceArrays)
     app.connect("sphinx-click-process-description", _plain)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from balloon_usd.plan import Plan, plan
+from balloon_usd.quality.watch import QualityWatch
 from balloon_usd.recipe import Recipe
 from balloon_usd.solver.frame import Frame
 from balloon_usd.solver.run_summary import RunSummary
@@ -30,6 +31,8 @@ class Made:
     """Middles of all planned rings in every frame after the hands let go, (frames, rings, 3), m."""
     last: Frame
     summary: RunSummary
+    quality: dict
+    """As `QualityWatch.data` gives it."""
     stage: Path
     """Its stage with all looks, and a shot beside it."""
 
@@ -54,18 +57,20 @@ def make(path: Path, folder: Path) -> Made:
     simulation = simulate_many([planned], detail="draft", device="cpu")
     let_go = round(planned.choreography.moves[-1].start * simulation.fps)
     summary, joints = RunSummary(planned, simulation.meshes[0]), []
+    quality = QualityWatch(planned, simulation.meshes[0])
     frame = None
     with StageWriter(describe_stage(planned, simulation.meshes[0]), folder, shot=True) as writer:
         for frames in simulation.frames():
             frame = frames[0]
             assert isinstance(frame, Frame), f"{path.name}: {frame}"
             summary.add(frame)
+            quality.add(frame)
             writer.write(frame)
             if frame.time_code > let_go:
                 joints.append(middles(simulation, frame))
         written = writer.finish()
     assert frame is not None
-    return Made(planned, simulation, np.array(joints), frame, summary, written.files[0])
+    return Made(planned, simulation, np.array(joints), frame, summary, quality.data(), written.files[0])
 
 
 @pytest.fixture(scope="session")

@@ -59,6 +59,11 @@ def test_every_bubble_is_full_and_none_has_burst(made):
     assert made.summary.highest_stretch < BURST_STRETCH, made.summary.highest_bubble
 
 
+def test_tails_are_as_planned_all_joints_hold_and_no_wall_lies_in_another(made):
+    verdicts = {key: made.quality[key]["verdict"] for key in ("tail", "joints", "depth")}
+    assert verdicts == {"tail": "good", "joints": "good", "depth": "good"}, made.quality
+
+
 def test_every_balloon_has_flat_tail_left(made):
     for name, tail in made.summary.tails_left.items():
         assert tail > 0.0, name

@@ -1,0 +1,84 @@
+"""Joints of a finished figure: which were meant to hold, and which do."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from balloon_usd.balloon.tube_mesh import BalloonMesh
+    from balloon_usd.plan import Plan
+    from balloon_usd.solver.frame import Frame
+
+    Floats = NDArray[np.float64]
+
+OPEN_NECK = 0.25
+"""Radius from which on a neck is open, in radii of the blown-up balloon: a closed one has a tenth."""
+APART = 0.5
+"""Distance to the next neck from which on a neck has left its joint, in the same; many lie side by side."""
+
+
+class PlannedJoint(NamedTuple):
+    """A place where ends of bubbles meet when the hands have let go."""
+
+    name: str
+    """Its first end, as in a recipe: `nose.end`."""
+    rings: tuple[int, ...]
+    """Necks, as rings of the plan."""
+    holds: bool
+    """Whether it is meant to: several bubbles meet in it, and it does not untwist."""
+
+
+def joints_of(plan: Plan) -> list[PlannedJoint]:
+    """Return all joints of a plan, without those that are meant to slip; tips have none."""
+    piece = plan.recipe.piece.after(len(plan.recipe.steps), without=plan.slipping)
+    loose = {loose.end for loose in plan.loose}
+    found = []
+    for ends in piece.joints:
+        shaped = any(plan.strips[piece.bubbles[end.bubble].balloon].shape is not None for end in ends)
+        rings = () if shaped else sorted({r for end in ends if (r := plan.table.joint(end)) is not None})
+        if rings:
+            holds = len(ends) > 1 and loose.isdisjoint(ends)
+            found.append(PlannedJoint(str(ends[0]), tuple(rings), holds))
+    return found
+
+
+def lost_joints(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame) -> tuple[int, list[str]]:
+    """Return how many joints were meant to hold, and the names of those that have come undone in a frame.
+
+    One has if the simulation says so, a neck of it is open, or its necks lie apart.
+    """
+    meant = [joint for joint in joints_of(plan) if joint.holds]
+    undone = {name for told in frame.undone for name in told.split(" = ")}
+    return len(meant), [
+        joint.name for joint in meant if joint.name in undone or not _together(plan, meshes, frame, joint)
+    ]
+
+
+def _together(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame, joint: PlannedJoint) -> bool:
+    names = list(plan.strips)
+    middles, wide = [], []
+    for ring in (plan.table.rings[index] for index in joint.rings):
+        balloon = names.index(ring.balloon)
+        mesh, radius = meshes[balloon], plan.strips[ring.balloon].inflated_radius
+        first = int(mesh.ring_start[mesh.ring_at(ring.along)])
+        corners = frame.points[balloon][first : first + mesh.around].astype(np.float64)
+        middles.append(corners.mean(axis=0))
+        if np.linalg.norm(corners - middles[-1], axis=1).mean() > OPEN_NECK * radius:
+            return False
+        wide.append(radius)
+    return hang_together(np.array(middles), APART * max(wide))
+
+
+def hang_together(places: Floats, reach: float) -> bool:
+    """Tell whether one comes from each of some places, (N, 3) m, to all others in steps of a reach (m)."""
+    near = np.linalg.norm(places[:, None] - places[None], axis=2) <= reach
+    found = near[0]
+    for _ in places:
+        found = near[found].any(axis=0)
+    return bool(found.all())

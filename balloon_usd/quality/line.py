@@ -1,0 +1,68 @@
+"""The quality of a figure in one line, for people."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from balloon_usd.quality.measures import Verdict
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    Data = Mapping[str, Any]
+
+MILLI, CENTI = 1e3, 1e2
+"""Millimetres and centimetres in a metre; a hundredth is a per cent."""
+SYMMETRIC = ("symmetric_volume", "symmetric_length", "symmetric_place")
+
+
+def quality_line(data: Data) -> str:
+    """Return a quality, as `QualityWatch.data` gives it, in one line; what is off names the worst bubble."""
+    return ", ".join(_parts(data))
+
+
+def _parts(data: Data) -> Iterator[str]:
+    for key, unit in (("gas", "%"), ("tail", "cm")):
+        if data[key]["verdict"] != Verdict.NONE:
+            yield _difference(key, data[key], unit)
+    speed, creep = (f"{MILLI * data[key]['value']:.1f} mm" for key in ("speed", "creep"))
+    yield f"{'moving' if _off(data['speed']) else 'calm'} ({speed}/s)"
+    yield f"{'crept' if _off(data['creep']) else 'stays'} ({creep})"
+    yield from _joints(data["joints"])
+    yield _crossings(data["crossings"], data["depth"])
+    yield from _symmetry(data)
+
+
+def _off(result: Data) -> bool:
+    return bool(result["verdict"] == Verdict.OFF)
+
+
+def _difference(what: str, result: Data, unit: str) -> str:
+    amount = f"{CENTI * result['value']:.1f} {unit}"
+    return f"{what} {amount} off ({result['worst']})" if _off(result) else f"{what} within {amount}"
+
+
+def _joints(result: Data) -> Iterator[str]:
+    if result["verdict"] == Verdict.NONE:
+        return
+    lost = f" ({', '.join(result['lost'])} not)" if result["lost"] else ""
+    yield f"{result['held']} of {result['meant']} joints held{lost}"
+
+
+def _crossings(result: Data, depth: Data) -> str:
+    if not result["value"]:
+        return "0 crossings"
+    a, b = result["bubbles"][0]["pair"]
+    where = f"{a} with itself" if a == b else f"{a} and {b}"
+    return f"{result['value']} crossings ({where}, {MILLI * depth['value']:.1f} mm)"
+
+
+def _symmetry(data: Data) -> Iterator[str]:
+    if data[SYMMETRIC[0]]["verdict"] == Verdict.NONE:
+        return
+    off = [key for key in SYMMETRIC if _off(data[key])]
+    if not off:
+        yield f"symmetric to {MILLI * data['symmetric_place']['value']:.1f} mm"
+    for key in off:
+        scale, unit = (MILLI, "mm") if key == "symmetric_place" else (CENTI, "%")
+        yield f"{key.replace('_', ' ')} {scale * data[key]['value']:.1f} {unit} off ({data[key]['worst']})"

@@ -1,0 +1,67 @@
+"""How still a figure is after the hands let go."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from balloon_usd.operations.moves import LetGo
+from balloon_usd.quality.measures import MEASURES
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from balloon_usd.plan import Plan
+    from balloon_usd.solver.frame import Frame
+
+    Floats = NDArray[np.float32]
+
+LATE = 0.5
+"""Time before the end in which the largest speed is measured, s."""
+
+
+class Rest:
+    """Takes the frames of one sculpture; keeps the points at the let-go, at half the hold, and the last."""
+
+    def __init__(self, plan: Plan) -> None:
+        """Find out when to look."""
+        fps, last = plan.recipe.fps, plan.frame_count
+        let_go = max(m.end for m in plan.choreography.moves if isinstance(m, LetGo) and m.for_good)
+        # The time of a frame is (code - 1) / fps.
+        self._let_go = min(1 + round(let_go * fps), last)
+        self._half = (self._let_go + last) // 2
+        self._late = max(last - max(round(LATE * fps), 1), 1)
+        self._fps, self._last = fps, last
+        self._kept: dict[int, Floats] = {}
+        self._before: Floats | None = None
+        self._speed = self._creep = self._creep_late = 0.0
+
+    def add(self, frame: Frame) -> None:
+        """Take the next frame."""
+        code = frame.time_code
+        if code < self._late and code not in (self._let_go, self._half):
+            return
+        points = np.concatenate(frame.points)
+        if code in (self._let_go, self._half):
+            self._kept[code] = points
+        if self._before is not None and code > self._late:
+            self._speed = max(self._speed, self._fps * _farthest(self._before, points))
+        self._before = points if code >= self._late else None
+        if code == self._last:
+            self._creep = _farthest(self._kept[self._let_go], points)
+            self._creep_late = _farthest(self._kept[self._half], points)
+
+    def results(self) -> dict[str, dict[str, Any]]:
+        """Return speed and creep, once the last frame is taken."""
+        creep = MEASURES["creep"]
+        return {
+            "speed": MEASURES["speed"].result(self._speed),
+            "creep": creep.result(self._creep, {"second_half": round(self._creep_late, creep.digits)}),
+        }
+
+
+def _farthest(before: Floats, now: Floats) -> float:
+    """Return the largest way of a vertex between two frames, m."""
+    way = now - before
+    return float(np.sqrt(np.einsum("vi,vi->v", way, way).max(initial=0.0)))

@@ -1,0 +1,74 @@
+"""The walls of a sculpture as one surface: triangles, bubbles, and the necks of its joints."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from balloon_usd.quality.joints import joints_of
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from balloon_usd.balloon.tube_mesh import BalloonMesh
+    from balloon_usd.plan import Plan, Strip
+
+    Numbers = NDArray[np.int64]
+
+NECK_REACH = 1.0
+"""Rubber on each side of a joint that counts as its neck, in R0: folded and pressed together there."""
+CAPSULE_NECK_REACH = 0.25
+"""The same of a capsule, in radii before it is twisted."""
+NO_NECK = -1
+
+
+class Walls(NamedTuple):
+    """All balloons of a sculpture together, their vertices one after another."""
+
+    triangles: Numbers
+    """(T, 3), both halves of every quad."""
+    faces: Numbers
+    """Quad of every triangle, (T, 4)."""
+    bubble_of_triangle: Numbers
+    """(T,), in plan order."""
+    bubble_of_vertex: Numbers
+    """A bubble that each vertex belongs to, (V,)."""
+    neck: Numbers
+    """Joint in whose neck each vertex lies, (V,); `NO_NECK` of others."""
+
+
+def walls_of(plan: Plan, meshes: Sequence[BalloonMesh]) -> Walls:
+    """Return the walls of a plan; one mesh a balloon, in the order of `Plan.strips`."""
+    quads, bubbles, necks = [], [], []
+    vertices = before = 0
+    rings = [(ring, joint) for joint, group in enumerate(joints_of(plan)) for ring in group.rings]
+    for strip, mesh in zip(plan.strips.values(), meshes, strict=True):
+        quads.append(mesh.quads.astype(np.int64) + vertices)
+        bubbles.append(mesh.quad_bubble.astype(np.int64) + before)
+        neck = np.full(len(mesh.points), NO_NECK, dtype=np.int64)
+        for ring, joint in rings:
+            place = plan.table.rings[ring]
+            if place.balloon == strip.balloon:
+                near = np.abs(mesh.along - place.along) <= _reach(strip)
+                # Knot and lip lie behind their ring.
+                neck[near | (mesh.along < 0.0) if place.along <= 0.0 else near] = joint
+        necks.append(neck)
+        vertices += len(mesh.points)
+        before += len(strip.bubbles)
+    faces, of_face = np.concatenate(quads), np.concatenate(bubbles)
+    of_vertex = np.zeros(vertices, dtype=np.int64)
+    of_vertex[faces] = of_face[:, None]
+    return Walls(
+        np.concatenate([faces[:, :3], faces[:, [0, 2, 3]]]),
+        np.concatenate([faces, faces]),
+        np.concatenate([of_face, of_face]),
+        of_vertex,
+        np.concatenate(necks),
+    )
+
+
+def _reach(strip: Strip) -> float:
+    return CAPSULE_NECK_REACH * strip.inflated_radius if strip.capsule else NECK_REACH * strip.size.radius

@@ -1,0 +1,79 @@
+"""The quality of one figure, out of its frames as they come."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from balloon_usd.quality.joints import lost_joints
+from balloon_usd.quality.measures import MEASURES, Verdict
+from balloon_usd.quality.pierced_walls import crossings_of
+from balloon_usd.quality.ranking import excess
+from balloon_usd.quality.rest import Rest
+from balloon_usd.quality.symmetry import symmetry_of
+from balloon_usd.quality.twists import TwistTails
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from balloon_usd.balloon.tube_mesh import BalloonMesh
+    from balloon_usd.plan import Plan
+    from balloon_usd.solver.frame import Frame
+
+
+class QualityWatch:
+    """Takes the frames of one sculpture, each once; keeps a few numbers a bubble and the points of four."""
+
+    def __init__(self, plan: Plan, meshes: Sequence[BalloonMesh]) -> None:
+        """Begin with nothing seen; one mesh a balloon, in the order of `Plan.strips`."""
+        self._plan, self._meshes = plan, meshes
+        self._rest = Rest(plan)
+        self._tails = TwistTails(plan, meshes)
+        self._end: Frame | None = None
+
+    def add(self, frame: Frame) -> None:
+        """Take the next frame; the last one must not be changed afterwards."""
+        self._rest.add(frame)
+        self._tails.add(frame)
+        if frame.time_code == self._plan.frame_count:
+            self._end = frame
+
+    def data(self) -> dict[str, Any] | None:
+        """Return the quality as plain data, by the keys of `MEASURES`; None before the last frame."""
+        if self._end is None:
+            return None
+        plan, meshes, end = self._plan, self._meshes, self._end
+        found = {
+            "gas": MEASURES["gas"].largest(_gas(plan, meshes, end)),
+            "tail": MEASURES["tail"].largest(self._tails.off),
+            **self._rest.results(),
+            "joints": _joints(plan, meshes, end),
+            **crossings_of(plan, meshes, end),
+            **symmetry_of(plan, meshes, end),
+        }
+        off = [key for key in MEASURES if found[key]["verdict"] == Verdict.OFF]
+        off.sort(key=lambda key: -excess(found[key]))
+        verdict = Verdict.OFF if off else Verdict.GOOD
+        return {"verdict": verdict.value, "off": off, **{key: found[key] for key in MEASURES}}
+
+
+def _gas(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame) -> dict[str, float]:
+    """Return by which share of it the volume of each bubble differs from the plan."""
+    round_share = {}
+    for (name, strip), mesh in zip(plan.strips.items(), meshes, strict=True):
+        # A polygon drawn about a circle holds more than that; the plan counts round tubes.
+        corner = math.pi / mesh.around if strip.has_tail else 0.0
+        round_share[name] = corner / math.tan(corner) if corner else 1.0
+    return {
+        bubble.name: round_share[bubble.balloon] * float(volume) / bubble.volume - 1.0
+        for bubble, volume in zip(plan.bubbles, frame.volume, strict=True)
+        if bubble.volume > 0.0
+    }
+
+
+def _joints(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame) -> dict[str, Any]:
+    meant, lost = lost_joints(plan, meshes, frame)
+    if not meant:
+        return MEASURES["joints"].result(None)
+    told = {"held": meant - len(lost), "meant": meant, "lost": lost, "undone": list(frame.undone)}
+    return MEASURES["joints"].result(len(lost), told)

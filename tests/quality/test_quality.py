@@ -1,0 +1,332 @@
+"""The quality of a figure: each measure, its verdict, and how it is told."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from balloon_usd.balloon.detail import detail_named
+from balloon_usd.operations.moves import LetGo
+from balloon_usd.plan import plan as plan_of
+from balloon_usd.plan.meshing import mesh_of
+from balloon_usd.quality.joints import hang_together, joints_of
+from balloon_usd.quality.line import quality_line
+from balloon_usd.quality.measures import MEASURES
+from balloon_usd.quality.ranking import worst_first
+from balloon_usd.quality.symmetry import mirrored, pairs_of
+from balloon_usd.quality.watch import QualityWatch
+from balloon_usd.recipe import Recipe
+from balloon_usd.solver.frame import Frame
+
+RECIPES = Path(__file__).parents[2] / "recipes"
+EARS = """\
+format: 1
+name: ears
+units: cm
+balloons:
+  main: {size: 260, length: 30, tail: 6}
+steps:
+  - bubbles: {nose: 8, left_ear: 9, right_ear: 9}
+  - lock: [left_ear, right_ear]
+    point: up
+  - bubbles: {neck: 7}
+  - rest: tail
+physics: {hold: 1}
+"""
+
+
+@pytest.fixture(scope="module")
+def figure():
+    """A plan and its meshes."""
+    plan = plan_of(Recipe.parse(EARS, file="ears.yaml"))
+    return plan, [mesh_of(strip, detail_named("draft")) for strip in plan.strips.values()]
+
+
+def points_of(plan, meshes):
+    """A tube along a path: ears are a loop that is its own mirror image, from one joint back to it."""
+    (mesh,) = meshes
+    ends = [0.0, *(bubble.rest_end for bubble in plan.bubbles)]
+    before = np.clip(mesh.along, 0.0, ends[1])
+    loop = np.clip((mesh.along - ends[1]) / (ends[3] - ends[1]), 0.0, 1.0) * 2.0 * np.pi
+    after = np.clip(mesh.along - ends[3], 0.0, None)
+    x = before + after + np.clip(mesh.along, None, 0.0)
+    points = np.zeros((len(x), 3))
+    points[:, 0], points[:, 1], points[:, 2] = x, 0.05 * np.sin(loop), 0.05 * (1.0 - np.cos(loop))
+    # Narrow enough to be closed, and apart from each other everywhere.
+    return (points + 0.2 * mesh.points * [0.0, 1.0, 1.0]).astype(np.float32)
+
+
+def as_planned(plan, meshes, code, **changes):
+    """A frame in which everything is as the plan says."""
+    around = np.pi / meshes[0].around
+    polygon = np.tan(around) / around
+    volume = np.array([bubble.volume * polygon for bubble in plan.bubbles], dtype=np.float32)
+    frame = Frame(code, (points_of(plan, meshes),), (np.ones(1, dtype=np.float32),), volume, volume, "hold")
+    return replace(frame, **changes)
+
+
+def quality_of(figure, change=lambda frame: frame):
+    """The quality of a figure that is as planned in every frame, but for what is changed in it."""
+    watch = QualityWatch(*figure)
+    for code in range(1, figure[0].frame_count + 1):
+        watch.add(change(as_planned(*figure, code)))
+    return watch.data()
+
+
+@pytest.fixture(scope="module")
+def still(figure):
+    return quality_of(figure)
+
+
+def test_every_measure_has_a_value_a_unit_a_limit_and_a_verdict(still):
+    assert list(still) == ["verdict", "off", *MEASURES]
+    for key, measure in MEASURES.items():
+        assert {"value", "unit", "limit", "verdict"} <= set(still[key])
+        assert (still[key]["unit"], still[key]["limit"]) == (measure.unit, measure.limit)
+    assert json.loads(json.dumps(still, allow_nan=False)) == still
+
+
+def test_gas_as_planned_is_good_and_what_a_bubble_lacks_is_told_by_its_name(figure, still):
+    assert still["gas"]["value"] < 1e-4
+
+    def leaky(frame):
+        volume = frame.volume.copy()
+        volume[3] *= 0.7
+        return replace(frame, volume=volume)
+
+    gas = quality_of(figure, leaky)["gas"]
+    assert gas["value"] == pytest.approx(0.3, abs=1e-3)
+    assert gas["each"]["neck"] == pytest.approx(-0.3, abs=1e-3)
+    assert (gas["worst"], gas["verdict"]) == ("neck", "off")
+
+
+def test_the_tail_is_measured_after_each_twist(figure, still):
+    assert list(still["tail"]["each"]) == ["nose", "left_ear", "right_ear", "neck"]
+    lost = 1e-2 * np.pi * 0.025**2
+
+    def leaky(frame):
+        volume = frame.volume.copy()
+        volume[4] -= lost
+        return replace(frame, volume=volume)
+
+    before, after = still["tail"]["each"], quality_of(figure, leaky)["tail"]["each"]
+    # The same gas is missing behind every twist, so the tail is longer by the same.
+    longer = [after[name] - before[name] for name in before]
+    assert min(longer) > 1e-3
+    assert longer == pytest.approx([longer[0]] * 4, abs=3e-4)
+
+
+def test_what_rests_is_calm_and_has_not_crept(still):
+    assert (still["speed"]["value"], still["creep"]["value"]) == (0.0, 0.0)
+
+
+def test_the_speed_is_that_of_the_last_half_second(figure):
+    plan, fps = figure[0], figure[0].recipe.fps
+    late = plan.frame_count - round(0.5 * fps)
+
+    def moves(frame):
+        # What is faster before does not count.
+        early, way = min(frame.time_code, late), max(frame.time_code - late, 0)
+        return replace(frame, points=(frame.points[0] + np.float32([0.1 * early, 0.002 * way, 0]),))
+
+    assert quality_of(figure, moves)["speed"]["value"] == pytest.approx(0.002 * fps, rel=1e-3)
+
+
+def test_the_creep_is_the_way_since_the_hands_let_go_and_the_second_half_of_it_is_told(figure):
+    plan = figure[0]
+    let_go = next(m.start for m in plan.choreography.moves if isinstance(m, LetGo) and m.for_good)
+    code = 1 + round(let_go * plan.recipe.fps)
+    half = (code + plan.frame_count) // 2
+
+    def creeps(frame):
+        far = (
+            0.1 * (frame.time_code >= code)
+            + 0.004 * (frame.time_code > code)
+            + 0.003 * (frame.time_code > half)
+        )
+        return replace(frame, points=(frame.points[0] + np.float32([0, 0, far]),))
+
+    creep = quality_of(figure, creeps)["creep"]
+    assert creep["value"] == pytest.approx(0.007, rel=1e-3)
+    assert creep["second_half"] == pytest.approx(0.003, rel=1e-3)
+    assert creep["verdict"] == "good"
+
+
+def test_the_joints_that_are_meant_to_hold_are_those_of_the_finished_piece_that_do_not_untwist(figure):
+    joints = {joint.name: joint.holds for joint in joints_of(figure[0])}
+    assert joints == {"nose.start": False, "nose.end": True, "left_ear.end": True, "neck.end": False}
+    assert [str(loose.end) for loose in figure[0].loose] == ["neck.end"]
+
+
+def test_joints_hold_where_necks_are_closed_and_together(figure, still):
+    joints = still["joints"]
+    assert (joints["held"], joints["meant"], joints["lost"], joints["verdict"]) == (2, 2, [], "good")
+
+
+def test_an_open_neck_a_parted_joint_and_what_the_simulation_tells_of_are_lost(figure):
+    (mesh,), plan = figure[1], figure[0]
+    tip = mesh.along > plan.bubbles[2].rest_end - 1e-6
+    open_here = np.abs(mesh.along - plan.bubbles[1].rest_end) < 1e-4
+
+    def opened(frame):
+        wide = mesh.points * np.float32([0, 1, 1]) * 4.0
+        return replace(frame, points=(frame.points[0] + open_here[:, None] * wide,))
+
+    def parted(frame):
+        return replace(frame, points=(frame.points[0] + tip[:, None] * np.float32([0.02, 0, 0]),))
+
+    assert quality_of(figure, opened)["joints"]["lost"] == ["left_ear.end"]
+    assert quality_of(figure, parted)["joints"]["lost"] == ["nose.end"]
+    told = quality_of(figure, lambda frame: replace(frame, undone=("left_ear.end", "neck.end")))["joints"]
+    assert (told["lost"], told["undone"]) == (["left_ear.end"], ["left_ear.end", "neck.end"])
+
+
+def test_necks_in_a_rowhang_together_and_a_gap_parts_them():
+    row = np.linspace([0.0, 0.0, 0.0], [0.05, 0.0, 0.0], 6)
+    assert hang_together(row[[3, 0, 5, 1, 4, 2]], 0.011)
+    assert not hang_together(row[[0, 1, 2, 4, 5]], 0.011)
+
+
+def test_walls_that_cross_are_told_with_their_bubbles_and_depth(figure, still):
+    (mesh,), plan = figure[1], figure[0]
+    tail = mesh.along > plan.bubbles[3].rest_end + 0.01
+    assert still["crossings"]["value"] == still["depth"]["value"] == 0
+
+    def through(frame):
+        moved = frame.points[0].copy()
+        nose = np.flatnonzero(np.abs(mesh.along - 0.5 * plan.bubbles[0].rest_end) < 0.004)
+        moved[tail] += moved[nose].mean(axis=0) - moved[tail].mean(axis=0) + np.float32([0, 0.0005, 0.0003])
+        return replace(frame, points=(moved,))
+
+    quality = quality_of(figure, through)
+    crossings = quality["crossings"]
+    assert crossings["value"] == sum(each["count"] for each in crossings["bubbles"]) > 0
+    assert crossings["bubbles"][0]["pair"] == ["nose", "tail"]
+    assert 0.0 < quality["depth"]["value"] < 0.002
+
+
+def test_walls_that_cross_within_one_neck_are_told_apart(figure, still):
+    (mesh,), plan = figure[1], figure[0]
+    assert still["crossings"]["in_necks"] == 0
+    neck = np.abs(mesh.along - plan.bubbles[1].rest_end) < 1e-5
+    crumple = np.random.default_rng(1).uniform(-1.5e-3, 1.5e-3, (int(neck.sum()), 3))
+
+    def crumpled(frame):
+        moved = frame.points[0].copy()
+        moved[neck] += crumple.astype(np.float32)
+        return replace(frame, points=(moved,))
+
+    crossings = quality_of(figure, crumpled)["crossings"]
+    assert crossings["in_necks"] > 10
+    assert (crossings["value"], crossings["verdict"]) == (0, "good")
+
+
+def test_pairs_are_left_and_right_bubbles_of_equal_recipes(figure):
+    assert [(a.name, b.name) for a, b in pairs_of(figure[0])] == [("left_ear", "right_ear")]
+    other = Recipe.parse(EARS.replace("right_ear: 9", "right_ear: 8"), file="ears.yaml")
+    assert pairs_of(plan_of(other)) == []
+
+
+@pytest.mark.parametrize(
+    ("left", "right", "count"),
+    [("left", "right", 1), ("up", "up", 1), ("up", "down", 0), ("left", "left", 0)],
+)
+def test_what_points_elsewhere_than_its_mirror_image_is_no_pair(left, right, count):
+    steps = f"""\
+steps:
+  - bubbles: {{nose: 8}}
+  - loop: {{left_ring: 30}}
+    point: {left}
+  - loop: {{right_ring: 30}}
+    point: {right}
+"""
+    text = EARS[: EARS.index("steps:")].replace("length: 30, tail: 6", "tail: 12") + steps
+    assert len(pairs_of(plan_of(Recipe.parse(text, file="rings.yaml")))) == count
+
+
+def test_a_loop_of_two_ears_is_its_own_mirror_image_and_an_ear_that_is_turned_is_not(figure, still):
+    assert still["symmetric_place"]["value"] < 1e-3
+    assert still["symmetric_volume"]["value"] == 0.0
+    assert still["symmetric_length"]["value"] < 0.01
+    (mesh,), plan = figure[1], figure[0]
+    right = (mesh.along > plan.bubbles[1].rest_end) & (mesh.along < plan.bubbles[2].rest_end)
+
+    def turned(frame):
+        moved = frame.points[0].copy()
+        moved[right, 0] += 3.0 * moved[right, 2]
+        return replace(frame, points=(moved,))
+
+    assert quality_of(figure, turned)["symmetric_place"]["verdict"] == "off"
+
+
+def test_pairs_have_one_mirror():
+    line = np.linspace([0.0, 0.1, 0.0], [0.2, 0.2, 0.1], 9)
+    image = line * [1, -1, 1]
+    lower, lower_image = line - [0, 0, 0.3], image - [0, 0, 0.3]
+    assert max(mirrored({"a": (line, image), "b": (lower, lower_image[::-1])}).values()) < 1e-12
+    aside = mirrored({"a": (line, image), "b": (lower + [0, 0.02, 0], lower_image + [0, 0.02, 0])})
+    assert min(aside.values()) > 0.01
+
+
+def test_a_figure_whose_last_frame_was_not_seen_has_no_quality(figure):
+    watch = QualityWatch(*figure)
+    for code in range(1, figure[0].frame_count):
+        watch.add(as_planned(*figure, code))
+    assert watch.data() is None
+
+
+@pytest.mark.parametrize(
+    ("recipe", "nothing"),
+    [
+        # A balloon of it is not twisted.
+        ("book/maple_nj", {"symmetric_volume", "symmetric_length", "symmetric_place"}),
+        # Capsules have no tail, nothing holds their twists.
+        ("kosaka/bubbles", {"tail", "joints", "symmetric_volume", "symmetric_length", "symmetric_place"}),
+        ("meshes/heart", {"tail", "joints", "symmetric_volume", "symmetric_length", "symmetric_place"}),
+    ],
+)
+def test_figures_of_any_kind_are_measured_in_what_they_have(recipe, nothing):
+    plan = plan_of(Recipe.load(RECIPES / f"{recipe}.yaml"))
+    meshes = [mesh_of(strip, detail_named("draft")) for strip in plan.strips.values()]
+    watch = QualityWatch(plan, meshes)
+    points = tuple(mesh.points + np.float32([0, 0.3 * k, 0]) for k, mesh in enumerate(meshes))
+    volume = np.array([bubble.volume for bubble in plan.bubbles], dtype=np.float32)
+    for code in range(1, plan.frame_count + 1):
+        watch.add(Frame(code, points, (), volume, volume, "hold"))
+    data = watch.data()
+    assert {key for key in MEASURES if data[key]["verdict"] == "none"} == nothing
+    assert data["crossings"]["value"] == 0
+    assert quality_line(data).startswith("gas within ")
+
+
+def test_the_line_tells_all_and_names_what_is_worst(figure, still):
+    line = quality_line(still)
+    assert "calm (0.0 mm/s), stays (0.0 mm), 2 of 2 joints held, 0 crossings, symmetric to" in line
+    assert line.startswith("gas within 0.0 %, tail ")
+
+    def leaky(frame):
+        return replace(frame, volume=0.5 * frame.volume, undone=("left_ear.end",))
+
+    told = quality_line(quality_of(figure, leaky))
+    assert told.startswith("gas 50.0 % off (")
+    assert "1 of 2 joints held (left_ear.end not)" in told
+
+
+def test_figures_are_sorted_by_what_went_wrong(still):
+    def off(*keys, value=1.0):
+        return {**still, "off": list(keys), **{key: {**still[key], "value": value} for key in keys}}
+
+    figures = {
+        "good": off(),
+        "gas": off("gas", value=0.2),
+        "worse gas": off("gas", value=0.4),
+        "both": off("gas", "tail"),
+    }
+    order = worst_first(figures, figures.__getitem__)
+    assert order == ["both", "worse gas", "gas", "good"]
+    assert all(len(figures[a]["off"]) >= len(figures[b]["off"]) for a, b in pairwise(order))
