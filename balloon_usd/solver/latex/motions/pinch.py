@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from balloon_usd.solver.latex.motions.ball import squeezed_ball
 from balloon_usd.solver.latex.motions.steady import steady
 from balloon_usd.solver.motions.motion import Motion
 from balloon_usd.solver.motions.smooth import smooth
@@ -28,8 +29,11 @@ class Pinch(Motion):
         self._hands.radius[self._joint] = self._wide
         self._hands.passage[self._joint] = math.pi * self._wide**2
         steady(sculpture, move.ring)
+        self._ball = squeezed_ball(sculpture, move.ring)
 
     def advance(self, share: float) -> None:
         """Close the neck by a share."""
         radius = self._neck + (self._wide - self._neck) * (1.0 - smooth(share))
         self._hands.squeeze(self._joint, radius, math.pi * (radius**2 - self._neck**2))
+        if self._ball is not None:
+            self._ball.squeeze(share)
