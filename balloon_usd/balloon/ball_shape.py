@@ -60,8 +60,8 @@ class _Piece:
 
     def __call__(self, length: float) -> tuple[float, float, float]:
         x = (length - self.least) / (self.most - self.least) * 2.0 - 1.0
-        u, rest_length, volume = np.polynomial.chebyshev.chebval(x, self.polynomial)
-        return float(u), float(rest_length), float(volume)
+        u, rest_length, volume = np.asarray(np.polynomial.chebyshev.chebval(x, self.polynomial)).tolist()
+        return u, rest_length, volume
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,15 +126,17 @@ def ball_family(rubber: Rubber, longest: float) -> BallFamily:
     if not np.allclose(length, wanted, rtol=1e-6, atol=0.0):
         raise ValueError(f"a short bubble of {rubber.name} cannot be blown up")
     values = np.stack([found, rest_length, volume], axis=1)
-    return BallFamily(tube, _piece(wanted[:_NODES], values[:_NODES]), _piece(wanted[_NODES:], values[_NODES:]))
+    soft, hard = (_piece(*both) for both in zip(np.split(wanted, 2), np.split(values, 2), strict=True))
+    return BallFamily(tube, soft, hard)
 
 
 def _by_secants(error: Callable[[Floats], Floats], low: Floats, high: Floats) -> Floats:
     """Return roots between two ends, for each of them, of an error that is nearly linear there."""
     before, after = error(low), error(high)
     for _ in range(_SECANTS):
-        slope = np.where(high == low, 1.0, (after - before) / np.where(high == low, 1.0, high - low))
-        low, high = high, high - np.where(slope == 0.0, 0.0, after / np.where(slope == 0.0, 1.0, slope))
+        # Where an error is the same twice the root is found, to the last digit.
+        apart = np.where(after == before, 1.0, after - before)
+        low, high = high, high - (high - low) * np.where(after == before, 0.0, after / apart)
         before, after = after, error(high)
     return high
 

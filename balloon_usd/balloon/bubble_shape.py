@@ -152,8 +152,17 @@ def twist_cost(size: BalloonSize, rubber: Rubber) -> float:
     return pinch_volume(size, rubber) / gained
 
 
+def softest_ball(size: BalloonSize, rubber: Rubber) -> BubbleShape:
+    """Return the shortest bubble at the Maxwell pressure, stable only while its gas is shut in.
+
+    Raises:
+        ValueError: the rubber cannot hold a bubble.
+    """
+    return bubble_of_length(size, rubber, _family(rubber).balls.softest * size.radius)
+
+
 def smallest_ball(size: BalloonSize, rubber: Rubber) -> BubbleShape:
-    """Return the smallest bubble that makers twist: at twice the Maxwell pressure, half an inch of a 260.
+    """Return the smallest bubble that makers twist: at twice the Maxwell pressure, 1 cm long of a 260.
 
     Raises:
         ValueError: the rubber cannot hold a bubble.

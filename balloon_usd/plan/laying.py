@@ -105,9 +105,7 @@ def _tube(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> Strip
         rest_end = rest_along + shape.rest_length
         place = along, along + length, rest_along, rest_end
         pressure = shape.pressure * gauge_pressure(size, maxwell_state(tube.rubber).p_star)
-        bubbles.append(
-            PlannedBubble(bubble, name, kind, length, *place, shape.volume, index, pressure)
-        )
+        bubbles.append(PlannedBubble(bubble, name, kind, length, *place, shape.volume, index, pressure))
         tube, along, rest_along = left, along + length, rest_end
     bubbles.append(_rest_of_tube(recipe, name, tube, along, rest_along))
     return Strip(name, size, rubber, tail, tuple(bubbles))

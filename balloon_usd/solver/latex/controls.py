@@ -70,10 +70,6 @@ class LatexControls(Hands):
         self.close(joint, radius)
         self.passage_goal[joint] = passage
 
-    def shut(self, joint: int) -> None:
-        """Let no gas through a neck from now on but what is pushed."""
-        self.passage[joint] = self.passage_goal[joint] = 0.0
-
     def push_gas(self, joint: int, flow: float) -> None:
         """Push gas (mol/s) through a neck in the coming frame, from the chamber before it to that behind."""
         self.neck_flow[joint] = flow

@@ -1,6 +1,6 @@
-"""Holding a short bubble at its length while its neck closes, and squeezing out the gas that it must not keep.
+"""Holding a short bubble at its length while its neck closes, and pushing out the gas that it must not keep.
 
-Between a free neck and one that closes, a short bubble runs empty: hands hold both necks, and shut them.
+Open to the tube, and with its first neck free to slide, so short a bubble runs empty.
 """
 
 from __future__ import annotations
@@ -17,14 +17,14 @@ if TYPE_CHECKING:
     from balloon_usd.solver.latex.sculpture import LatexSculpture
 
 HELD = 1.2
-"""Bubbles shorter than this, in lengths of the shortest stable one, do not find their length by themselves."""
+"""Length below which bubbles do not find their gas by themselves, in lengths of the shortest stable one."""
 
 
 def squeezed_ball(sculpture: LatexSculpture, ring: int) -> SqueezedBall | None:
     """Return the bubble that a ring of the plan ends, if it has to be held while the ring closes."""
     strip, name = sculpture.strip_of(ring), sculpture.plan.table.rings[ring].bubble
-    held = strip.balls(HELD)
-    short = next((bubble for k, bubble in enumerate(strip.bubbles) if bubble.name == name and k in held), None)
+    held = (strip.bubbles[k] for k in strip.balls(HELD))
+    short = next((bubble for bubble in held if bubble.name == name), None)
     return None if short is None else SqueezedBall(sculpture, ring, short)
 
 
@@ -49,24 +49,22 @@ class SqueezedBall:
         self._began = float(np.linalg.norm(along))
         self._along = along / max(self._began, 1e-9)
         self._gas = float(hands.amount[hands.beside[self._end, 0]])
-        self._wanted = _amount(sculpture, ring, bubble)
+        self._wanted = _amount(sculpture, bubble)
         self._left = self._gas
-        hands.shut(self._end)
 
     def squeeze(self, share: float) -> None:
-        """Bring its necks together by a share, and push out as much of its gas."""
+        """Bring its necks to their distance by a share, and push out that share of its gas."""
         progress = smooth(share)
         shift = progress * (self._length - self._began) * self._along
         self._hands.goal[[*self._carried, self._start]] = self._places + shift
         left = self._gas + progress * (self._wanted - self._gas)
         begin, end, _ = self._sculpture.frame
-        self._hands.shut(self._end)
         self._hands.push_gas(self._end, (self._left - left) / (end - begin))
         self._left = left
 
 
-def _amount(sculpture: LatexSculpture, ring: int, bubble: PlannedBubble) -> float:
-    """Return the gas (mol) that a bubble before a ring has to keep."""
+def _amount(sculpture: LatexSculpture, bubble: PlannedBubble) -> float:
+    """Return the gas (mol) that a bubble has to keep."""
     scene = sculpture.scene
     n = int(scene.bodies[sculpture.body[bubble.balloon]].rings[0].around)
     # The polygon holds more than the circle that it is drawn about.
