@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 _SOFTEST = 0.655
 """u of the softest ball: its widest hoop stretch is (1 - exp(-u)) times that of the tube."""
-_HARDEST = 2.5
+_HARDEST = 2.1
 """Pressure of the smallest ball that is solved, in pressures of the tube."""
 _STRAY = (0.85, 1.1)
 """Bounds of u of a harder ball, in u of the softest times the share of its length: one root is in between."""
