@@ -59,8 +59,8 @@ class RunSummary:
     def gas_off(self) -> dict[str, float]:
         """Gas of the bubbles that have missed the plan, in shares of the planned, by name.
 
-        None before the end, of what leaks on purpose or has no pressure, of rests, and of bubbles whose
-        twists came undone.
+        None before the end, of what leaks on purpose or has no pressure, and of bubbles whose twists came
+        undone.
         """
         last, plan = self._last, self._plan
         physics = plan.recipe.physics
@@ -86,9 +86,9 @@ class RunSummary:
 
 
 def _closed(strip: Strip, undone: tuple[str, ...]) -> list[PlannedBubble]:
-    """Return the bubbles of a tube between two necks, none of which has come undone."""
+    """Return the bubbles of a tube whose necks have not come undone."""
     if not strip.has_tail:
         return []
     ends = [f"{strip.balloon}.knot", *(f"{bubble.name}.end" for bubble in strip.bubbles[:-1])]
-    necks = zip(strip.bubbles, pairwise(ends), strict=False)
+    necks = zip(strip.bubbles, pairwise([*ends, f"{strip.balloon}.tip"]), strict=True)
     return [bubble for bubble, both in necks if not set(both) & set(undone)]

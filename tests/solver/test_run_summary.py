@@ -29,11 +29,11 @@ physics: {hold: 1%s}
 def told():
     """What is told of a figure whose bubbles hold these shares of the planned gas."""
 
-    def tell(*shares, physics="", **changed):
+    def tell(*shares, rest=1.0, physics="", **changed):
         planned = plan(Recipe.parse(TEXT % physics))
         meshes = tuple(mesh_of(strip, detail_named("draft")) for strip in planned.strips.values())
         summary = RunSummary(planned, meshes)
-        volume = np.array([bubble.volume for bubble in planned.bubbles]) * [*shares, 1.0]
+        volume = np.array([bubble.volume for bubble in planned.bubbles]) * [*shares, rest]
         frame = Frame(
             time_code=planned.frame_count,
             points=tuple(mesh.points for mesh in meshes),
@@ -54,6 +54,10 @@ def test_gas_as_planned_is_not_told(told):
 
 def test_a_bubble_with_too_little_or_too_much_gas_is_told(told):
     assert told(0.05, 1.0, 1.2) == pytest.approx({"one": 0.05, "three": 1.2}, rel=1e-5)
+
+
+def test_a_rest_that_found_no_gas_is_told(told):
+    assert told(1.0, 1.0, 1.0, rest=0.2) == pytest.approx({"main_rest": 0.2}, rel=1e-5)
 
 
 def test_bubbles_beside_a_twist_that_came_undone_are_not_told(told):
