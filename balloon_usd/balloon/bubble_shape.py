@@ -8,7 +8,8 @@ z nor s, so two quantities are constant along the meridian (phi is its angle to 
 
 Both hold for any stored energy W, so also for rubber that was stretched to the bulged phase and now retraces
 its softened path, whose potential is `Softening.stored_energy`. Each bubble sits at the Maxwell pressure, as
-it does while the tube still has an empty tail. All lengths scale with R0: one family serves every size.
+it does while the tube still has an empty tail, but for the shortest: see `ball_shape`. All lengths scale with
+R0: one family serves every size.
 """
 
 from __future__ import annotations
@@ -20,21 +21,20 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from balloon_usd.balloon.ball_shape import BallFamily, ball_family
+from balloon_usd.balloon.bubble_quadrature import axial_stretch, bubble_at_stretch, legendre
 from balloon_usd.balloon.halving import halved
-from balloon_usd.balloon.rubber import relaxed_stretches
 from balloon_usd.balloon.tube_theory import inflated_rubber, maxwell_state
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from balloon_usd.balloon.rubber import Floats, MembraneLaw, Rubber
+    from balloon_usd.balloon.rubber import Floats, Rubber
     from balloon_usd.balloon.sizes import BalloonSize
     from balloon_usd.balloon.tube_theory import TubeState
 
-_MERIDIAN_NODES = 40
 _FAMILY_NODES = 28
 _HALVINGS = 46
-_LARGEST_AXIAL_STRETCH = 16.0
 _NEAR_AXIS = 0.01
 # A family runs over u, where the widest hoop stretch is (1 - exp(-u)) times that of the tube. Beyond the end
 # (0.03 % thinner than the tube) a bubble is a cylinder between two fixed ends.
@@ -53,14 +53,13 @@ class BubbleShape:
     """Largest diameter, m."""
     volume: float
     """Volume of gas, m3."""
+    pressure: float = 1.0
+    """Gauge pressure, in Maxwell pressures."""
 
 
 @lru_cache(maxsize=4096)
 def bubble_of_length(size: BalloonSize, rubber: Rubber, length: float) -> BubbleShape:
-    """Return the bubble of this inflated length, m, at the Maxwell pressure.
-
-    Below about half a tube diameter no bubble is stable at that pressure: a shorter one is a harder, smaller
-    copy of the shortest. The exact limit states up to twice the pressure have its rest length within 3 %.
+    """Return the bubble of this inflated length, m, at the Maxwell pressure; the shortest are `ball_shape`'s.
 
     Raises:
         ValueError: the length is not positive and finite, or the rubber cannot hold a bubble.
@@ -73,6 +72,8 @@ def bubble_of_length(size: BalloonSize, rubber: Rubber, length: float) -> Bubble
 @lru_cache(maxsize=4096)
 def bubble_of_rest_length(size: BalloonSize, rubber: Rubber, rest_length: float) -> BubbleShape:
     """Return the bubble made of this length of unstressed tube, m, at the Maxwell pressure.
+
+    Of less rubber than any stable bubble takes, a smaller copy of the shortest.
 
     Raises:
         ValueError: the rest length is not positive and finite, or the rubber cannot hold a bubble.
@@ -151,6 +152,24 @@ def twist_cost(size: BalloonSize, rubber: Rubber) -> float:
     return pinch_volume(size, rubber) / gained
 
 
+def softest_ball(size: BalloonSize, rubber: Rubber) -> BubbleShape:
+    """Return the shortest bubble at the Maxwell pressure, stable only while its gas is shut in.
+
+    Raises:
+        ValueError: the rubber cannot hold a bubble.
+    """
+    return bubble_of_length(size, rubber, _family(rubber).balls.softest * size.radius)
+
+
+def smallest_ball(size: BalloonSize, rubber: Rubber) -> BubbleShape:
+    """Return the smallest bubble that makers twist: at twice the Maxwell pressure, 1 cm long of a 260.
+
+    Raises:
+        ValueError: the rubber cannot hold a bubble.
+    """
+    return bubble_of_length(size, rubber, 0.5 * _family(rubber).balls.softest * size.radius)
+
+
 @lru_cache(maxsize=4096)
 def neck_rubber(size: BalloonSize, rubber: Rubber, rest_length: float, radius: float) -> float:
     """Return the rest length, m, that one neck of this radius, m, hides from a bubble of this rest length, m.
@@ -161,60 +180,33 @@ def neck_rubber(size: BalloonSize, rubber: Rubber, rest_length: float, radius: f
     Raises:
         ValueError: the rest length is not positive and finite, or the rubber cannot hold a bubble.
     """
-    law, p_star = inflated_rubber(rubber), maxwell_state(rubber).p_star
-    widest = np.array([0.5 * bubble_of_rest_length(size, rubber, rest_length).diameter / size.radius])
-    middle = _axial_stretch(law, widest, 0.5 * p_star * widest**2, axial_force=True)
-    near_axis = np.full(1, _NEAR_AXIS)
-    stretch = _axial_stretch(law, near_axis, _legendre(law, widest, middle), axial_force=False)
-    return radius / float(stretch[0])
+    return _neck_rubber(size, rubber, bubble_of_rest_length(size, rubber, rest_length), radius)
 
 
-def bubble_at_stretch(law: MembraneLaw, p_star: float, widest: Floats, tube_stretch: float) -> Floats:
-    """Return (rest length / R0, length / R0, volume / R0^3) of bubbles, (3, N), nan where there is none.
+@lru_cache(maxsize=4096)
+def neck_rubber_of_length(size: BalloonSize, rubber: Rubber, length: float, radius: float) -> float:
+    """Return the same of a bubble of this inflated length, m.
 
-    `widest`: hoop stretch at the middle, (N,). `tube_stretch`: hoop stretch of the tube that a long bubble
-    approaches; it only places the quadrature's nodes. `p_star`: Pa.
+    Raises:
+        ValueError: the length is not positive and finite, or the rubber cannot hold a bubble.
     """
-    middle = _axial_stretch(law, widest, 0.5 * p_star * widest**2, axial_force=True)
-    constant = _legendre(law, widest, middle)
-    # From the middle (t = 0) to the neck (t = 1); a long bubble changes slowly near its middle.
-    slow = np.sqrt(np.maximum(1.0 - widest / tube_stretch, 1e-12))[:, None]
-    node, weight = np.polynomial.legendre.leggauss(_MERIDIAN_NODES)
-    span = np.arcsinh(1.0 / slow)
-    t = slow * np.sinh(0.5 * span * (node + 1.0))
-    weight = 0.5 * span * weight * slow * np.cosh(0.5 * span * (node + 1.0))
-    a = widest[:, None] * (1.0 - t**2)
-    da = 2.0 * widest[:, None] * t * weight
-    b = _axial_stretch(law, a, constant[:, None], axial_force=False)
-    cosine = 0.5 * p_star * a**2 / law.nominal_stress(*relaxed_stretches(a, b))[1]
-    with np.errstate(invalid="ignore"):
-        sine = np.sqrt(1.0 - cosine**2)
-        rest_length = 2.0 * np.sum(da / (b * sine), axis=1)
-        length = 2.0 * np.sum(da * cosine / sine, axis=1)
-        volume = 2.0 * math.pi * np.sum(da * a**2 * cosine / sine, axis=1)
-    return np.stack([rest_length, length, volume])
+    return _neck_rubber(size, rubber, bubble_of_length(size, rubber, length), radius)
 
 
-def _legendre(law: MembraneLaw, a: Floats, b: Floats) -> Floats:
-    taut = relaxed_stretches(a, b)
-    return np.asarray(law.energy(*taut) - b * law.nominal_stress(*taut)[1])
-
-
-def _axial_stretch(law: MembraneLaw, a: Floats, wanted: Floats, *, axial_force: bool) -> Floats:
-    """Solve W_b = wanted (the axial force) or W - b W_b = wanted for the meridional stretch b, by halving."""
-
-    def short(b: Floats) -> NDArray[np.bool_]:
-        if axial_force:
-            return np.asarray(law.nominal_stress(*relaxed_stretches(a, b))[1] < wanted)
-        return np.asarray(_legendre(law, a, b) > wanted)
-
-    return halved(short, np.ones(a.shape), np.full(a.shape, _LARGEST_AXIAL_STRETCH), _HALVINGS)
+def _neck_rubber(size: BalloonSize, rubber: Rubber, shape: BubbleShape, radius: float) -> float:
+    law, p_star = inflated_rubber(rubber), shape.pressure * maxwell_state(rubber).p_star
+    widest = np.array([0.5 * shape.diameter / size.radius])
+    middle = axial_stretch(law, widest, 0.5 * p_star * widest**2, axial_force=True)
+    near_axis = np.full(1, _NEAR_AXIS)
+    stretch = axial_stretch(law, near_axis, legendre(law, widest, middle), axial_force=False)
+    return radius / float(stretch[0])
 
 
 @dataclass(frozen=True, eq=False)
 class _BubbleFamily:
     """All stable bubbles of a rubber, in units of R0, as polynomials over u."""
 
+    rubber: Rubber
     tube: TubeState
     polynomial: Floats
     """Chebyshev coefficients of rest length, length and volume over u, (_FAMILY_NODES, 3)."""
@@ -234,7 +226,13 @@ class _BubbleFamily:
         diameter = 2.0 * self.tube.a * (1.0 - math.exp(-u))
         return BubbleShape(float(rest_length), float(length), diameter, float(volume))
 
+    @cached_property
+    def balls(self) -> BallFamily:
+        return ball_family(self.rubber, self.start)
+
     def of_length(self, length: float) -> BubbleShape:
+        if length < self.shortest.length:
+            return BubbleShape(*self.balls.of_length(length))
         return self._found("length", length, self.tube.b)
 
     def of_rest_length(self, rest_length: float) -> BubbleShape:
@@ -277,7 +275,7 @@ def _family(rubber: Rubber) -> _BubbleFamily:
     )
     fine: Floats = np.linspace(_FAMILY_START, _FAMILY_END, 2001, dtype=np.float64)
     start = float(fine[np.argmin(_chebyshev(polynomial, fine)[0])])
-    return _BubbleFamily(state.bulged, polynomial, start)
+    return _BubbleFamily(rubber, state.bulged, polynomial, start)
 
 
 def _chebyshev(polynomial: Floats, u: float | Floats) -> Floats:
@@ -291,4 +289,5 @@ def _scaled(shape: BubbleShape, factor: float) -> BubbleShape:
         length=shape.length * factor,
         diameter=shape.diameter * factor,
         volume=shape.volume * factor**3,
+        pressure=shape.pressure,
     )

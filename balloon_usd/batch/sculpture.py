@@ -149,6 +149,7 @@ class Sculpture:
             "burst_stretch": self._plan.recipe.physics.traits.burst_stretch,
             "highest_bubble": summary.highest_bubble,
             "bursts": summary.bursts,
+            "gas_off": {name: round(share, 3) for name, share in summary.gas_off.items()},
             "undone": list(summary.undone),
             "stale": list(written.stale),
             "quality": quality,

@@ -79,6 +79,9 @@ def _warnings(records: Sequence[Record]) -> Iterator[str]:
         if record.summary.get("bursts"):
             bubble = record.summary["highest_bubble"]
             yield f"{record.name}: {bubble} would burst: use less gas, or make it longer or softer"
+        if off := record.summary.get("gas_off"):
+            told = ", ".join(f"{bubble} {share:.0%}" for bubble, share in off.items())
+            yield f"{record.name}: not the gas of the plan: {told}: make them longer, or leave more tail"
         if undone := record.summary.get("undone"):
             yield f"{record.name}: came undone: {', '.join(undone)}: lock them, with 2 turns or more"
 

@@ -6,7 +6,7 @@ import math
 from itertools import chain
 from typing import TYPE_CHECKING
 
-from balloon_usd.balloon.bubble_shape import shortest_stable_bubble
+from balloon_usd.balloon.bubble_shape import smallest_ball, softest_ball
 from balloon_usd.balloon.rubber import BURST_ENERGY, BURST_STRETCH
 from balloon_usd.language.lengths import at_least, at_most, cm
 from balloon_usd.operations.caution import Caution
@@ -87,14 +87,26 @@ def _turns_text(turns: float) -> str:
 
 def _short_bubbles(strips: Mapping[str, Strip]) -> Iterator[Caution]:
     for strip in strips.values():
-        shortest = shortest_stable_bubble(strip.size, softened(strip.rubber)).length
-        for bubble in strip.bubbles[:-1]:
-            if bubble.length < shortest:
+        if not strip.balls():
+            continue
+        size, rubber = strip.size, softened(strip.rubber)
+        softest, smallest = softest_ball(size, rubber).length, smallest_ball(size, rubber).length
+        for bubble in (strip.bubbles[k] for k in strip.balls()):
+            named = f"{bubble.name} ({cm(bubble.length)})"
+            if bubble.length < smallest:
                 yield Caution(
                     bubble.step,
-                    f"{bubble.name} ({cm(bubble.length)}) will be a hard little ball",
-                    f"below {cm(shortest)} a {strip.size.name} bubble needs more pressure than the tube has",
-                    f"make it {at_least(shortest)} or longer",
+                    f"{named} is too short for a ball",
+                    f"below {cm(smallest)} the necks of a {size.name} bubble lie in each other's way",
+                    f"make it {at_least(smallest)} or longer",
+                )
+            elif bubble.length < softest:
+                yield Caution(
+                    bubble.step,
+                    f"{named} will be a hard little ball",
+                    f"below {cm(softest)} a {size.name} bubble needs more pressure than the tube has: "
+                    f"{(bubble.pressure or 0.0) / 1e3:.1f} kPa",
+                    f"make it {at_least(softest)} or longer",
                 )
 
 

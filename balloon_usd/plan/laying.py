@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from balloon_usd.balloon.rubber import rubber_named
-from balloon_usd.balloon.tube_theory import maxwell_state
+from balloon_usd.balloon.tube_theory import gauge_pressure, maxwell_state
 from balloon_usd.language.lengths import at_least, at_most, cm
 from balloon_usd.language.problem import RecipeError, quoted
 from balloon_usd.plan.capsule import capsule_bubbles
@@ -103,11 +103,9 @@ def _tube(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> Strip
             path: Path = ("steps", index, recipe.steps[index].word, bubble)
             raise RecipeError([recipe.problem(path, _misfit(recipe, name, tail, bubble, length, tube))])
         rest_end = rest_along + shape.rest_length
-        bubbles.append(
-            PlannedBubble(
-                bubble, name, kind, length, along, along + length, rest_along, rest_end, shape.volume, index
-            )
-        )
+        place = along, along + length, rest_along, rest_end
+        pressure = shape.pressure * gauge_pressure(size, maxwell_state(tube.rubber).p_star)
+        bubbles.append(PlannedBubble(bubble, name, kind, length, *place, shape.volume, index, pressure))
         tube, along, rest_along = left, along + length, rest_end
     bubbles.append(_rest_of_tube(recipe, name, tube, along, rest_along))
     return Strip(name, size, rubber, tail, tuple(bubbles))
@@ -167,6 +165,7 @@ def _rest_of_tube(
         rest_end=tube.size.length,
         volume=tube.volume,
         step=index,
+        pressure=gauge_pressure(tube.size, tube.state.p_star),
     )
 
 

@@ -88,6 +88,7 @@ class OpenTube:
             rest_length=shape.rest_length * bulged.b / now.b,
             diameter=shape.diameter * now.a / bulged.a,
             volume=shape.volume * (now.a / bulged.a) ** 2,
+            pressure=shape.pressure * now.p_star / bulged.p_star,
         )
         left = replace(
             self, rest_length=self.rest_length - shape.rest_length, volume=self.volume - shape.volume

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
-from balloon_usd.balloon.bubble_shape import pinch_length
+from balloon_usd.balloon.bubble_shape import pinch_length, shortest_stable_bubble
 from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.plan.necks import wall_place
 from balloon_usd.plan.open_tube import softened
@@ -49,6 +49,8 @@ class PlannedBubble:
     """Gas, m3, at the pressure at which it is twisted off; in a capsule what its wall holds before."""
     step: int
     """Index of the step that makes it; of an unnamed rest, the number of steps."""
+    pressure: float | None = None
+    """Gauge pressure at which it is twisted off, Pa; only of bubbles of tubes."""
 
     @property
     def rest_length(self) -> float:
@@ -95,6 +97,15 @@ class Strip:
     def capsule_length(self) -> float:
         """Length of a capsule before it is twisted, m."""
         return self.bubbles[-1].rest_end
+
+    def balls(self, longest: float = 1.0) -> dict[int, float]:
+        """Return the inflated lengths (m) of the bubbles that are no longer than so many times the shortest
+        stable one, by their number: those are told by their length, not by their rubber.
+        """
+        if not self.has_tail or len(self.bubbles) < 2:
+            return {}
+        most = longest * shortest_stable_bubble(self.size, softened(self.rubber)).length
+        return {k: bubble.length for k, bubble in enumerate(self.bubbles[:-1]) if bubble.length < most}
 
     def bubble_at(self, along: float) -> PlannedBubble:
         """Return the bubble that owns the rubber at an unstressed distance from the knot (m)."""

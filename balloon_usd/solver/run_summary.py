@@ -1,17 +1,24 @@
-"""Summary of a run: highest stretch against burst, flat tail left, what has come undone."""
+"""Summary of a run: highest stretch against burst, flat tail left, gas off the plan, what has come undone."""
 
 from __future__ import annotations
 
+import math
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from balloon_usd.balloon.air import ATMOSPHERE
 from balloon_usd.solver.flat_tails import FlatTails
 
 if TYPE_CHECKING:
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
+    from balloon_usd.plan.strip import PlannedBubble, Strip
     from balloon_usd.solver.frame import Frame
+
+GAS_OFF = 0.1
+"""Share by which the gas of a bubble may miss the plan."""
 
 
 class RunSummary:
@@ -49,8 +56,39 @@ class RunSummary:
         return most is not None and self.highest_stretch > most
 
     @property
+    def gas_off(self) -> dict[str, float]:
+        """Gas of the bubbles that have missed the plan, in shares of the planned, by name.
+
+        None before the end, of what leaks on purpose or has no pressure, and of bubbles whose twists came
+        undone.
+        """
+        last, plan = self._last, self._plan
+        physics = plan.recipe.physics
+        if last is None or last.time_code < plan.frame_count or physics.leak or not physics.traits.winds:
+            return {}
+        number = {bubble.name: k for k, bubble in enumerate(plan.bubbles)}
+        found: dict[str, float] = {}
+        for mesh, strip in zip(self._meshes, plan.strips.values(), strict=True):
+            # The polygon holds more than the circle that it is drawn about.
+            polygon = mesh.around * math.tan(math.pi / mesh.around) / math.pi
+            for bubble in _closed(strip, last.undone):
+                k = number[bubble.name]
+                has = (ATMOSPHERE + float(last.pressure[k])) * float(last.volume[k]) / polygon
+                found[bubble.name] = has / ((ATMOSPHERE + (bubble.pressure or 0.0)) * bubble.volume)
+        return {name: share for name, share in found.items() if abs(share - 1.0) > GAS_OFF}
+
+    @property
     def tails_left(self) -> dict[str, float]:
         """Flat rubber left at the tip of every tube in the last frame, m."""
         if self._last is None:
             return {}
         return dict(zip(self._tails.names, self._tails.left(self._last), strict=True))
+
+
+def _closed(strip: Strip, undone: tuple[str, ...]) -> list[PlannedBubble]:
+    """Return the bubbles of a tube whose necks have not come undone."""
+    if not strip.has_tail:
+        return []
+    ends = [f"{strip.balloon}.knot", *(f"{bubble.name}.end" for bubble in strip.bubbles[:-1])]
+    necks = zip(strip.bubbles, pairwise([*ends, f"{strip.balloon}.tip"]), strict=True)
+    return [bubble for bubble, both in necks if not set(both) & set(undone)]

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from balloon_usd.balloon.bubble_shape import (
-    bubble_at_stretch,
     bubble_of_length,
     bubble_of_rest_length,
     pinch_volume,
@@ -19,7 +18,7 @@ from balloon_usd.balloon.bubble_shape import (
 )
 from balloon_usd.balloon.rubber import rubber_named
 from balloon_usd.balloon.sizes import size_named
-from balloon_usd.balloon.tube_theory import inflated_rubber, maxwell_state
+from balloon_usd.balloon.tube_theory import maxwell_state
 
 SIZE, LATEX = size_named("260"), rubber_named("ogden")
 MM, ML = 1e-3, 1e-6
@@ -52,7 +51,7 @@ def test_the_shortest_stable_bubble_of_a_260_is_24_millimetres_long():
     assert shortest.rest_length / MM == pytest.approx(11.23, abs=0.01)
 
 
-@pytest.mark.parametrize("length", [5.0, 20.0, 24.0, 26.0, 50.0, 110.0, 150.0, 400.0])
+@pytest.mark.parametrize("length", [24.5, 26.0, 50.0, 110.0, 150.0, 400.0])
 def test_length_and_rest_length_are_each_others_inverse(length):
     shape = bubble_of_length(SIZE, LATEX, length * MM)
     again = bubble_of_rest_length(SIZE, LATEX, shape.rest_length)
@@ -61,7 +60,7 @@ def test_length_and_rest_length_are_each_others_inverse(length):
 
 
 def test_longer_bubbles_take_more_rubber_and_more_gas_without_jumps():
-    shapes = [bubble_of_length(SIZE, LATEX, length * MM) for length in np.arange(5.0, 200.0, 0.5)]
+    shapes = [bubble_of_length(SIZE, LATEX, length * MM) for length in np.arange(24.5, 200.0, 0.5)]
     rest = np.diff([shape.rest_length for shape in shapes]) / (0.5 * MM)
     volume = np.diff([shape.volume for shape in shapes])
     assert rest.min() > 0.0
@@ -75,16 +74,6 @@ def test_a_long_bubble_is_a_cylinder_with_two_ends():
     assert long.rest_length - short.rest_length == pytest.approx(1.0 / bulged.b)
     assert long.volume - short.volume == pytest.approx(math.pi * (bulged.a * SIZE.radius) ** 2)
     assert long.diameter == pytest.approx(2.0 * bulged.a * SIZE.radius, rel=5e-4)
-
-
-@pytest.mark.parametrize("ratio", [1.2, 1.6, 2.0])
-def test_bubbles_below_the_shortest_follow_the_limit_states_of_higher_pressure(ratio):
-    widest = np.linspace(2.0, 5.6, 361)
-    tube = maxwell_state(LATEX)
-    rest, length, _ = bubble_at_stretch(inflated_rubber(LATEX), ratio * tube.p_star, widest, tube.bulged.a)
-    limit = int(np.nanargmin(rest))
-    copy = bubble_of_length(SIZE, LATEX, length[limit] * SIZE.radius)
-    assert copy.rest_length == pytest.approx(rest[limit] * SIZE.radius, rel=0.03)
 
 
 def test_shapes_scale_with_the_radius_of_the_tube():

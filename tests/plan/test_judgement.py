@@ -74,8 +74,16 @@ def test_a_remaining_stub_blown_too_hard_may_burst(planned):
 
 
 def test_bubbles_too_short_to_be_soft_are_named(planned):
-    figure = planned("balloons: {a: {size: 260, tail: 10}}\nsteps: [{ear: {b: 2}}, {ear: {c: 3}}]")
-    assert whats(figure) == ["b (2 cm) will be a hard little ball"]
+    figure = planned("balloons: {a: {size: 260, tail: 10}}\nsteps: [{ear: {b: 1.5}}, {ear: {c: 2}}]")
+    assert whats(figure) == ["b (1.5 cm) will be a hard little ball"]
+    assert "9.5 kPa" in figure.cautions[0].why
+
+
+def test_bubbles_too_short_for_a_ball_are_named(planned):
+    figure = planned("balloons: {a: {size: 260, tail: 10}}\nsteps: [{ear: {b: 0.9}}]")
+    (caution,) = figure.cautions
+    assert caution.what == "b (0.9 cm) is too short for a ball"
+    assert caution.remedy == "make it 1 cm or longer"
 
 
 def test_rubber_that_does_not_soften_is_named(planned):

@@ -25,9 +25,9 @@ def test_the_text_tells_the_tail_and_how_far_to_blow(dog):
 
 
 def test_the_text_gives_every_caution_with_its_reason(planned):
-    figure = planned("balloons: {a: {size: 260, tail: 10}}\nsteps: [{ear: {b: 2}}]")
+    figure = planned("balloons: {a: {size: 260, tail: 10}}\nsteps: [{ear: {b: 1.5}}]")
     text = plan_text(figure)
-    assert "1 caution\n  step 1: b (2 cm) will be a hard little ball\n    because below 2.4 cm" in text
+    assert "1 caution\n  step 1: b (1.5 cm) will be a hard little ball\n    because below 2 cm" in text
     assert "1 twist uses" in text
 
 

@@ -7,6 +7,8 @@ from itertools import pairwise
 import pytest
 
 from balloon_usd.balloon.bubble_shape import bubble_of_length
+from balloon_usd.balloon.rubber import rubber_named
+from balloon_usd.balloon.sizes import size_named
 from balloon_usd.recipe import RecipeError
 
 CM = 0.01
@@ -37,6 +39,24 @@ def test_every_bubble_takes_the_rubber_and_gas_of_its_shape(dog):
         shape = bubble_of_length(strip.size, strip.rubber, bubble.length)
         assert bubble.rest_length == pytest.approx(shape.rest_length)
         assert bubble.volume == pytest.approx(shape.volume)
+
+
+def test_a_ball_takes_more_rubber_than_a_copy_of_a_longer_bubble_and_lies_at_its_own_pressure(planned):
+    strip = planned("balloons: {a: {size: 260, tail: 10}}\nsteps: [bubbles: {b: 2, c: 1, d: 9}]").strips["a"]
+    soft, hard, long, _ = strip.bubbles
+    assert soft.rest_length / CM == pytest.approx(1.305, abs=2e-3)
+    assert soft.volume == pytest.approx(6.7e-6, rel=5e-3)
+    assert hard.rest_length / CM == pytest.approx(0.919, abs=2e-3)
+    assert [soft.pressure, hard.pressure, long.pressure] == pytest.approx([7134.0, 14265.0, 7134.5], rel=1e-3)
+
+
+def test_the_tail_that_balls_fill_is_that_of_their_rubber_and_gas(planned):
+    balls = ", ".join(f"b{k}: 1.3" for k in range(5))
+    budget = planned(f"balloons: {{a: {{size: 260, tail: 10}}}}\nsteps: [bubbles: {{{balls}}}]").budgets["a"]
+    shape = bubble_of_length(size_named("260"), rubber_named(), 1.3 * CM)
+    gained = 8.379e-6 / 1e-3
+    used = 5.0 * (8.462e-6 / 1e-3 * shape.rest_length - shape.volume) / gained
+    assert budget.tail_used == pytest.approx(used, rel=2e-3)
 
 
 def test_no_gas_is_lost(dog):

@@ -99,6 +99,26 @@ def test_gas_goes_from_a_full_chamber_through_a_slit_into_the_next_one(model):
     assert not np.delete(gained, [3, 4]).any()
 
 
+def test_gas_that_a_hand_pushes_goes_through_a_shut_neck_whatever_the_pressures(model):
+    behind = model.scene.end_joint.numpy()
+    model.hands.push_gas(behind[3], 2.0)
+    widen(model)
+    gained = step(model)
+    assert gained[4] == pytest.approx(2.0 * STEP, rel=1e-6)
+    assert gained[3] == pytest.approx(-2.0 * STEP, rel=1e-6)
+    assert not np.delete(gained, [3, 4]).any()
+    assert model.hands._goals()["blowing"].tolist() == [1, 0]
+
+
+def test_a_hand_pushes_gas_for_one_frame_only(model):
+    model.hands.push_gas(model.scene.end_joint.numpy()[3], 2.0)
+    widen(model)
+    names = ("x", "amount", "volume")
+    model.hands.begin_frame({name: model.scene.arrays[name].numpy() for name in names})
+    widen(model)
+    assert not step(model).any()
+
+
 def test_an_edge_may_join_any_two_segments_of_a_balloon(model):
     widen(model, behind_2=SLIT)
     scene = model.scene

@@ -8,13 +8,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from balloon_usd.balloon.bubble_shape import neck_rubber
+from balloon_usd.balloon.bubble_shape import neck_rubber, neck_rubber_of_length
 from balloon_usd.balloon.sizes import BalloonSize
 from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.plan.open_tube import softened
 from balloon_usd.solver.body import NECK_RADIUS, Body, RingSpec
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from numpy.typing import NDArray
 
     from balloon_usd.balloon.rubber import Rubber
@@ -73,12 +75,14 @@ def tube_body(
     joints: tuple[float, ...],
     guides: tuple[float, ...],
     knot_pressure: float,
+    short: Mapping[int, float] | None = None,
 ) -> LatexBody:
     """Return the body of a twisting balloon: lip, knot bead, and a chamber between every two joints.
 
     `joints`, `guides`: unstressed distances from the knot, m; guides are rings that hands lead but never
     close.
     `knot_pressure`: gauge pressure sealed into the knot bead, Pa.
+    `short`: inflated lengths of bubbles too short to tell by their rubber, m, by their number.
     """
     n = mesh.around
     bead = int(np.searchsorted(mesh.ring_along, -1e-9))
@@ -101,7 +105,7 @@ def tube_body(
     wall[: borders[0]] *= LIP_THICKNESS
     neck = NECK_RADIUS * radius
     bulged = maxwell_state(rubber).bulged
-    place = _without_necks(mesh, rubber, radius, joints, neck * math.cos(math.pi / n))
+    place = _without_necks(mesh, rubber, radius, joints, neck * math.cos(math.pi / n), short or {})
     ring_of = _nearest(mesh.ring_along, mesh.along)
     return LatexBody(
         points=_tapered(mesh, place, [mesh.ring_along[lip], mesh.ring_along[bead]], neck),
@@ -136,7 +140,12 @@ def _seed(place: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _without_necks(
-    mesh: BalloonMesh, rubber: Rubber, radius: float, joints: tuple[float, ...], neck: float
+    mesh: BalloonMesh,
+    rubber: Rubber,
+    radius: float,
+    joints: tuple[float, ...],
+    neck: float,
+    short: Mapping[int, float],
 ) -> NDArray[np.float64]:
     """Unstressed place of every vertex along the tube, (V,) m, without the rubber bunched in necks.
 
@@ -148,6 +157,8 @@ def _without_necks(
     marks = np.array([0.0, *joints, x.max()])
     lengths = np.diff(marks)
     hidden = np.array([neck_rubber(size, softened(rubber), float(s), neck) for s in lengths])
+    for k, length in short.items():
+        hidden[k] = neck_rubber_of_length(size, softened(rubber), length, neck)
     ends = np.full(len(lengths), 2.0)
     ends[-1] = 1.0
     moved = np.concatenate([[0.0], np.cumsum(lengths - ends * hidden)])

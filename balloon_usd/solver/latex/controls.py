@@ -29,6 +29,10 @@ class LatexControls(Hands):
         super().__init__(scene)
         self.passage = np.where(self.closed, 0.0, OPEN_PASSAGE).astype(np.float32)
         self.passage_goal = self.passage.copy()
+        self.neck_flow = np.zeros(len(self.passage), dtype=np.float32)
+        """Gas that hands push through a neck in the coming frame, from before to behind it, mol/s."""
+        self._pushing = False
+        """Whether they push any."""
         self.beside = scene.joint_beside.numpy()
         """Segments before and after every ring, (J, 2)."""
         self._joint_body = np.repeat(np.arange(len(scene.bodies)), np.diff(scene.joint_start))
@@ -44,8 +48,8 @@ class LatexControls(Hands):
         self.softening = scene.softening_rate.numpy().copy()
         self.amount, self.volume = scene.amount.numpy().copy(), scene.volume.numpy().copy()
         """Gas of every segment, mol, and its volume, m3."""
-        self._passages = b"", b""
-        """How wide all necks are at both ends of the frame, as last looked at."""
+        self._passages = b"", b"", b""
+        """How wide all necks are at both ends of the frame and what is pushed through, as last looked at."""
         self._necks: dict[str, NDArray[Any]] = {}
         """Arrays that follow from that."""
         self.upload()
@@ -57,12 +61,20 @@ class LatexControls(Hands):
         """Take over the state read back last, lift all fingers and stop all spins."""
         super().begin_frame(state)
         self.spins.stop()
+        if self._pushing:
+            self.neck_flow[:] = 0.0
+            self._pushing = False
         self.amount, self.volume = state["amount"].copy(), state["volume"]
 
     def squeeze(self, joint: int, radius: float, passage: float) -> None:
         """Set the radius (m) and the open area (m2) that a neck has at the end of the frame."""
         self.close(joint, radius)
         self.passage_goal[joint] = passage
+
+    def push_gas(self, joint: int, flow: float) -> None:
+        """Push gas (mol/s) through a neck in the coming frame, from the chamber before it to that behind."""
+        self.neck_flow[joint] = flow
+        self._pushing = True
 
     def free_neck(self, joint: int) -> None:
         """Let a neck go that is as wide as its tube: the chambers beside it become one."""
@@ -109,9 +121,10 @@ class LatexControls(Hands):
         return np.concatenate([[0], shut + 1])[chamber], shut[chamber]
 
     def _blowing(self) -> NDArray[np.int32]:
-        """Return 1 for every balloon with a neck that is neither open nor shut, (B,)."""
+        """Return 1 for every balloon with a neck that is neither open nor shut or pushed through, (B,)."""
         blowing = np.zeros(len(self.scene.bodies), dtype=np.int32)
         necks = (self.passage < WIDE_OPEN) & (np.maximum(self.passage, self.passage_goal) > 0.0)
+        necks |= self.neck_flow != 0.0
         blowing[self._joint_body[necks[: len(self._joint_body)]]] = 1
         return blowing
 
@@ -131,7 +144,7 @@ class LatexControls(Hands):
         return {"flow_from": source, "flow_to": sink, "chamber_end": start, "flow_ends": ends}
 
     def _goals(self) -> dict[str, NDArray[Any]]:
-        passages = self.passage.tobytes(), self.passage_goal.tobytes()
+        passages = self.passage.tobytes(), self.passage_goal.tobytes(), self.neck_flow.tobytes()
         if passages != self._passages:
             self._passages = passages
             first, last = self.chambers()
@@ -143,6 +156,7 @@ class LatexControls(Hands):
             | {
                 "open_from": self.passage,
                 "open_to": self.passage_goal,
+                "neck_flow": self.neck_flow,
                 "pump_flow": self.pump_flow,
                 "pump_limit": self.pump_limit,
                 "pump_goal": self.pump_goal,

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from balloon_usd.balloon.bubble_shape import neck_rubber
+from balloon_usd.balloon.bubble_shape import neck_rubber, neck_rubber_of_length
 from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.operations.moves import Weld
 from balloon_usd.plan.open_tube import softened
@@ -236,8 +236,13 @@ def rope_stiffness(strip: Strip, bubble: str, neck: float) -> float:
     """
     at = next(k for k, planned in enumerate(strip.bubbles) if planned.name == bubble)
     rubber = softened(strip.rubber)
-    beside = strip.bubbles[at : at + 2]
-    length = sum(neck_rubber(strip.size, rubber, planned.rest_length, neck) for planned in beside)
+    balls = strip.balls()
+    length = 0.0
+    for k, planned in enumerate(strip.bubbles[at : at + 2], at):
+        if k in balls:
+            length += neck_rubber_of_length(strip.size, rubber, planned.length, neck)
+        else:
+            length += neck_rubber(strip.size, rubber, planned.rest_length, neck)
     radius = math.sqrt(2.0 * strip.size.radius * strip.size.thickness)
     stretch = maxwell_state(strip.rubber).bulged.b
     return math.pi * strip.rubber.shear_modulus * radius**4 / (2.0 * stretch * length)

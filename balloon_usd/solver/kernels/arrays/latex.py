@@ -42,6 +42,9 @@ class Chambers:
     blowing: wp.array[int] = array("balloons", meaning="1 where gas flows through a closing neck")
     open_from: wp.array[float] = array("joints", unit="m2", meaning="open area at the start of the frame")
     open_to: wp.array[float] = array("joints", unit="m2", meaning="open area at its end")
+    neck_flow: wp.array[float] = array(
+        "joints", unit="mol/s", meaning="gas that a hand pushes through it, from before to behind"
+    )
     pump_flow: wp.array[float] = array("balloons", unit="mol/s", meaning="largest flow of the pump")
     pump_limit: wp.array[float] = array("balloons", unit="Pa", meaning="gauge pressure at which it stops")
     pump_goal: wp.array[wp.float64] = array("balloons", unit="mol", meaning="amount at which it stops")

@@ -186,11 +186,13 @@ def advance_gas(
         sink = int_at(chambers.flow_to, e)
         chambers.flow[e] = wp.float64(0.0)
         if source != sink:
-            gap = passage_of(int_at(chambers.flow_joint, e), fraction, chambers.open_from, chambers.open_to)
+            neck = int_at(chambers.flow_joint, e)
+            gap = passage_of(neck, fraction, chambers.open_from, chambers.open_to)
             if gap > 0.0:
                 chambers.flow[e] = blow_through(
                     source, sink, gap, air, dt, chambers.chamber_volume, chambers.pressure
                 )
+            chambers.flow[e] = chambers.flow[e] + wp.float64(float_at(chambers.neck_flow, neck) * dt)
     warp_barrier()
     for s in range(first + lane, last, lanes):
         # Gas of a chamber comes and goes in its last segment.

@@ -1,0 +1,72 @@
+"""Holding a short bubble at its length while its neck closes, and pushing out the gas that it must not keep.
+
+Open to the tube, and with its first neck free to slide, so short a bubble runs empty.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from balloon_usd.solver.motions.smooth import smooth
+
+if TYPE_CHECKING:
+    from balloon_usd.plan.strip import PlannedBubble
+    from balloon_usd.solver.latex.sculpture import LatexSculpture
+
+HELD = 1.2
+"""Length below which bubbles do not find their gas by themselves, in lengths of the shortest stable one."""
+
+
+def squeezed_ball(sculpture: LatexSculpture, ring: int) -> SqueezedBall | None:
+    """Return the bubble that a ring of the plan ends, if it has to be held while the ring closes."""
+    strip, name = sculpture.strip_of(ring), sculpture.plan.table.rings[ring].bubble
+    held = (strip.bubbles[k] for k in strip.balls(HELD))
+    short = next((bubble for bubble in held if bubble.name == name), None)
+    return None if short is None else SqueezedBall(sculpture, ring, short)
+
+
+class SqueezedBall:
+    """A short bubble between two necks that hands bring to its length while the second one closes."""
+
+    def __init__(self, sculpture: LatexSculpture, ring: int, bubble: PlannedBubble) -> None:
+        """Take hold of its first neck, and of what hangs on it."""
+        self._sculpture, hands, middle = sculpture, sculpture.hands, sculpture.frame.middle
+        self._hands, self._length = hands, bubble.length
+        first = sculpture.plan.table.ends(bubble.name)[0]
+        self._start, self._end = sculpture.joints[first], sculpture.joints[ring]
+        hanging, _ = sculpture.hanging_on((first, ring))
+        for joint in hanging:
+            hands.lead(joint, middle)
+        self._carried = np.array(hanging, dtype=np.int64)
+        hands.free[self._carried] = 0.0
+        hands.let_go(np.array([self._start]))
+        hands.grip(self._start, middle)
+        self._places = middle[[*hanging, self._start]].astype(np.float64)
+        along = self._places[-1] - middle[self._end]
+        self._began = float(np.linalg.norm(along))
+        self._along = along / max(self._began, 1e-9)
+        self._gas = float(hands.amount[hands.beside[self._end, 0]])
+        self._wanted = _amount(sculpture, bubble)
+        self._left = self._gas
+
+    def squeeze(self, share: float) -> None:
+        """Bring its necks to their distance by a share, and push out that share of its gas."""
+        progress = smooth(share)
+        shift = progress * (self._length - self._began) * self._along
+        self._hands.goal[[*self._carried, self._start]] = self._places + shift
+        left = self._gas + progress * (self._wanted - self._gas)
+        begin, end, _ = self._sculpture.frame
+        self._hands.push_gas(self._end, (self._left - left) / (end - begin))
+        self._left = left
+
+
+def _amount(sculpture: LatexSculpture, bubble: PlannedBubble) -> float:
+    """Return the gas (mol) that a bubble has to keep."""
+    scene = sculpture.scene
+    n = int(scene.bodies[sculpture.body[bubble.balloon]].rings[0].around)
+    # The polygon holds more than the circle that it is drawn about.
+    volume = bubble.volume * n * math.tan(math.pi / n) / math.pi
+    return (scene.settings.atmosphere + (bubble.pressure or 0.0)) * volume / float(scene.air.molar_energy)
