@@ -53,7 +53,7 @@ def print_summary(records: Sequence[Record], order: Order, seconds: float, devic
 
 def _table(records: Sequence[Record]) -> Table:
     table = Table("sculpture", box=None, pad_edge=False)
-    for heading in ("frames", "animation", "tail left", "highest stretch", "size"):
+    for heading in ("frames", "animation", "tail left", "highest stretch", "wall", "size"):
         table.add_column(heading, justify="right")
     for record in records:
         name = record.name or record.recipe
@@ -63,18 +63,22 @@ def _table(records: Sequence[Record]) -> Table:
         told = record.summary
         length = f"{record.frames / told['fps']:.1f} s"
         tails = ", ".join(f"{CENTIMETRES * tail:.1f} cm" for tail in told["tails_left"].values())
-        bears = f" of {told['burst_stretch']:.1f}" if told["burst_stretch"] else ""
-        stretch = f"{told['highest_stretch']:.1f}{bears}"
+        stretch = f"{told['highest_stretch']:.1f}"
+        load = f"{told['burst_load']:.0%} of burst" if told["burst_stretch"] else ""
         size = f"{record.size / MEGABYTE:.1f} MB"
-        table.add_row(name, str(record.frames), length, tails, stretch, size)
+        table.add_row(name, str(record.frames), length, tails, stretch, load, size)
     return table
 
 
 def _warnings(records: Sequence[Record]) -> Iterator[str]:
     for record in records:
         if record.summary.get("bursts"):
-            bubble = record.summary["highest_bubble"]
-            yield f"{record.name}: {bubble} would burst: use less gas, or make it longer or softer"
+            bubble, load = record.summary["most_loaded"], record.summary["burst_load"]
+            told = f"its wall has {load:.0%} of the load at which latex tears"
+            yield f"{record.name}: {bubble} would burst: {told}: leave more tail, or make it longer"
+        for balloon, (bubble, pressure) in record.summary.get("hard", {}).items():
+            hard = f"the hardest, {bubble}, has {pressure / 1e3:.1f} kPa"
+            yield f"{record.name}: {balloon} has run out of tail: {hard}: leave more tail"
         if undone := record.summary.get("undone"):
             yield f"{record.name}: came undone: {', '.join(undone)}: lock them, with 2 turns or more"
 

@@ -18,7 +18,7 @@ name: {name}
 units: cm
 fps: 12
 balloons:
-  main: {{size: 260, length: 9, tail: {tail}, color: red}}
+  main: {{size: 260, length: {length}, tail: {tail}, color: red}}
 steps:
   - {kind}: {{head: {head}}}
   - rest: tail
@@ -26,13 +26,14 @@ physics: {physics}
 """
 
 
-def short(name="short", head=6, tail=3, kind="bubbles", physics="{hold: 0.2}"):
-    return plan(Recipe.parse(SHORT.format(name=name, head=head, tail=tail, kind=kind, physics=physics)))
+def short(name="short", head=6, tail=3, kind="bubbles", physics="{hold: 0.2}", length=9):
+    words = {"name": name, "head": head, "tail": tail, "kind": kind, "physics": physics, "length": length}
+    return plan(Recipe.parse(SHORT.format(**words)))
 
 
 def bursting():
-    """A loop so short that the outside of its bend bursts."""
-    return short("bursting", head=9, kind="loop", physics="{hold: 0.2, burst: stop}")
+    """A loop that takes most of a balloon without tail."""
+    return short("bursting", head=12, tail=0, kind="loop", physics="{hold: 0.2, burst: stop}", length=6)
 
 
 def last_frames(plans, device="cpu"):
