@@ -64,9 +64,7 @@ class RunSummary:
 
     @property
     def hard(self) -> dict[str, tuple[str, float]]:
-        """The hardest bubble, and its gauge pressure (Pa) in the last frame, of balloons that twists have left
-        without tail.
-        """
+        """The hardest bubble and its gauge pressure in the last frame, Pa, of balloons without tail left."""
         if self._last is None or not self._plan.recipe.physics.traits.winds:
             return {}
         pressures = dict(zip(self._plan.bubbles, self._last.pressure.tolist(), strict=True))
