@@ -64,7 +64,7 @@ def _table(records: Sequence[Record]) -> Table:
         length = f"{record.frames / told['fps']:.1f} s"
         tails = ", ".join(f"{CENTIMETRES * tail:.1f} cm" for tail in told["tails_left"].values())
         stretch = f"{told['highest_stretch']:.1f}"
-        load = f"{told['burst_load']:.0%} of burst" if told["burst_stretch"] else ""
+        load = f"{told['burst_load']:.0%} of burst" if told.get("burst_load") else ""
         size = f"{record.size / MEGABYTE:.1f} MB"
         table.add_row(name, str(record.frames), length, tails, stretch, load, size)
     return table
@@ -72,14 +72,16 @@ def _table(records: Sequence[Record]) -> Table:
 
 def _warnings(records: Sequence[Record]) -> Iterator[str]:
     for record in records:
-        if record.summary.get("bursts"):
-            bubble, load = record.summary["most_loaded"], record.summary["burst_load"]
-            told = f"its wall has {load:.0%} of the load at which latex tears"
-            yield f"{record.name}: {bubble} would burst: {told}: leave more tail, or make it longer"
-        for balloon, (bubble, pressure) in record.summary.get("hard", {}).items():
-            hard = f"the hardest, {bubble}, has {pressure / 1e3:.1f} kPa"
-            yield f"{record.name}: {balloon} has run out of tail: {hard}: leave more tail"
-        if undone := record.summary.get("undone"):
+        told = record.summary
+        # Records of earlier versions have no loads.
+        if told.get("bursts") and "burst_load" in told:
+            load = f"its wall has {told['burst_load']:.0%} of the load at which latex tears"
+            remedy = "leave more tail, or make what is folded longer"
+            yield f"{record.name}: {told['most_loaded']} would burst: {load}: {remedy}"
+        for balloon, (bubble, pressure) in told.get("hard", {}).items():
+            hardest = f"the hardest, {bubble}, has {pressure / 1e3:.1f} kPa"
+            yield f"{record.name}: {balloon} has run out of tail: {hardest}: leave more tail"
+        if undone := told.get("undone"):
             yield f"{record.name}: came undone: {', '.join(undone)}: lock them, with 2 turns or more"
 
 

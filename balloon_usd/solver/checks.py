@@ -38,7 +38,7 @@ class SculptureCheck:
         self._meshes = meshes
         self._fps = fps
         self._substeps = substeps
-        self._bursting = Bursting(plan, meshes)
+        self._bursting = Bursting(plan, meshes) if plan.recipe.physics.burst == "stop" else None
         self._last: Frame | None = None
 
     def failure(self, frame: Frame) -> str | None:
@@ -97,7 +97,7 @@ class SculptureCheck:
         return f"a part of {where} moves at {speed}, faster than hands can move it; {self._steadier()}"
 
     def _burst(self, frame: Frame) -> str | None:
-        if self._plan.recipe.physics.burst != "stop":
+        if self._bursting is None:
             return None
         load, bubble = self._bursting.load(frame, NEAR)
         if load > 1.0:

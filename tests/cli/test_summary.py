@@ -1,0 +1,58 @@
+"""The table at the end of a run says how near the walls came to bursting, and what is wrong."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from balloon_usd.batch.order import Order
+from balloon_usd.batch.record import Record, Status
+from balloon_usd.cli.summary import print_summary
+
+TOLD = {
+    "fps": 24.0,
+    "tails_left": {"main": 0.0},
+    "highest_stretch": 7.4,
+    "burst_stretch": 7.0,
+    "burst_load": 0.71,
+    "most_loaded": "head",
+    "bursts": False,
+}
+EARLIER = {key: TOLD[key] for key in ("fps", "tails_left", "highest_stretch", "burst_stretch")} | {
+    "bursts": True
+}
+
+
+@pytest.fixture
+def printed(capsys):
+    def print_it(told):
+        record = Record("dog.yaml", "dog", Status.DONE, frames=48, summary=told)
+        print_summary([record], Order(Path("out")), 1.0, "cpu")
+        return capsys.readouterr().out
+
+    return print_it
+
+
+def test_a_wall_is_told_by_its_load_and_a_crease_beyond_seven_is_no_burst(printed):
+    out = printed(TOLD)
+    assert "7.4  71% of burst" in out
+    assert "would burst" not in out
+
+
+def test_what_would_burst_is_told_with_its_load_and_a_remedy(printed):
+    out = printed(TOLD | {"bursts": True, "burst_load": 1.12})
+    assert "dog: head would burst: its wall has 112% of the load at which latex tears: leave more tail" in out
+
+
+def test_a_balloon_without_tail_is_told_with_its_hardest_bubble(printed):
+    out = printed(TOLD | {"hard": {"main": ["right_hindleg", 9020.0]}})
+    assert "dog: main has run out of tail: the hardest, right_hindleg, has 9.0 kPa: leave more tail" in out
+
+
+def test_springs_have_no_load(printed):
+    assert "of burst" not in printed(TOLD | {"burst_stretch": None, "burst_load": 0.0})
+
+
+def test_what_an_earlier_version_has_made_is_listed_without_a_load(printed):
+    assert "burst" not in printed(EARLIER)
