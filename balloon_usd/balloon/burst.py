@@ -2,7 +2,7 @@
 
 A wall tears at its weakest place, a thin spot or a pinhole. Such places are scattered over the rubber, so a
 small part of it bears more than all of it would: the weakest link of Weibull 1939. The length over which
-rubber tears is about 0.2 mm (Trapper & Volokh 2010), the thickness of the wall and below any mesh, so a mean
+rubber tears is about 0.2 mm (Volokh 2011), the thickness of the wall and below any mesh, so a mean
 over that length would change nothing.
 """
 
