@@ -19,10 +19,7 @@ LATEX_DENSITY = 930.0
 """Density of natural rubber gum, kg/m3 (literature range 910 to 950)."""
 
 BURST_STRETCH = 7.0
-"""Largest principal stretch that balloon latex bears: 650 to 750 % elongation (ASTM D3577), judged."""
-
-BURST_ENERGY = 25e6
-"""Elastic energy at which balloon latex bursts, J/m3: that of a closed tube at that stretch, judged."""
+"""Hoop stretch at which a 260 bursts that is stretched alike all over, judged."""
 
 _erf = np.vectorize(math.erf, otypes=[np.float64])
 

@@ -140,7 +140,7 @@ class Sculpture:
 
     def _summary(self, written: WrittenStage, quality: dict[str, Any] | None) -> dict[str, object]:
         """What the run came to, in numbers that a table shows."""
-        summary = self._run_summary
+        summary, load = self._run_summary, self._run_summary.wall_load
         return {
             "fps": self._plan.recipe.fps,
             "model": self._plan.recipe.physics.model,
@@ -148,8 +148,11 @@ class Sculpture:
             "highest_stretch": round(summary.highest_stretch, 4),
             "burst_stretch": self._plan.recipe.physics.traits.burst_stretch,
             "highest_bubble": summary.highest_bubble,
+            "burst_load": round(load.load, 4),
+            "most_loaded": load.bubble,
             "bursts": summary.bursts,
             "gas_off": {name: round(share, 3) for name, share in summary.gas_off.items()},
+            "hard": {balloon: [bubble, round(p, 1)] for balloon, (bubble, p) in summary.hard.items()},
             "undone": list(summary.undone),
             "stale": list(written.stale),
             "quality": quality,

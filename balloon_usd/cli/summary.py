@@ -57,7 +57,7 @@ def print_summary(records: Sequence[Record], order: Order, seconds: float, devic
 
 def _table(records: Sequence[Record]) -> Table:
     table = Table("sculpture", box=None, pad_edge=False)
-    for heading in ("frames", "animation", "tail left", "highest stretch", "size"):
+    for heading in ("frames", "animation", "tail left", "highest stretch", "wall", "size"):
         table.add_column(heading, justify="right")
     for record in records:
         name = record.name or record.recipe
@@ -67,22 +67,28 @@ def _table(records: Sequence[Record]) -> Table:
         told = record.summary
         length = f"{record.frames / told['fps']:.1f} s"
         tails = ", ".join(f"{CENTIMETRES * tail:.1f} cm" for tail in told["tails_left"].values())
-        bears = f" of {told['burst_stretch']:.1f}" if told["burst_stretch"] else ""
-        stretch = f"{told['highest_stretch']:.1f}{bears}"
+        stretch = f"{told['highest_stretch']:.1f}"
+        load = f"{told['burst_load']:.0%} of burst" if told.get("burst_load") else ""
         size = f"{record.size / MEGABYTE:.1f} MB"
-        table.add_row(name, str(record.frames), length, tails, stretch, size)
+        table.add_row(name, str(record.frames), length, tails, stretch, load, size)
     return table
 
 
 def _warnings(records: Sequence[Record]) -> Iterator[str]:
     for record in records:
-        if record.summary.get("bursts"):
-            bubble = record.summary["highest_bubble"]
-            yield f"{record.name}: {bubble} would burst: use less gas, or make it longer or softer"
-        if off := record.summary.get("gas_off"):
-            told = ", ".join(f"{bubble} {share:.0%}" for bubble, share in off.items())
-            yield f"{record.name}: not the gas of the plan: {told}: make them longer, or leave more tail"
-        if undone := record.summary.get("undone"):
+        told = record.summary
+        # Records of earlier versions have no loads.
+        if told.get("bursts") and "burst_load" in told:
+            load = f"its wall has {told['burst_load']:.0%} of the load at which latex tears"
+            remedy = "leave more tail, or make what is folded longer"
+            yield f"{record.name}: {told['most_loaded']} would burst: {load}: {remedy}"
+        for balloon, (bubble, pressure) in told.get("hard", {}).items():
+            hardest = f"the hardest, {bubble}, has {pressure / 1e3:.1f} kPa"
+            yield f"{record.name}: {balloon} has run out of tail: {hardest}: leave more tail"
+        if off := told.get("gas_off"):
+            listed = ", ".join(f"{bubble} {share:.0%}" for bubble, share in off.items())
+            yield f"{record.name}: not the gas of the plan: {listed}: make them longer, or leave more tail"
+        if undone := told.get("undone"):
             yield f"{record.name}: came undone: {', '.join(undone)}: lock them, with 2 turns or more"
 
 

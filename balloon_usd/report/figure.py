@@ -82,7 +82,7 @@ def panels_of(history: History) -> tuple[Panel, ...]:
     """Return what is drawn, in units that makers know; no panel of tails where no balloon has one."""
     names = history.bubble_names
     most = history.plan.recipe.physics.traits.burst_stretch
-    limit = None if most is None else (most, "latex bursts")
+    limit = None if most is None else (most, "a tube bursts")
     pressure = _curves(names, 1e-3 * history.pressure)
     volume, stretch = _curves(names, 1e6 * history.volume), _curves(names, history.stretch)
     panels = [

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from balloon_usd.balloon.rubber import BURST_STRETCH
+from balloon_usd.balloon.burst import least_burst_stretch
+from balloon_usd.solver.bursting import NEAR, Bursting
 from balloon_usd.solver.kernels.arrays.rows import HITS
 from balloon_usd.solver.remedy import steadier
 from balloon_usd.solver.scene import NO_LIMIT
@@ -37,6 +38,7 @@ class SculptureCheck:
         self._meshes = meshes
         self._fps = fps
         self._substeps = substeps
+        self._bursting = Bursting(plan, meshes) if plan.recipe.physics.burst == "stop" else None
         self._last: Frame | None = None
 
     def failure(self, frame: Frame) -> str | None:
@@ -95,13 +97,11 @@ class SculptureCheck:
         return f"a part of {where} moves at {speed}, faster than hands can move it; {self._steadier()}"
 
     def _burst(self, frame: Frame) -> str | None:
-        if self._plan.recipe.physics.burst != "stop":
+        if self._bursting is None:
             return None
-        for (strip, mesh, _), stretch in zip(self._balloons(frame), frame.stretch, strict=True):
-            worst = int(np.argmax(stretch))
-            if stretch[worst] > BURST_STRETCH:
-                bubble = self._name(strip, mesh, worst)
-                return f"{bubble} bursts: stretch {stretch[worst]:.1f}, latex bears {BURST_STRETCH:.1f}"
+        load, bubble = self._bursting.load(frame, NEAR)
+        if load > 1.0:
+            return f"{bubble} bursts: its wall has {load:.0%} of the load at which latex tears"
         return None
 
     def _balloons(self, frame: Frame) -> Iterator[tuple[Strip, BalloonMesh, NDArray[np.float32]]]:
@@ -168,8 +168,14 @@ def stretch_limits(plans: Sequence[Plan], bodies: Sequence[range]) -> NDArray[np
 
     `bodies`: balloons of every plan.
     """
-    limits = [BURST_STRETCH if plan.recipe.physics.burst == "stop" else NO_LIMIT for plan in plans]
+    limits = [_least_burst_stretch(plan) for plan in plans]
     return np.repeat(limits, [len(run) for run in bodies]).astype(np.float32)
+
+
+def _least_burst_stretch(plan: Plan) -> float:
+    if plan.recipe.physics.burst != "stop":
+        return NO_LIMIT
+    return min(least_burst_stretch(strip.rubber) for strip in plan.strips.values())
 
 
 def crowded(most_hits: int) -> str:

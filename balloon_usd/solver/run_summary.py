@@ -1,4 +1,4 @@
-"""Summary of a run: highest stretch against burst, flat tail left, gas off the plan, what has come undone."""
+"""Summary of a run: highest stretch, load of the walls, tail left, gas off the plan, what came undone."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from balloon_usd.balloon.air import ATMOSPHERE
+from balloon_usd.solver.bursting import NEAR, NO_LOAD, Bursting, WallLoad
 from balloon_usd.solver.flat_tails import FlatTails
 
 if TYPE_CHECKING:
@@ -29,6 +30,9 @@ class RunSummary:
         self._plan = plan
         self._meshes = meshes
         self._tails = FlatTails(plan, meshes)
+        self._bursting = Bursting(plan, meshes)
+        self._near = NO_LOAD
+        """Highest load in the frames in which a wall might have burst."""
         self._last: Frame | None = None
         self.highest_stretch = 0.0
         """Largest principal stretch of any wall so far."""
@@ -38,11 +42,17 @@ class RunSummary:
     def add(self, frame: Frame) -> None:
         """Add one more frame."""
         self._last = frame
-        for stretch, mesh, strip in zip(frame.stretch, self._meshes, self._plan.strips.values(), strict=True):
+        near = False
+        for index, (strip, mesh) in enumerate(zip(self._plan.strips.values(), self._meshes, strict=True)):
+            stretch = frame.stretch[index]
             worst = int(np.argmax(stretch))
-            if stretch[worst] > self.highest_stretch:
-                self.highest_stretch = float(stretch[worst])
+            highest = float(stretch[worst])
+            near = near or self._bursting.near(index, stretch, highest)
+            if highest > self.highest_stretch:
+                self.highest_stretch = highest
                 self.highest_bubble = strip.bubble_at(float(mesh.along[worst])).name
+        if near:
+            self._near = max(self._near, self._bursting.load(frame, NEAR))
 
     @property
     def undone(self) -> tuple[str, ...]:
@@ -50,10 +60,28 @@ class RunSummary:
         return () if self._last is None else self._last.undone
 
     @property
+    def wall_load(self) -> WallLoad:
+        """Load of the walls: the highest in all frames in which one was near bursting, and in the last."""
+        return self._near if self._last is None else max(self._near, self._bursting.load(self._last))
+
+    @property
     def bursts(self) -> bool:
-        """Whether latex would not have borne the highest stretch; springs do not burst."""
-        most = self._plan.recipe.physics.traits.burst_stretch
-        return most is not None and self.highest_stretch > most
+        """Whether latex would have burst; springs do not."""
+        return self._near.load > 1.0
+
+    @property
+    def hard(self) -> dict[str, tuple[str, float]]:
+        """The hardest bubble and its gauge pressure in the last frame, Pa, of balloons without tail left."""
+        if self._last is None or not self._plan.recipe.physics.traits.winds:
+            return {}
+        pressures = dict(zip(self._plan.bubbles, self._last.pressure.tolist(), strict=True))
+        left = self.tails_left
+        found = {}
+        for name, budget in self._plan.budgets.items():
+            if budget.twists and left[name] <= 0.0:
+                bubble = max(self._plan.strips[name].bubbles, key=lambda each: pressures[each])
+                found[name] = bubble.name, pressures[bubble]
+        return found
 
     @property
     def gas_off(self) -> dict[str, float]:

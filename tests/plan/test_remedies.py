@@ -86,8 +86,8 @@ def table(*rows: tuple[str, str, Cure]) -> pytest.MarkDecorator:
 # Cautions.
 
 
-def loops(count: int, length: float) -> str:
-    return f"[loop: {{{', '.join(f'l{k}: {length}' for k in range(count))}}}]"
+def loops(count: int, length: float, kind: str = "loop") -> str:
+    return f"[{kind}: {{{', '.join(f'l{k}: {length}' for k in range(count))}}}]"
 
 
 TAIL_OF_AT_LEAST = r"\| leave a tail of at least ([\d.]+ cm)$"
@@ -178,15 +178,18 @@ def test_a_caution_is_gone_once_its_remedy_is_taken(body: str, told: str, cure: 
 
 
 @pytest.mark.parametrize(("filling", "written"), [("tail: 0", "leave a tail"), ("inflated: 150", "inflated")])
-@pytest.mark.parametrize(("count", "length", "what"), [(21, 6, "may burst"), (17, 7.5, "runs out of tail")])
-def test_bubbles_that_leave_room_for_no_tail_are_to_be_shorter(filling, written, count, length, what):
+@pytest.mark.parametrize(
+    ("kind", "count", "length", "what"),
+    [("loop", 21, 6, "may burst"), ("bubbles", 17, 7.5, "runs out of tail")],
+)
+def test_bubbles_that_leave_room_for_no_tail_are_to_be_shorter(filling, written, kind, count, length, what):
     share = re.compile(rf"{what}.*{SHORTER}(?:leave a tail of at least|write inflated: at most) ([\d.]+ cm)$")
-    data = yaml.safe_load(HEAD + ONE % (filling, loops(count, length)))
+    data = yaml.safe_load(HEAD + ONE % (filling, loops(count, length, kind)))
     (found,) = [match for line in told_of(data, "f.yaml") if (match := share.search(line))]
     assert written in found.string
     shorter = length - float(found[1]) / count
     cure: Cure = {f"balloons.a.{filling.partition(':')[0]}": "<2>"}
-    left = told_of(cured(data, cure | {"steps": loops(count, shorter)}, found), "f.yaml")
+    left = told_of(cured(data, cure | {"steps": loops(count, shorter, kind)}, found), "f.yaml")
     assert [line for line in left if "runs out" in line or "burst" in line or "refused" in line] == []
 
 

@@ -23,7 +23,7 @@ name: small
 units: cm
 fps: 12
 balloons:
-  main: {{size: 260, length: 9, tail: 3, color: red}}
+  main: {{size: 260, length: {length}, tail: {tail}, color: red}}
 steps:
   - {kind}: {{head: {head}}}
     seconds: {seconds:g}
@@ -33,13 +33,21 @@ physics: {{hold: 0.2, {physics}}}
 SUBSTEPS = {"latex": 100, "kosaka": 12}
 
 
-def small(head=6.0, kind="bubbles", physics="model: latex", seconds=1.0):
-    return plan_of(Recipe.parse(RECIPE.format(head=head, kind=kind, physics=physics, seconds=seconds)))
+def small(head=6.0, kind="bubbles", physics="model: latex", seconds=1.0, length=9, tail=3):
+    words = {
+        "head": head,
+        "kind": kind,
+        "physics": physics,
+        "seconds": seconds,
+        "length": length,
+        "tail": tail,
+    }
+    return plan_of(Recipe.parse(RECIPE.format(**words)))
 
 
 def failing():
-    """A loop so short that the outside of its bend bursts."""
-    return small(head=9, kind="loop", physics="burst: stop", seconds=2.0)
+    """A loop that takes most of a balloon without tail."""
+    return small(head=12, kind="loop", physics="burst: stop", seconds=2.0, length=6, tail=0)
 
 
 def batch_of(*plans, ahead, most=1000):

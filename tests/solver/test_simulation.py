@@ -5,11 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from balloon_usd.balloon.rubber import BURST_STRETCH
 from balloon_usd.operations.moves import Press
 from balloon_usd.plan import plan
 from balloon_usd.recipe import Recipe, RecipeBuilder
 from balloon_usd.solver.errors import DeviceUnavailable, SimulationFailed
 from balloon_usd.solver.frame import Frame
+from balloon_usd.solver.run_summary import RunSummary
 from balloon_usd.solver.simulation import simulate_many
 
 SHORT = """
@@ -18,7 +20,7 @@ name: {name}
 units: cm
 fps: 12
 balloons:
-  main: {{size: 260, length: 9, tail: {tail}, color: red}}
+  main: {{size: 260, length: {length}, tail: {tail}, color: red}}
 steps:
   - {kind}: {{head: {head}}}
   - rest: tail
@@ -26,13 +28,14 @@ physics: {physics}
 """
 
 
-def short(name="short", head=6, tail=3, kind="bubbles", physics="{hold: 0.2}"):
-    return plan(Recipe.parse(SHORT.format(name=name, head=head, tail=tail, kind=kind, physics=physics)))
+def short(name="short", head=6, tail=3, kind="bubbles", physics="{hold: 0.2}", length=9):
+    words = {"name": name, "head": head, "tail": tail, "kind": kind, "physics": physics, "length": length}
+    return plan(Recipe.parse(SHORT.format(**words)))
 
 
 def bursting():
-    """A loop so short that the outside of its bend bursts."""
-    return short("bursting", head=9, kind="loop", physics="{hold: 0.2, burst: stop}")
+    """A loop that takes most of a balloon without tail."""
+    return short("bursting", head=12, tail=0, kind="loop", physics="{hold: 0.2, burst: stop}", length=6)
 
 
 def last_frames(plans, device="cpu"):
@@ -41,6 +44,16 @@ def last_frames(plans, device="cpu"):
         for world, frame in enumerate(frames):
             last[world] = frame if frame is not None else last[world]
     return last
+
+
+def summarised(plan):
+    """The summary of a whole run, and its last frame."""
+    simulation = simulate_many([plan], detail="draft", device="cpu")
+    summary = RunSummary(plan, simulation.meshes[0])
+    for (frame,) in simulation.frames():
+        assert isinstance(frame, Frame), frame
+        summary.add(frame)
+    return summary, frame
 
 
 PRESSED = """
@@ -96,9 +109,29 @@ def test_gas_is_neither_lost_nor_won_once_the_pump_has_stopped():
 
 
 def test_a_burst_stops_the_run_when_the_recipe_says_so():
-    stopped = last_frames([bursting()])[0]
+    figure = bursting()
+    stopped = last_frames([figure])[0]
     assert isinstance(stopped, SimulationFailed)
     assert "head bursts" in str(stopped)
+    assert "main may burst at the twist that ends head" in [caution.what for caution in figure.cautions]
+
+
+def test_a_loop_that_the_plan_calls_safe_does_not_burst_though_its_crease_is_stretched_beyond_seven():
+    figure = short(head=9, kind="loop", physics="{hold: 0.2, burst: stop}")
+    assert not any("burst" in caution.what for caution in figure.cautions)
+    summary, _ = summarised(figure)
+    assert summary.highest_stretch > BURST_STRETCH
+    assert 0.6 < summary.wall_load.load < 1.0
+    assert not summary.bursts
+
+
+def test_a_run_without_tail_tells_its_hardest_bubble():
+    figure = short(tail=0, physics="{hold: 0}")
+    summary, frame = summarised(figure)
+    hardest = figure.bubbles[int(np.argmax(frame.pressure))].name
+    ((balloon, (bubble, pressure)),) = summary.hard.items()
+    assert (balloon, bubble) == ("main", hardest)
+    assert pressure == frame.pressure.max() > 7.2e3
 
 
 def test_one_failure_in_a_batch_leaves_the_others_alone():

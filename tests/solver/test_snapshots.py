@@ -19,7 +19,7 @@ name: small
 units: cm
 fps: 12
 balloons:
-  main: {{size: 260, length: 9, tail: 3, color: red}}
+  main: {{size: 260, length: {length}, tail: {tail}, color: red}}
 steps:
   - {kind}: {{head: {head}}}
     seconds: {seconds}
@@ -28,14 +28,22 @@ physics: {{hold: 0.2, {physics}}}
 """
 
 
-def small(head=6, kind="bubbles", physics="model: latex", seconds=1.0):
-    return plan(Recipe.parse(RECIPE.format(head=head, kind=kind, physics=physics, seconds=seconds)))
+def small(head=6, kind="bubbles", physics="model: latex", seconds=1.0, length=9, tail=3):
+    words = {
+        "head": head,
+        "kind": kind,
+        "physics": physics,
+        "seconds": seconds,
+        "length": length,
+        "tail": tail,
+    }
+    return plan(Recipe.parse(RECIPE.format(**words)))
 
 
 def three():
     """Two plans of different lengths and one between them that soon bursts."""
     burst = "burst: stop"
-    return [small(physics=burst), small(9, "loop", burst, 2), small(5, physics=burst, seconds=3)]
+    return [small(physics=burst), small(12, "loop", burst, 2, 6, 0), small(5, physics=burst, seconds=3)]
 
 
 def two_of_kosaka():
