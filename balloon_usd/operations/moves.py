@@ -127,6 +127,11 @@ class LetGo(Move):
 
 
 @dataclass(frozen=True)
+class Hold(Move):
+    """Put the finished sculpture down and look at it."""
+
+
+@dataclass(frozen=True)
 class Choreography:
     """All moves of a sculpture in time."""
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from balloon_usd.plan.welding import MOST_WELDED
+from balloon_usd.solver.kernels.physics.contact import LYING_MODE
 from balloon_usd.solver.kernels.physics.joints import CLASP_MODE, GRIP_MODE, LEAD_MODE
 from balloon_usd.solver.motions.chains import pose_chains
 from balloon_usd.solver.upload import ArrayUpload, BatchedUpload
@@ -127,6 +128,10 @@ class Hands:
     def touch(self, balloons: Iterable[int]) -> None:
         """Let the walls of these balloons touch from now on."""
         self.touching[list(balloons)] = 1
+
+    def lay(self, balloons: list[int]) -> None:
+        """Let the walls of these balloons go on touching what they touch, and nothing else."""
+        self.touching[balloons] = np.where(self.touching[balloons] > 0, LYING_MODE, 0)
 
     def give_up(self, balloons: Iterable[int]) -> None:
         """Leave balloons alone whose run has failed."""

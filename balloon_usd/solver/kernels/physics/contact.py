@@ -26,6 +26,9 @@ from balloon_usd.solver.kernels.device.warp_reduce import (
 )
 
 MOST_HITS = wp.constant(HITS)
+LYING_MODE = 2
+LYING = wp.constant(LYING_MODE)
+"""Of a balloon at rest: its walls touch what they touched, and look for nothing else."""
 
 FACING = wp.constant(-0.1)
 """Walls face each other when the dot product of their outward normals is below this."""
@@ -410,7 +413,8 @@ def find_walls(
     low = seeker.position - wp.vec3(ROUNDED * seeker.reach)
     high = seeker.position + wp.vec3(ROUNDED * seeker.reach)
     own_of_all = own
-    if spare or balloons.touching[seeker.balloon] == 0:
+    touching = balloons.touching[seeker.balloon]
+    if spare or touching == 0 or touching == LYING:
         first = NONE
         last = -NONE
         low = wp.vec3(FAR)
@@ -442,6 +446,8 @@ def find_walls(
                     close &= close - 1
         begin += wp.block_dim()
     before = wp.vec2i(int_in(contacts.target, i, 0), int_in(contacts.target, i, 1))
+    if touching == LYING:
+        nearest = before
     # Most vertices touch nothing, and did not before.
     if spare or (nearest[0] < 0 and before[0] < 0 and before[1] < 0):
         return

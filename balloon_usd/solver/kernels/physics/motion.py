@@ -86,9 +86,9 @@ def step_of_vertex(
     b = int_at(mesh.vertex_balloon, i)
     spin = int_at(hands.vertex_spin, i)
     pull = wp.vec3(0.0, 0.0, -float_at(balloons.gravity, b) * float_at(rubber.true_mass, i))
-    velocity = (coherent_vec3(state.v, i, shared) + (f + pull) * (dt / float_at(mesh.mass, i))) * wp.max(
-        1.0 - float_at(balloons.drag, b) * dt, 0.0
-    )
+    # Drag takes from the velocity only: it must not weaken forces against those that act on whole rings.
+    kept = wp.max(1.0 - float_at(balloons.drag, b) * dt, 0.0)
+    velocity = kept * coherent_vec3(state.v, i, shared) + (f + pull) * (dt / float_at(mesh.mass, i))
     p = coherent_vec3(state.x, i, shared) + velocity * dt
     if spin > 0:
         turn = hands.spins[spin - 1]
