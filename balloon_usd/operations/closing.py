@@ -23,5 +23,6 @@ class TwistsClosed(Pointed, Turned, TwistsOff):
             start, end = score.layout.ends(bubble)
             if end is not None:
                 text = f"{self.word} twist: {bubble}"
-                score.gather(start, end, self.point, text, index)
+                fold = bubble if self.folds else None
+                score.gather(start, end, self.point, text, index, fold=fold)
                 score.weld((start, end), self.turns, text, index)

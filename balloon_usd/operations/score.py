@@ -147,13 +147,21 @@ class Score:
         else:
             self.add(Bring(self.now, BRING_SECONDS, index, text, ring=last, to=first))
 
-    def gather(self, first: int, last: int, point: Point | None, text: str, index: int) -> None:
-        """Bring two joints of one balloon together, what is between them to a side."""
+    def gather(
+        self, first: int, last: int, point: Point | None, text: str, index: int, *, fold: str | None = None
+    ) -> None:
+        """Bring two joints of one balloon together, what is between them to a side.
+
+        `fold`: the bubble between them, where its two halves are laid side by side.
+        """
         layout = self.layout
         joints = [k for k in range(first, last + 1) if layout.ring(k).joint]
         corners = tuple(joints)
         cheeks: tuple[tuple[int, int], ...] = ()
-        if len(joints) == 2:
+        if fold is not None:
+            before, middle, beyond = layout.guides(fold)
+            corners, cheeks = (first, middle, last), ((before, 0), (beyond, 1))
+        elif len(joints) == 2:
             corners = (first, *layout.guides(layout.ring(last).bubble), last)
         elif len(joints) == 3:
             cheeks = tuple((layout.guides(layout.ring(j).bubble)[0], k) for k, j in enumerate(joints[1:]))

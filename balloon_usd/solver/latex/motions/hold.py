@@ -11,13 +11,13 @@ if TYPE_CHECKING:
     from balloon_usd.operations import moves
     from balloon_usd.solver.latex.sculpture import LatexSculpture
 
-PUT_DOWN_SECONDS = 0.3
-"""Time in which the drag on a sculpture that is put down grows by a factor e, s: in half a second it damps a
+PUT_DOWN_SECONDS = 0.25
+"""Time in which the drag on a sculpture that is put down grows by a factor e, s: in 0.4 s it damps a
 swing of 2 Hz critically.
 """
 MOST_DRAG = 400.0
 """Drag on what has been put down, 1/s: at 2 mm/s it takes 2 N from each kg of the mesh, 10 Pa off a wall."""
-AT_REST_SECONDS = 1.2
+AT_REST_SECONDS = 1.0
 """Time after which walls that lie on each other stay where they do, s: dry friction at rest does not creep."""
 
 
