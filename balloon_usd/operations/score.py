@@ -148,11 +148,20 @@ class Score:
             self.add(Bring(self.now, BRING_SECONDS, index, text, ring=last, to=first))
 
     def gather(
-        self, first: int, last: int, point: Point | None, text: str, index: int, *, fold: str | None = None
+        self,
+        first: int,
+        last: int,
+        point: Point | None,
+        text: str,
+        index: int,
+        *,
+        fold: str | None = None,
+        pulled: float = 0.0,
     ) -> None:
         """Bring two joints of one balloon together, what is between them to a side.
 
-        `fold`: the bubble between them, where its two halves are laid side by side.
+        `fold`: the bubble between them, where its two halves are laid side by side; `pulled`: how far its
+        middle is pulled out, m, as that of an ear.
         """
         layout = self.layout
         joints = [k for k in range(first, last + 1) if layout.ring(k).joint]
@@ -168,7 +177,8 @@ class Score:
         length = sum(layout.bubble(layout.ring(j).bubble).length for j in joints[1:])
         seconds = max(GATHER_LEAST, length / (CARRYING_SPEED if self.blown_up else HAND_SPEED))
         aim = POINTS[point or "up"]
-        self.add(Gather(self.now, seconds, index, text, corners=corners, cheeks=cheeks, point=aim))
+        gather = Gather(self.now, seconds, index, text, corners=corners, cheeks=cheeks, point=aim)
+        self.add(replace(gather, pulled=pulled))
 
     def weld(self, rings: tuple[int, ...], turns: float, text: str, index: int) -> None:
         """Twist joints that lie together into one."""

@@ -117,6 +117,9 @@ class Hands:
             self.start[joint] = self.goal[joint] = middle[joint]
             self.free[joint] = 0.0
 
+    def pull(self, joint: int) -> None:
+        """Pull a ring as hard as hands can, once it is led."""
+
     def close(self, joint: int, radius: float) -> None:
         """Set the radius (m) that a neck has at the end of the frame."""
         self.radius_goal[joint] = radius

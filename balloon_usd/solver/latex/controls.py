@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from balloon_usd.solver.hands import Floats, Hands
+from balloon_usd.solver.hands import LEAD_FORCE, Floats, Hands
 from balloon_usd.solver.kernels.physics.gas import OPEN_PASSAGE, WIDE_OPEN
 from balloon_usd.solver.latex.spins import Spins
 
@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 
     from balloon_usd.solver.latex.scene import LatexScene
     from balloon_usd.solver.latex.spins import VertexSet
+
+PULL_FORCE = 20.0
+"""Largest force of a hand that pulls a bubble out between its ends, N: the gas of a 260 pushes with 14."""
 
 
 class LatexControls(Hands):
@@ -57,6 +60,15 @@ class LatexControls(Hands):
         super().begin_frame(state)
         self.spins.stop()
         self.amount, self.volume = state["amount"].copy(), state["volume"]
+
+    def pull(self, joint: int) -> None:
+        """Pull a ring with a firm grip instead of leading it, until it is let go."""
+        self.force[joint] = PULL_FORCE
+
+    def let_go(self, joints: NDArray[np.int64]) -> None:
+        """Take the hands from these rings."""
+        super().let_go(joints)
+        self.force[joints] = LEAD_FORCE
 
     def squeeze(self, joint: int, radius: float, passage: float) -> None:
         """Set the radius (m) and the open area (m2) that a neck has at the end of the frame."""

@@ -37,7 +37,11 @@ class Gather(Motion):
         carried = sculpture.carry(move.corners)
         began = sculpture.frame.middle[corners].astype(np.float64)
         sides = np.maximum(np.linalg.norm(np.diff(began, axis=0), axis=1), 1e-3)
-        closing = ClosingChain(sides, ALONG, np.array(move.point), 2.0 * float(hands.neck[held]))
+        gap = 2.0 * float(hands.neck[held])
+        if move.pulled:
+            hands.pull(corners[1])
+            sides = np.maximum(sides, move.pulled)
+        closing = ClosingChain(sides, ALONG, np.array(move.point), gap, across=not move.pulled)
         off = began - began[-1] - closing.pose(0.0)
         self._chain = Chain(np.array(corners), began, closing, off, carried, _cheeks(move, sculpture, began))
 

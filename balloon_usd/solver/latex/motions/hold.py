@@ -18,7 +18,7 @@ swing of 2 Hz critically.
 MOST_DRAG = 400.0
 """Drag on what has been put down, 1/s: at 2 mm/s it takes 2 N from each kg of the mesh, 10 Pa off a wall."""
 AT_REST_SECONDS = 1.0
-"""Time after which walls that lie on each other stay where they do, s: dry friction at rest does not creep."""
+"""Time after which walls keep touching what they touch, s: dry friction at rest does not creep."""
 
 
 class Hold(Motion):
@@ -27,7 +27,7 @@ class Hold(Motion):
     Not under gravity: then it falls, as nothing is below it.
     """
 
-    def __init__(self, move: moves.Hold, sculpture: LatexSculpture) -> None:
+    def __init__(self, _: moves.Hold, sculpture: LatexSculpture) -> None:
         """Begin to put it down."""
         self._sculpture = sculpture
         self._bodies = list(sculpture.bodies)
