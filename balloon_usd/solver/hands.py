@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from balloon_usd.plan.welding import MOST_WELDED
-from balloon_usd.solver.kernels.physics.contact import LYING_MODE
 from balloon_usd.solver.kernels.physics.joints import CLASP_MODE, GRIP_MODE, LEAD_MODE
+from balloon_usd.solver.kernels.physics.motion import LYING_MODE
 from balloon_usd.solver.motions.chains import pose_chains
 from balloon_usd.solver.upload import ArrayUpload, BatchedUpload
 

@@ -93,7 +93,7 @@ def _neighbours(meeting: Sequence[_Met], hands: Hands) -> set[int]:
 
 
 def _halves(meeting: Sequence[_Met]) -> set[tuple[int, int]]:
-    """Middles of the halves of folds: the twist that both their ends are wound into keeps them side by side."""
+    """Middles of the halves of folds: the twist that their ends are wound into keeps them side by side."""
     folds = [bubble for bubble, inside, _ in meeting if bubble.folded and inside == 2]
     return {(bubble.guides[0], bubble.guides[-1]) for bubble in folds}
 

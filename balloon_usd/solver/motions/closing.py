@@ -62,8 +62,8 @@ class ClosingChain:
         """Take the sides from the first joint to the last, (sides,) m.
 
         `along`: unit direction of the balloon beyond the held joint. `point`: unit direction, across `along`,
-        to which the chain rises. `gap`: distance that stays between first and last joint, m. `across`: whether
-        the chain is turned across the balloon in the end.
+        to which the chain rises. `gap`: distance that stays between first and last joint, m.
+        `across`: whether the chain is turned across the balloon in the end.
         """
         if len(lengths) == 2:
             # Two sides lie on each other when closed: as unequal sides they would tilt.

@@ -24,11 +24,9 @@ from balloon_usd.solver.kernels.device.warp_reduce import (
     warp_max3,
     warp_sum,
 )
+from balloon_usd.solver.kernels.physics.motion import LYING
 
 MOST_HITS = wp.constant(HITS)
-LYING_MODE = 2
-LYING = wp.constant(LYING_MODE)
-"""Of a balloon at rest: its walls touch what they touched, and look for nothing else."""
 
 FACING = wp.constant(-0.1)
 """Walls face each other when the dot product of their outward normals is below this."""

@@ -1,4 +1,4 @@
-"""Putting a finished sculpture of latex down, and waiting until it is at rest."""
+"""Putting a finished sculpture of latex down, and looking at it."""
 
 from __future__ import annotations
 
@@ -12,37 +12,37 @@ if TYPE_CHECKING:
     from balloon_usd.solver.latex.sculpture import LatexSculpture
 
 PUT_DOWN_SECONDS = 0.25
-"""Time in which the drag on a sculpture that is put down grows by a factor e, s: in 0.4 s it damps a
-swing of 2 Hz critically.
+"""Time in which the drag on a sculpture that is put down grows by a factor e, s: after 0.4 s it damps a swing
+of 2 Hz critically.
 """
 MOST_DRAG = 400.0
-"""Drag on what has been put down, 1/s: at 2 mm/s it takes 2 N from each kg of the mesh, 10 Pa off a wall."""
-AT_REST_SECONDS = 1.0
-"""Time after which walls keep touching what they touch, s: dry friction at rest does not creep."""
+"""Drag on what has been put down, 1/s: at 2 mm/s it takes 0.8 N from each kg of the mesh, 5 Pa off a wall."""
+LIES_AFTER = 1.0
+"""Time after which a sculpture lies and sticks to what it lies on, s."""
 
 
 class Hold(Motion):
-    """A sculpture that hands put down: what it lies on takes its swing, as the air alone would in minutes.
+    """A sculpture that hands put down: what it lies on takes its swing, and then keeps it from creeping.
 
-    Not under gravity: then it falls, as nothing is below it.
+    Not under gravity, for nothing is below it: it falls. What leaks shrinks, and so does not stick.
     """
 
     def __init__(self, _: moves.Hold, sculpture: LatexSculpture) -> None:
         """Begin to put it down."""
         self._sculpture = sculpture
+        physics = sculpture.plan.recipe.physics
         self._bodies = list(sculpture.bodies)
-        self._falls = sculpture.scene.settings.gravity > 0.0
-        self._lain = 0.0
-        """Time since nothing came undone any more, s."""
+        self._put_down, self._leaks = physics.gravity == 0.0, physics.leak is not None
+        self._seconds = 0.0
+        """Time since nothing comes undone any more."""
 
     def advance(self, _: float) -> None:
-        """Put it down further, unless it is still coming undone."""
+        """Put it down further, unless it is coming undone."""
         sculpture = self._sculpture
-        if self._falls or sculpture.unwinding is not None:
+        if not self._put_down or sculpture.unwinding is not None:
             return
-        self._lain += sculpture.frame.end - sculpture.frame.begin
-        usual = sculpture.scene.settings.drag
-        drag = min(usual * math.exp(self._lain / PUT_DOWN_SECONDS), MOST_DRAG)
-        sculpture.hands.drag[self._bodies] = drag
-        if self._lain >= AT_REST_SECONDS:
+        self._seconds += sculpture.frame.end - sculpture.frame.begin
+        growing = sculpture.scene.settings.drag * math.exp(self._seconds / PUT_DOWN_SECONDS)
+        sculpture.hands.drag[self._bodies] = min(growing, MOST_DRAG)
+        if self._seconds >= LIES_AFTER and not self._leaks:
             sculpture.hands.lay(self._bodies)
