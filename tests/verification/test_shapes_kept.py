@@ -59,6 +59,14 @@ class Shown:
         return float((self.place("it", 0.5) - ends)[2]) / self.width
 
     @property
+    def corner(self):
+        """Angle between the bubbles before and beyond, degrees."""
+        before = self.place("before", 0.0) - self.place("it", 0.0)
+        beyond = self.place("beyond", 0.5) - self.place("it", 1.0)
+        cosine = before @ beyond / (np.linalg.norm(before) * np.linalg.norm(beyond))
+        return float(np.degrees(np.arccos(cosine)))
+
+    @property
     def fastest(self):
         """Largest speed of a vertex in the last half second, m/s."""
         last = self.points[-round(0.5 * self.fps) - 1 :]
@@ -81,6 +89,11 @@ def test_a_loop_as_long_is_an_open_ring():
 
 def test_an_ear_is_a_bean_beside_its_balloon_and_no_disc_within_it(verify):
     verify("V28", "ear of 5 cm, how far it stands out, in widths", shown("ear", 5).out, 0.5, 0.15)
+
+
+def test_the_neighbours_of_an_ear_bend_towards_each_other():
+    assert shown("ear", 5).corner < 140.0
+    assert shown("loop", 30).corner > 150.0
 
 
 @pytest.mark.parametrize(("kind", "length"), [("fold", 20), ("fold", 30), ("loop", 30), ("ear", 5)])
