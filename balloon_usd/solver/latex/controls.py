@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.solver.hands import LEAD_FORCE, Floats, Hands
 from balloon_usd.solver.kernels.physics.gas import OPEN_PASSAGE, WIDE_OPEN
 from balloon_usd.solver.latex.spins import Spins
@@ -18,8 +19,8 @@ if TYPE_CHECKING:
     from balloon_usd.solver.latex.scene import LatexScene
     from balloon_usd.solver.latex.spins import VertexSet
 
-PULL_FORCE = 20.0
-"""Largest force of a hand that pulls a bubble out between its ends, N: the gas of a 260 pushes with 14."""
+PULL = 1.4
+"""Largest force of a hand that pulls a bubble out between its ends, in forces of its gas on the end."""
 
 
 class LatexControls(Hands):
@@ -63,7 +64,10 @@ class LatexControls(Hands):
 
     def pull(self, joint: int) -> None:
         """Pull a ring with a firm grip instead of leading it, until it is let go."""
-        self.force[joint] = PULL_FORCE
+        body = self.scene.bodies[self._joint_body[joint]]
+        state = maxwell_state(body.rubber)
+        pressure = state.p_star * float(np.median(body.thickness)) / body.radius
+        self.force[joint] = PULL * pressure * np.pi * (state.bulged.a * body.radius) ** 2
 
     def let_go(self, joints: NDArray[np.int64]) -> None:
         """Take the hands from these rings."""
