@@ -4,7 +4,7 @@ import warp as wp
 
 TARGETS = 2
 """Walls that one vertex may touch at a time."""
-HITS = 24
+HITS = 32
 """Vertices that may press on one quad at a time."""
 STRUT_SLOTS = 24
 """Most struts that may end at one joint."""
