@@ -15,6 +15,8 @@ class TwistsClosed(Pointed, Turned, TwistsOff):
     """An operation that makes bubbles each of which closes on itself."""
 
     closes: ClassVar[bool] = True
+    pulled: ClassVar[float] = 0.0
+    """How far hands pull its bubbles out between their ends, in diameters of their tubes."""
 
     def perform(self, score: Score, index: int) -> None:
         """Twist each bubble off, bring its two ends together and twist them into one."""
@@ -23,5 +25,7 @@ class TwistsClosed(Pointed, Turned, TwistsOff):
             start, end = score.layout.ends(bubble)
             if end is not None:
                 text = f"{self.word} twist: {bubble}"
-                score.gather(start, end, self.point, text, index)
+                pulled = self.pulled * score.layout.bubble(bubble).width
+                fold = bubble if self.folds else None
+                score.gather(start, end, self.point, text, index, fold=fold, pulled=pulled)
                 score.weld((start, end), self.turns, text, index)

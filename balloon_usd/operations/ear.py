@@ -13,6 +13,7 @@ class Ear(TwistsClosed):
 
     word: ClassVar[str] = "ear"
     bubble_kind: ClassVar[BubbleKind | None] = "ear"
+    pulled: ClassVar[float] = 0.9
     example: ClassVar[str] = """\
 format: 1
 name: bear_head

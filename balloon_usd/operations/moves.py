@@ -73,6 +73,8 @@ class Gather(Move):
     """Guide rings in the middle of sides that are pressed outwards, with the index of the side."""
     point: Vector = (0.0, 0.0, 1.0)
     """Unit direction to which the chain rises."""
+    pulled: float = 0.0
+    """How far a bubble is pulled out between its ends, m; 0 where the chain is turned across the balloon."""
 
 
 @dataclass(frozen=True)
@@ -132,6 +134,11 @@ class LetGo(Move):
 
     for_good: bool = False
     """Whether nothing is made any more: until then makers hold by hand what would come undone."""
+
+
+@dataclass(frozen=True)
+class Hold(Move):
+    """Put the finished sculpture down and look at it."""
 
 
 @dataclass(frozen=True)

@@ -35,6 +35,8 @@ class Operation(Entries):
     """Of the bubbles that it makes."""
     closes: ClassVar[bool] = False
     """Whether it twists the two ends of each of them together."""
+    folds: ClassVar[bool] = False
+    """Whether it lays the two halves of each of them side by side."""
     guides: ClassVar[tuple[float, ...]] = (0.5,)
     """Where hands lead each of them, as shares of its length."""
     by_bubble: ClassVar[bool] = False

@@ -158,13 +158,30 @@ class Score:
         else:
             self.add(Bring(self.now, BRING_SECONDS / self.pace.leading, index, text, ring=last, to=first))
 
-    def gather(self, first: int, last: int, point: Point | None, text: str, index: int) -> None:
-        """Bring two joints of one balloon together, what is between them to a side."""
+    def gather(
+        self,
+        first: int,
+        last: int,
+        point: Point | None,
+        text: str,
+        index: int,
+        *,
+        fold: str | None = None,
+        pulled: float = 0.0,
+    ) -> None:
+        """Bring two joints of one balloon together, what is between them to a side.
+
+        `fold`: the bubble between them, where its two halves are laid side by side; `pulled`: how far its
+        middle is pulled out, m, as that of an ear.
+        """
         layout = self.layout
         joints = [k for k in range(first, last + 1) if layout.ring(k).joint]
         corners = tuple(joints)
         cheeks: tuple[tuple[int, int], ...] = ()
-        if len(joints) == 2:
+        if fold is not None:
+            before, middle, beyond = layout.guides(fold)
+            corners, cheeks = (first, middle, last), ((before, 0), (beyond, 1))
+        elif len(joints) == 2:
             corners = (first, *layout.guides(layout.ring(last).bubble), last)
         elif len(joints) == 3:
             cheeks = tuple((layout.guides(layout.ring(j).bubble)[0], k) for k, j in enumerate(joints[1:]))
@@ -172,7 +189,8 @@ class Score:
         seconds = max(GATHER_LEAST, length / (CARRYING_SPEED if self.blown_up else HAND_SPEED))
         seconds /= self.pace.leading
         aim = POINTS[point or "up"]
-        self.add(Gather(self.now, seconds, index, text, corners=corners, cheeks=cheeks, point=aim))
+        gather = Gather(self.now, seconds, index, text, corners=corners, cheeks=cheeks, point=aim)
+        self.add(replace(gather, pulled=pulled))
 
     def weld(self, rings: tuple[int, ...], turns: float, text: str, index: int) -> None:
         """Twist joints that lie together into one."""

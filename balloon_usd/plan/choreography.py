@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from balloon_usd.operations.inflate import Inflate as InflateStep
 from balloon_usd.operations.modifiers import Timed
-from balloon_usd.operations.moves import Choreography, Inflate, LetGo, Move
+from balloon_usd.operations.moves import Choreography, Hold, Inflate, LetGo, Move
 from balloon_usd.operations.score import Score
 from balloon_usd.operations.tempo import PACES
 from balloon_usd.plan.laid_out import LaidOut
@@ -48,7 +48,7 @@ def choreograph(recipe: Recipe, strips: Mapping[str, Strip], table: RingTable) -
         if isinstance(step, Timed) and step.seconds is not None and not step.keeps_time:
             score.retime(first, begin, step.seconds)
     score.add(LetGo(score.now, 0.0, len(recipe.steps), "let go", for_good=True))
-    score.add(Move(score.now, recipe.physics.hold, len(recipe.steps), "hold"))
+    score.add(Hold(score.now, recipe.physics.hold, len(recipe.steps), "hold"))
     return Choreography(tuple(score.moves), score.now)
 
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from balloon_usd.plan.welding import MOST_WELDED
 from balloon_usd.solver.kernels.physics.joints import CLASP_MODE, GRIP_MODE, LEAD_MODE
+from balloon_usd.solver.kernels.physics.motion import LYING_MODE
 from balloon_usd.solver.motions.chains import pose_chains
 from balloon_usd.solver.upload import ArrayUpload, BatchedUpload
 
@@ -120,6 +121,9 @@ class Hands:
         """Tell whether a hand leads a ring."""
         return bool(self.mode[joint] == LEAD_MODE)
 
+    def pull(self, joint: int) -> None:
+        """Pull a ring as hard as hands can, once it is led."""
+
     def close(self, joint: int, radius: float) -> None:
         """Set the radius (m) that a neck has at the end of the frame."""
         self.radius_goal[joint] = radius
@@ -131,6 +135,10 @@ class Hands:
     def touch(self, balloons: Iterable[int]) -> None:
         """Let the walls of these balloons touch from now on."""
         self.touching[list(balloons)] = 1
+
+    def lay(self, balloons: list[int]) -> None:
+        """Let the walls of these balloons go on touching what they touch, and nothing else."""
+        self.touching[balloons] = np.where(self.touching[balloons] > 0, LYING_MODE, 0)
 
     def give_up(self, balloons: Iterable[int]) -> None:
         """Leave balloons alone whose run has failed."""

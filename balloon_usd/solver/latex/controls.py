@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from balloon_usd.solver.hands import Floats, Hands
+from balloon_usd.balloon.tube_theory import maxwell_state
+from balloon_usd.solver.hands import LEAD_FORCE, Floats, Hands
 from balloon_usd.solver.kernels.physics.gas import OPEN_PASSAGE, WIDE_OPEN
 from balloon_usd.solver.latex.spins import Spins
 
@@ -17,6 +18,8 @@ if TYPE_CHECKING:
     from balloon_usd.solver.latex.scene import LatexScene
     from balloon_usd.solver.latex.spins import VertexSet
 
+PULL = 1.4
+"""Largest force of a hand that pulls a bubble out between its ends, in forces of its gas on the end."""
 Points = NDArray[np.float32] | NDArray[np.float64]
 
 
@@ -65,6 +68,18 @@ class LatexControls(Hands):
             self.neck_flow[:] = 0.0
             self._pushing = False
         self.amount, self.volume = state["amount"].copy(), state["volume"]
+
+    def pull(self, joint: int) -> None:
+        """Pull a ring with a firm grip instead of leading it, until it is let go."""
+        body = self.scene.bodies[self._joint_body[joint]]
+        state = maxwell_state(body.rubber)
+        pressure = state.p_star * float(np.median(body.thickness)) / body.radius
+        self.force[joint] = PULL * pressure * np.pi * (state.bulged.a * body.radius) ** 2
+
+    def let_go(self, joints: NDArray[np.int64]) -> None:
+        """Take the hands from these rings."""
+        super().let_go(joints)
+        self.force[joints] = LEAD_FORCE
 
     def squeeze(self, joint: int, radius: float, passage: float) -> None:
         """Set the radius (m) and the open area (m2) that a neck has at the end of the frame."""

@@ -6,6 +6,8 @@ from functools import cached_property
 from itertools import combinations
 from typing import TYPE_CHECKING, NamedTuple
 
+from balloon_usd.operations.table import BY_KIND
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -20,6 +22,8 @@ class _Bubble(NamedTuple):
     """Rings at its start and at its end; the tip has none."""
     guides: tuple[int, ...]
     """Rings inside, from its start to its end."""
+    folded: bool
+    """Whether its two halves lie side by side."""
 
 
 class _Met(NamedTuple):
@@ -47,6 +51,7 @@ class Friction:
             _Bubble(
                 tuple(rings[r] for r in table.ends(bubble.name) if r is not None),
                 tuple(rings[g] for g in table.guides(bubble.name)),
+                BY_KIND[bubble.kind].folds if bubble.kind in BY_KIND else False,
             )
             for bubble in self._plan.bubbles
         ]
@@ -58,7 +63,7 @@ class Friction:
         ends = [_neighbours(met, hands) for met in meeting]
         pairs = set()
         for met, near in zip(meeting, ends, strict=True):
-            pairs |= set(combinations(sorted(near | _cheeks(met, near)), 2))
+            pairs |= set(combinations(sorted(near | _cheeks(met, near)), 2)) | _halves(met)
         for (weld, near), (other, far) in combinations(zip(welds, ends, strict=True), 2):
             if near & other:
                 pairs |= {(min(a, b), max(a, b)) for a in near - other for b in far - weld if a != b}
@@ -77,7 +82,7 @@ class Friction:
 def _neighbours(meeting: Sequence[_Met], hands: Hands) -> set[int]:
     """Joints at the far ends of the bubbles that meet in a weld; of a loop or an open end, a ring inside."""
     found: set[int] = set()
-    for (_, guides), inside, outside in meeting:
+    for (_, guides, _), inside, outside in meeting:
         if outside is not None and hands.radius_goal[outside] > 0.0:
             found.add(outside)
         elif guides and inside == 2:
@@ -85,6 +90,12 @@ def _neighbours(meeting: Sequence[_Met], hands: Hands) -> set[int]:
         elif guides and outside is None:
             found.add(guides[0])
     return found
+
+
+def _halves(meeting: Sequence[_Met]) -> set[tuple[int, int]]:
+    """Middles of the halves of folds: the twist that their ends are wound into keeps them side by side."""
+    folds = [bubble for bubble, inside, _ in meeting if bubble.folded and inside == 2]
+    return {(bubble.guides[0], bubble.guides[-1]) for bubble in folds}
 
 
 def _cheeks(meeting: Sequence[_Met], near: set[int]) -> set[int]:

@@ -45,6 +45,8 @@ class Chain:
     carried: Carried
     """What hangs on its corners."""
     cheeks: Cheeks
+    dips: Floats
+    """How far what hangs on each corner goes besides in the end, (N, 3), m."""
 
     def pose(self, progress: float) -> Pose:
         """Return where its corners shall be; `progress`: 0 straight, 1 closed."""
@@ -62,13 +64,18 @@ class Pose(NamedTuple):
     corners: Floats
     """Where its corners shall be, (N, 3), m."""
 
+    @property
+    def shifts(self) -> Floats:
+        """How far what hangs on each corner shall go, (N, 3), m."""
+        return self.corners - self.chain.began + self.progress * self.chain.dips
+
 
 def pose_chains(goal: NDArray[np.float32], poses: Sequence[Pose]) -> None:
     """Write where hands bring the rings of some chains; `goal`: of all rings, (J, 3), m."""
     chains = [pose.chain for pose in poses]
     corners = np.concatenate([pose.corners for pose in poses])
     goal[np.concatenate([chain.corners for chain in chains])] = corners
-    carried = [pose.chain.carried.goals(pose.corners - pose.chain.began) for pose in poses]
+    carried = [pose.chain.carried.goals(pose.shifts) for pose in poses]
     goal[np.concatenate([chain.carried.joints for chain in chains])] = np.concatenate(carried)
     counts = [len(chain.cheeks.joints) for chain in chains]
     if any(counts):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,6 +19,9 @@ if TYPE_CHECKING:
     from balloon_usd.solver.sculpture import Sculpture
 
 Floats = NDArray[np.float64]
+
+BENT = math.radians(40.0)
+"""Angle by which hands bend the bubble before an ear away from it, rad."""
 
 
 class Gather(Motion):
@@ -37,13 +41,32 @@ class Gather(Motion):
         carried = sculpture.carry(move.corners)
         began = sculpture.frame.middle[corners].astype(np.float64)
         sides = np.maximum(np.linalg.norm(np.diff(began, axis=0), axis=1), 1e-3)
-        closing = ClosingChain(sides, ALONG, np.array(move.point), 2.0 * float(hands.neck[held]))
+        gap = 2.0 * float(hands.neck[held])
+        if move.pulled:
+            hands.pull(corners[1])
+            sides = np.maximum(sides, move.pulled)
+        closing = ClosingChain(sides, ALONG, np.array(move.point), gap, across=not move.pulled)
         off = began - began[-1] - closing.pose(0.0)
-        self._chain = Chain(np.array(corners), began, closing, off, carried, _cheeks(move, sculpture, began))
+        cheeks, dips = _cheeks(move, sculpture, began), _dips(move, sculpture, began)
+        self._chain = Chain(np.array(corners), began, closing, off, carried, cheeks, dips)
 
     def advance(self, share: float) -> None:
         """Close the chain by a share."""
         self._hands.bring(self._chain.pose(smooth(share)))
+
+
+def _dips(move: moves.Gather, sculpture: Sculpture, began: Floats) -> Floats:
+    """Return how far what hangs on each corner goes besides, (N, 3), m: hands bend the bubble before an ear
+    away from it.
+    """
+    dips = np.zeros_like(began)
+    rings, ring = sculpture.plan.table.rings, move.corners[0]
+    before = [r for r in range(ring) if rings[r].joint and rings[r].balloon == rings[ring].balloon]
+    if move.pulled and before:
+        far = sculpture.frame.middle[sculpture.joints[before[-1]]]
+        length = float(np.linalg.norm(began[0] - far))
+        dips[0] = length * ((1.0 - math.cos(BENT)) * ALONG - math.sin(BENT) * np.array(move.point))
+    return dips
 
 
 def _cheeks(move: moves.Gather, sculpture: Sculpture, began: Floats) -> Cheeks:

@@ -69,7 +69,7 @@ class Balloons:
     gravity: wp.array[float] = array("balloons", unit="m/s2", meaning="pull of gravity")
     drag: wp.array[float] = array("balloons", unit="1/s", meaning="drag of the air")
     friction: wp.array[float] = array("balloons", meaning="Coulomb friction")
-    touching: wp.array[int] = array("balloons", meaning="1 where its walls may touch something")
+    touching: wp.array[int] = array("balloons", meaning="1: its walls may touch anything; 2: what they touch")
 
 
 @array_struct

@@ -24,6 +24,7 @@ from balloon_usd.solver.kernels.device.warp_reduce import (
     warp_max3,
     warp_sum,
 )
+from balloon_usd.solver.kernels.physics.motion import LYING
 
 MOST_HITS = wp.constant(HITS)
 
@@ -410,7 +411,8 @@ def find_walls(
     low = seeker.position - wp.vec3(ROUNDED * seeker.reach)
     high = seeker.position + wp.vec3(ROUNDED * seeker.reach)
     own_of_all = own
-    if spare or balloons.touching[seeker.balloon] == 0:
+    touching = balloons.touching[seeker.balloon]
+    if spare or touching == 0 or touching == LYING:
         first = NONE
         last = -NONE
         low = wp.vec3(FAR)
@@ -442,6 +444,8 @@ def find_walls(
                     close &= close - 1
         begin += wp.block_dim()
     before = wp.vec2i(int_in(contacts.target, i, 0), int_in(contacts.target, i, 1))
+    if touching == LYING:
+        nearest = before
     # Most vertices touch nothing, and did not before.
     if spare or (nearest[0] < 0 and before[0] < 0 and before[1] < 0):
         return

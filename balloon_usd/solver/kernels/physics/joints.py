@@ -21,7 +21,7 @@ from balloon_usd.solver.kernels.device.barrier import warp_barrier
 from balloon_usd.solver.kernels.device.coherent_load import coherent_float, coherent_vec3
 from balloon_usd.solver.kernels.device.warp_reduce import warp_ballot, warp_sum3, warp_sum8
 from balloon_usd.solver.kernels.physics.gas import fan_gradient
-from balloon_usd.solver.kernels.physics.motion import force_on_vertex, step_of_vertex
+from balloon_usd.solver.kernels.physics.motion import force_on_vertex, step_of_vertex, sticking
 
 GRIP_MODE = 1
 LEAD_MODE = 2
@@ -201,6 +201,7 @@ def move_joint(
     grip = float_at(hands.hand_force, j)
     stiffness = float_at(hands.hand_stiffness, j)
     free = vec3_at(hands.hand_free, j)
+    touching = int_at(balloons.touching, int_at(mesh.vertex_balloon, first))
     # The sine of the angle between two corners.
     sine = vec2_at(mesh.ring_cos_sin, first + 1)[1]
     # Prefetch: issued early to hide its latency.
@@ -281,6 +282,10 @@ def move_joint(
             arm = axes * (closed * vec2_at(mesh.ring_cos_sin, i))
             s += (c + arm - d) / dt - wp.cross(turn, arm)
             d = c + arm
+        else:
+            over = sticking(s, touching)
+            s -= over
+            d -= over * dt
         put_vec3(state.x, i, old_middle + (d + shift))
         put_vec3(state.v, i, s)
     if lane == 0 and not idle:

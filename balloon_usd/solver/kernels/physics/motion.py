@@ -8,6 +8,22 @@ from balloon_usd.solver.kernels.device.array_access import float_at, int_at, put
 from balloon_usd.solver.kernels.device.coherent_load import coherent_float, coherent_vec3
 from balloon_usd.solver.kernels.device.soa import load_soa
 
+LYING_MODE = 2
+LYING = wp.constant(LYING_MODE)
+"""Of a balloon that was put down: its walls touch what they touched, and look for nothing else."""
+LYING_SPEED = wp.constant(1.0e-3)
+"""Largest speed of its wall, m/s: faster it sticks to what it lies on."""
+
+
+@wp.func
+def sticking(velocity: wp.vec3, touching: int):
+    """Return what a velocity (m/s) has too much where a wall sticks to what it lies on."""
+    over = wp.vec3(0.0)
+    speed = wp.length(velocity)
+    if touching == LYING and speed > LYING_SPEED:
+        over = velocity * (1.0 - LYING_SPEED / speed)
+    return over
+
 
 @wp.func
 def force_of_further_quads(
@@ -86,9 +102,9 @@ def step_of_vertex(
     b = int_at(mesh.vertex_balloon, i)
     spin = int_at(hands.vertex_spin, i)
     pull = wp.vec3(0.0, 0.0, -float_at(balloons.gravity, b) * float_at(rubber.true_mass, i))
-    velocity = (coherent_vec3(state.v, i, shared) + (f + pull) * (dt / float_at(mesh.mass, i))) * wp.max(
-        1.0 - float_at(balloons.drag, b) * dt, 0.0
-    )
+    # Drag takes from the velocity only: it must not weaken forces against those that act on whole rings.
+    kept = wp.max(1.0 - float_at(balloons.drag, b) * dt, 0.0)
+    velocity = kept * coherent_vec3(state.v, i, shared) + (f + pull) * (dt / float_at(mesh.mass, i))
     p = coherent_vec3(state.x, i, shared) + velocity * dt
     if spin > 0:
         turn = hands.spins[spin - 1]
@@ -123,5 +139,6 @@ def move_vertex(
             last, inside, mesh.corners, forces.corner_force, forces.volume_gradient, shared
         )
     p, velocity = step_of_vertex(i, f, dt, shared, mesh, balloons, rubber, hands, state)
-    put_vec3(state.x, i, p)
-    put_vec3(state.v, i, velocity)
+    over = sticking(velocity, int_at(balloons.touching, int_at(mesh.vertex_balloon, i)))
+    put_vec3(state.x, i, p - over * dt)
+    put_vec3(state.v, i, velocity - over)

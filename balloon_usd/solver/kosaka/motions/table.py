@@ -30,4 +30,5 @@ KOSAKA_MOTIONS: Motions = {
     moves.Press: Press,
     moves.Weld: KosakaWeld,
     moves.LetGo: LetGo,
+    moves.Hold: Wait,
 }

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from balloon_usd.operations import moves
 from balloon_usd.solver.latex.motions.bend import LatexBend
+from balloon_usd.solver.latex.motions.hold import Hold
 from balloon_usd.solver.latex.motions.inflate import Inflate
 from balloon_usd.solver.latex.motions.let_go import LatexLetGo
 from balloon_usd.solver.latex.motions.pinch import Pinch
@@ -32,4 +33,5 @@ LATEX_MOTIONS: Motions = {
     moves.Weld: Weld,
     moves.TurnFold: TurnFold,
     moves.LetGo: LatexLetGo,
+    moves.Hold: Hold,
 }
