@@ -39,6 +39,8 @@ DRAWING_SECONDS = 1.0
 """Closing of a ring by force in model kosaka, with time for the air to leave, s."""
 GATHER_LEAST = 1.1
 """Shortest gathering, s."""
+LEAST_TURNED = 0.8
+"""Length of the shortest bubble of a fold that hands turn, in widths of its tube; of a fold of one, twice."""
 BRING_SECONDS = 1.5
 """Bringing a joint to one of another balloon, s."""
 
@@ -195,29 +197,36 @@ class Score:
     def weld(self, rings: tuple[int, ...], turns: float, text: str, index: int) -> None:
         """Twist joints that lie together into one."""
         self.add(Weld(self.now, 0.0, index, text, rings=rings, turns=turns))
-        if not self.blown_up and self._is_fold(rings):
+        if not self.blown_up and self._can_turn(rings):
             seconds = self.pace.turning_seconds(turns, self._reach(*rings))
             self.add(TurnFold(self.now, seconds, index, text, rings=rings, turns=turns))
         self.add(Move(self.now, SETTLE_SECONDS, index, text))
         self.let_go(index)
 
-    def _is_fold(self, rings: tuple[int, ...]) -> bool:
-        """Tell whether joints of one balloon come together, with bubbles folded between them."""
-        return len(rings) == 2 and self.layout.ring(rings[0]).balloon == self.layout.ring(rings[1]).balloon
+    def _can_turn(self, rings: tuple[int, ...]) -> bool:
+        """Tell whether joints of one balloon come together, with a fold between them that is long enough to
+        be turned: the wall of a short one would fold over at its ends.
+        """
+        if len(rings) != 2 or self.layout.ring(rings[0]).balloon != self.layout.ring(rings[1]).balloon:
+            return False
+        bubbles = self._between(*rings)
+        shortest = LEAST_TURNED if len(bubbles) > 1 else 2.0 * LEAST_TURNED
+        return min(bubble.length / bubble.width for bubble in bubbles) >= shortest
 
     def _reach(self, first: int, last: int) -> float:
         """Return about how far what is folded between two rings reaches from the axis of its turn, m:
         a pair lies side by side, a ring or a loop opens as it is turned.
         """
-        bubbles = [
-            self.layout.bubble(ring.bubble)
-            for ring in map(self.layout.ring, range(first + 1, last + 1))
-            if ring.joint
-        ]
+        bubbles = self._between(first, last)
         width = max(bubble.width for bubble in bubbles)
         if len(bubbles) == 2:
             return width
         return 0.5 * width + 0.25 * sum(bubble.length for bubble in bubbles)
+
+    def _between(self, first: int, last: int) -> list[PlacedBubble]:
+        """Return the bubbles between two rings of a balloon."""
+        rings = map(self.layout.ring, range(first + 1, last + 1))
+        return [self.layout.bubble(ring.bubble) for ring in rings if ring.joint]
 
     def retime(self, first: int, begin: float, seconds: float) -> None:
         """Stretch the moves from a first one on to the time that the recipe gives their step."""
