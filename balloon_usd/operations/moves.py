@@ -85,12 +85,16 @@ class Bring(Move):
 
 @dataclass(frozen=True)
 class Bend(Move):
-    """Bend a bubble by leading its start and middle onto an arc, its end held."""
+    """Bend a bubble by leading its rings onto an arc, held at the end on which more hangs."""
 
     rings: tuple[int, ...] = ()
+    """From its start to its end, or to the flat tail."""
     angle: float = 0.0
     """Angle between the directions of its ends, radians."""
     point: Vector = (0.0, 0.0, 1.0)
+    """Unit direction in which the end goes that is not held."""
+    flat: int = 0
+    """How many of the last rings lie on the flat tail, which goes on straight."""
 
 
 @dataclass(frozen=True)

@@ -48,6 +48,10 @@ class Ring(Protocol):
     def bubble(self) -> str:
         """Bubble that it ends or lies in."""
 
+    @property
+    def flat(self) -> bool:
+        """Whether it lies on the flat tail that is left."""
+
 
 class PlacedBubble(Protocol):
     """A bubble on its balloon."""
@@ -156,7 +160,8 @@ class Score:
         if len(joints) == 2:
             corners = (first, *layout.guides(layout.ring(last).bubble), last)
         elif len(joints) == 3:
-            cheeks = tuple((layout.guides(layout.ring(j).bubble)[0], k) for k, j in enumerate(joints[1:]))
+            guides = [layout.guides(layout.ring(j).bubble) for j in joints[1:]]
+            cheeks = tuple((inside[len(inside) // 2], k) for k, inside in enumerate(guides))
         length = sum(layout.bubble(layout.ring(j).bubble).length for j in joints[1:])
         seconds = max(GATHER_LEAST, length / (CARRYING_SPEED if self.blown_up else HAND_SPEED))
         aim = POINTS[point or "up"]

@@ -49,6 +49,8 @@ class PlannedBubble:
     """Gas, m3, at the pressure at which it is twisted off; in a capsule what its wall holds before."""
     step: int
     """Index of the step that makes it; of an unnamed rest, the number of steps."""
+    bent: bool = False
+    """Whether a step bends it: hands then hold it at more places."""
 
     @property
     def rest_length(self) -> float:
