@@ -21,6 +21,11 @@ POINTS: dict[str, Vector] = {
 }
 """Directions as seen by the maker."""
 
+ACROSS: dict[str, Vector] = {
+    point: POINTS["up" if point in ("left", "right") else "left"] for point in POINTS
+}
+"""Where the first bubble of a chain comes to lie that points somewhere: left of the others, or above them."""
+
 
 @dataclass(frozen=True)
 class Move:
@@ -73,6 +78,8 @@ class Gather(Move):
     """Guide rings in the middle of sides that are pressed outwards, with the index of the side."""
     point: Vector = (0.0, 0.0, 1.0)
     """Unit direction to which the chain rises."""
+    across: Vector = (0.0, -1.0, 0.0)
+    """Unit direction, across the balloon, in which the first bubble of the chain lies in the end."""
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,18 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, NoReturn, Protocol
 
 from balloon_usd.language.problem import RecipeError
-from balloon_usd.operations.moves import POINTS, Bring, Gather, Inflate, LetGo, Move, Pinch, Spin, Weld
+from balloon_usd.operations.moves import (
+    ACROSS,
+    POINTS,
+    Bring,
+    Gather,
+    Inflate,
+    LetGo,
+    Move,
+    Pinch,
+    Spin,
+    Weld,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
@@ -164,8 +175,9 @@ class Score:
             cheeks = tuple((inside[len(inside) // 2], k) for k, inside in enumerate(guides))
         length = sum(layout.bubble(layout.ring(j).bubble).length for j in joints[1:])
         seconds = max(GATHER_LEAST, length / (CARRYING_SPEED if self.blown_up else HAND_SPEED))
-        aim = POINTS[point or "up"]
-        self.add(Gather(self.now, seconds, index, text, corners=corners, cheeks=cheeks, point=aim))
+        aim = point or "up"
+        ways = {"point": POINTS[aim], "across": ACROSS[aim]}
+        self.add(Gather(self.now, seconds, index, text, corners=corners, cheeks=cheeks, **ways))
 
     def weld(self, rings: tuple[int, ...], turns: float, text: str, index: int) -> None:
         """Twist joints that lie together into one."""

@@ -37,7 +37,8 @@ class Gather(Motion):
         carried = sculpture.carry(move.corners)
         began = sculpture.frame.middle[corners].astype(np.float64)
         sides = np.maximum(np.linalg.norm(np.diff(began, axis=0), axis=1), 1e-3)
-        closing = ClosingChain(sides, ALONG, np.array(move.point), 2.0 * float(hands.neck[held]))
+        ways = (ALONG, np.array(move.point), np.array(move.across))
+        closing = ClosingChain(sides, *ways, 2.0 * float(hands.neck[held]))
         off = began - began[-1] - closing.pose(0.0)
         self._chain = Chain(np.array(corners), began, closing, off, carried, _cheeks(move, sculpture, began))
 
