@@ -7,8 +7,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Literal
 
 Vector = tuple[float, float, float]
+
+Pose = Literal["as made", "stand", "hang", "hold"]
+"""How a finished figure is shown: where it was made, on the ground, on a thread, or held upright as it is."""
 
 POINTS: dict[str, Vector] = {
     "up": (0.0, 0.0, 1.0),
@@ -135,6 +139,13 @@ class LetGo(Move):
 
     for_good: bool = False
     """Whether nothing is made any more: until then makers hold by hand what would come undone."""
+
+
+@dataclass(frozen=True)
+class SetDown(Move):
+    """Carry the finished figure as it is to where it stays."""
+
+    pose: Pose = "stand"
 
 
 @dataclass(frozen=True)

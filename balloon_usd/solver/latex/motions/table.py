@@ -13,6 +13,7 @@ from balloon_usd.solver.latex.motions.spin import Spin
 from balloon_usd.solver.motions.bring import Bring
 from balloon_usd.solver.motions.gather import Gather
 from balloon_usd.solver.motions.press import Press
+from balloon_usd.solver.motions.set_down import SetDown
 from balloon_usd.solver.motions.wait import Wait
 from balloon_usd.solver.motions.weld import Weld
 
@@ -29,5 +30,6 @@ LATEX_MOTIONS: Motions = {
     moves.Bend: LatexBend,
     moves.Press: Press,
     moves.Weld: Weld,
+    moves.SetDown: SetDown,
     moves.LetGo: LatexLetGo,
 }
