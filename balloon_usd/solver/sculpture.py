@@ -59,7 +59,11 @@ class Sculpture:
         """Balloon of every ring."""
         rests = {strip.bubbles[-1].name for strip in plan.strips.values()}
         self._led = [ring.joint or ring.bubble in rests for ring in plan.table.rings]
-        """Whether hands lead a ring when they carry what it is of: a joint, or one in an open rest."""
+        """Whether hands lead a ring when they carry what it is of: a joint, one in an open rest, or the
+        middle of a loop, which else turns about the balloon.
+        """
+        for inside in (plan.table.guides(bubble.name) for bubble in plan.bubbles if bubble.kind == "loop"):
+            self._led[inside[len(inside) // 2]] = True
 
     def _joints(self) -> list[int]:
         """Joint of every planned ring: a body's rings are its plan's, after its spare ones."""
