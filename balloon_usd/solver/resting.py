@@ -18,6 +18,35 @@ STEPS = 3600
 """Steps after which tipping ends anyway."""
 
 
+UPRIGHT = math.radians(15.0)
+"""Tip that is taken as it comes; where a figure tips farther, hands try to set it down otherwise."""
+TRIED = (math.radians(8.0), math.radians(16.0), math.radians(24.0), math.radians(32.0))
+"""How far hands lean it when they try."""
+TRIED_WAYS = 8
+"""Directions in which they lean it."""
+
+
+def standing_direction(points: Floats, centre: Floats, down: Floats) -> Floats:
+    """Return the direction (3,) of the figure that points down when hands have made it stand, as a unit
+    vector: of the poses in which it rests that nearest to `down`.
+
+    `points`, `centre`, `down`: as of `resting_direction`.
+    """
+    found = resting_direction(points, centre, down)
+    if float(found @ down) >= math.cos(UPRIGHT):
+        return found
+    beside = np.linalg.svd(down[None])[2][1:]
+    ways = np.linspace(0.0, 2.0 * math.pi, TRIED_WAYS, endpoint=False)
+    for lean in TRIED:
+        for way in ways:
+            across = math.cos(way) * beside[0] + math.sin(way) * beside[1]
+            leaning = math.cos(lean) * down + math.sin(lean) * across
+            tried = resting_direction(points, centre, leaning)
+            if float(tried @ down) > float(found @ down):
+                found = tried
+    return found
+
+
 def resting_direction(points: Floats, centre: Floats, down: Floats) -> Floats:
     """Return the direction (3,) of the figure that points down when it rests, as a unit vector.
 

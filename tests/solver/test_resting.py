@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from balloon_usd.solver.placement import Placement, turn_about, turn_between
-from balloon_usd.solver.resting import nearest_in_hull, resting_direction
+from balloon_usd.solver.resting import nearest_in_hull, resting_direction, standing_direction
 
 DOWN = np.array([0.0, 0.0, -1.0])
 BOX = np.array(list(product((-0.05, 0.05), (-0.1, 0.1), (-0.15, 0.15))))
@@ -36,6 +36,12 @@ def test_a_box_that_leans_too_far_falls_on_its_side():
 def test_a_box_whose_centre_is_beyond_its_foot_falls():
     assert tilt(BOX, np.array([0.04, 0.0, 0.0])) < 0.5
     assert tilt(BOX, np.array([0.06, 0.0, 0.0])) > 45.0
+
+
+def test_hands_set_a_figure_on_its_foot_that_would_fall_from_where_it_was_made():
+    turn = turn_about(SIDEWAYS, np.radians(25.0))
+    down = standing_direction(BOX @ turn.T, np.zeros(3), DOWN)
+    assert np.degrees(np.arccos(down @ DOWN)) == pytest.approx(25.0, abs=0.5)
 
 
 def test_a_figure_on_three_feet_tips_until_the_shortest_touches():

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from balloon_usd.solver.motions.motion import Motion
 from balloon_usd.solver.motions.smooth import smooth
 from balloon_usd.solver.placement import Placement, turn_about, turn_between
-from balloon_usd.solver.resting import resting_direction
+from balloon_usd.solver.resting import standing_direction
 
 if TYPE_CHECKING:
     from balloon_usd.operations import moves
@@ -32,7 +32,7 @@ class SetDown(Motion):
         thread = _thread(points, self._centre, sculpture)
         down = DOWN
         if move.pose == "stand":
-            down = resting_direction(points, self._centre, DOWN)
+            down = standing_direction(points, self._centre, DOWN)
         elif move.pose == "hang":
             down = _unit(-thread)
         self._axis, self._angle = turn_between(down, DOWN)
