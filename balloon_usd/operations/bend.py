@@ -78,13 +78,13 @@ steps:
             bench.find_whole(name, place, (*place.path, cls.word, name))
 
     def perform(self, score: Score, index: int) -> None:
-        """Lead the start and the middle of each bubble onto an arc."""
+        """Lead each bubble onto an arc."""
         point = POINTS[self.point or "up"]
         for bubble, angle in self.bend.items():
             start, end = score.layout.ends(bubble)
             guides = score.layout.guides(bubble)
             rings = (start, *guides) if end is None else (start, *guides, end)
-            text = f"bend: {bubble}"
+            flat = sum(score.layout.ring(ring).flat for ring in rings)
             seconds = BEND_SECONDS / score.pace.leading
-            score.add(BendMove(score.now, seconds, index, text, rings=rings, angle=angle, point=point))
+            score.add(BendMove(score.now, seconds, index, f"bend: {bubble}", rings, angle, point, flat))
             score.let_go(index)

@@ -7,8 +7,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Literal
 
 Vector = tuple[float, float, float]
+
+Pose = Literal["as made", "stand", "hang", "hold"]
+"""How a finished figure is shown: where it was made, on the ground, on a thread, or held upright as it is."""
 
 POINTS: dict[str, Vector] = {
     "up": (0.0, 0.0, 1.0),
@@ -20,6 +24,11 @@ POINTS: dict[str, Vector] = {
     "back": (math.sqrt(0.5), 0.0, math.sqrt(0.5)),
 }
 """Directions as seen by the maker."""
+
+ACROSS: dict[str, Vector] = {
+    point: POINTS["up" if point in ("left", "right") else "left"] for point in POINTS
+}
+"""Where the first bubble of a chain comes to lie that points somewhere: left of the others, or above them."""
 
 
 @dataclass(frozen=True)
@@ -75,6 +84,8 @@ class Gather(Move):
     """Unit direction to which the chain rises."""
     pulled: float = 0.0
     """How far a bubble is pulled out between its ends, m; 0 where the chain is turned across the balloon."""
+    across: Vector = (0.0, -1.0, 0.0)
+    """Unit direction, across the balloon, in which the first bubble of the chain lies in the end."""
 
 
 @dataclass(frozen=True)
@@ -87,12 +98,16 @@ class Bring(Move):
 
 @dataclass(frozen=True)
 class Bend(Move):
-    """Bend a bubble by leading its start and middle onto an arc, its end held."""
+    """Bend a bubble by leading its rings onto an arc, held at the end on which more hangs."""
 
     rings: tuple[int, ...] = ()
+    """From its start to its end, or to the flat tail."""
     angle: float = 0.0
     """Angle between the directions of its ends, radians."""
     point: Vector = (0.0, 0.0, 1.0)
+    """Unit direction in which the end goes that is not held."""
+    flat: int = 0
+    """How many of the last rings lie on the flat tail, which goes on straight."""
 
 
 @dataclass(frozen=True)
@@ -139,6 +154,13 @@ class LetGo(Move):
 @dataclass(frozen=True)
 class Hold(Move):
     """Put the finished sculpture down and look at it."""
+
+
+@dataclass(frozen=True)
+class SetDown(Move):
+    """Carry the finished figure as it is to where it stays."""
+
+    pose: Pose = "stand"
 
 
 @dataclass(frozen=True)

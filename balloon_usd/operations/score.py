@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NoReturn, Protocol
 
 from balloon_usd.language.problem import RecipeError
 from balloon_usd.operations.moves import (
+    ACROSS,
     POINTS,
     Bring,
     Gather,
@@ -59,6 +60,10 @@ class Ring(Protocol):
     @property
     def bubble(self) -> str:
         """Bubble that it ends or lies in."""
+
+    @property
+    def flat(self) -> bool:
+        """Whether it lies on the flat tail that is left."""
 
 
 class PlacedBubble(Protocol):
@@ -186,13 +191,14 @@ class Score:
         elif len(joints) == 2:
             corners = (first, *layout.guides(layout.ring(last).bubble), last)
         elif len(joints) == 3:
-            cheeks = tuple((layout.guides(layout.ring(j).bubble)[0], k) for k, j in enumerate(joints[1:]))
+            guides = [layout.guides(layout.ring(j).bubble) for j in joints[1:]]
+            cheeks = tuple((inside[len(inside) // 2], k) for k, inside in enumerate(guides))
         length = sum(layout.bubble(layout.ring(j).bubble).length for j in joints[1:])
         seconds = max(GATHER_LEAST, length / (CARRYING_SPEED if self.blown_up else HAND_SPEED))
         seconds /= self.pace.leading
-        aim = POINTS[point or "up"]
-        gather = Gather(self.now, seconds, index, text, corners=corners, cheeks=cheeks, point=aim)
-        self.add(replace(gather, pulled=pulled))
+        aim = point or "up"
+        gather = Gather(self.now, seconds, index, text, corners=corners, cheeks=cheeks, pulled=pulled)
+        self.add(replace(gather, point=POINTS[aim], across=ACROSS[aim]))
 
     def weld(self, rings: tuple[int, ...], turns: float, text: str, index: int) -> None:
         """Twist joints that lie together into one."""

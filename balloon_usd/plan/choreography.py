@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from balloon_usd.operations.inflate import Inflate as InflateStep
 from balloon_usd.operations.modifiers import Timed
-from balloon_usd.operations.moves import Choreography, Hold, Inflate, LetGo, Move
+from balloon_usd.operations.moves import Choreography, Hold, Inflate, LetGo, Move, SetDown
 from balloon_usd.operations.score import Score
 from balloon_usd.operations.tempo import PACES
 from balloon_usd.plan.laid_out import LaidOut
@@ -22,6 +22,17 @@ if TYPE_CHECKING:
 
 SPREAD_SECONDS = 1.5
 """Time in which the air particles of a balloon that starts blown up spread, s."""
+
+POSE_SECONDS = 2.0
+"""Carrying the finished figure to where it stays, s."""
+POSED_SECONDS = 1.0
+"""How long it is shown there, s."""
+POSING: dict[str, tuple[str, str]] = {
+    "stand": ("set down", "stand"),
+    "hang": ("hang up", "hang"),
+    "hold": ("hold up", "held"),
+}
+"""What hands do to pose a figure, and what it does then."""
 
 FEWEST_FRAMES = 6
 """Frames in which a balloon can be blown up: the pump's flow changes from frame to frame."""
@@ -49,6 +60,10 @@ def choreograph(recipe: Recipe, strips: Mapping[str, Strip], table: RingTable) -
             score.retime(first, begin, step.seconds)
     score.add(LetGo(score.now, 0.0, len(recipe.steps), "let go", for_good=True))
     score.add(Hold(score.now, recipe.physics.hold, len(recipe.steps), "hold"))
+    if recipe.pose != "as made":
+        doing, done = POSING[recipe.pose]
+        score.add(SetDown(score.now, POSE_SECONDS, len(recipe.steps), doing, pose=recipe.pose))
+        score.add(Move(score.now, POSED_SECONDS, len(recipe.steps), done))
     return Choreography(tuple(score.moves), score.now)
 
 

@@ -9,6 +9,7 @@ from balloon_usd.balloon.rubber import rubber_named
 from balloon_usd.balloon.tube_theory import gauge_pressure, maxwell_state
 from balloon_usd.language.lengths import at_least, at_most, cm
 from balloon_usd.language.problem import RecipeError, quoted
+from balloon_usd.operations.bend import Bend
 from balloon_usd.plan.capsule import capsule_bubbles
 from balloon_usd.plan.laying_shapes import overlap_problems, shaped_strip
 from balloon_usd.plan.open_tube import (
@@ -97,6 +98,7 @@ def _tube(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> Strip
     tube = inflated_tube(size, rubber, tail)
     bubbles: list[PlannedBubble] = []
     along, rest_along = 0.0, 0.0
+    bent = {each for step in recipe.steps if isinstance(step, Bend) for each in step.names}
     for index, kind, bubble, length in _made(recipe, name):
         shape, left = tube.pinched(length)
         if not left.blown_up:
@@ -105,9 +107,11 @@ def _tube(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> Strip
         rest_end = rest_along + shape.rest_length
         place = along, along + length, rest_along, rest_end
         pressure = shape.pressure * gauge_pressure(size, maxwell_state(tube.rubber).p_star)
-        bubbles.append(PlannedBubble(bubble, name, kind, length, *place, shape.volume, index, pressure))
+        planned = PlannedBubble(bubble, name, kind, length, *place, shape.volume, index, pressure)
+        bubbles.append(replace(planned, bent=bubble in bent))
         tube, along, rest_along = left, along + length, rest_end
-    bubbles.append(_rest_of_tube(recipe, name, tube, along, rest_along))
+    rest = _rest_of_tube(recipe, name, tube, along, rest_along)
+    bubbles.append(replace(rest, bent=rest.name in bent))
     return Strip(name, size, rubber, tail, tuple(bubbles))
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -17,7 +18,8 @@ if TYPE_CHECKING:
 REST_GUIDE = 0.07
 """Inflated distance from its joint at which the last bubble is felt by the friction of that joint, m."""
 
-
+SLENDER = 0.25
+"""Radius of a bubble, in its lengths, below which it is bent by more than its middle."""
 TIP_GUIDE = 3.0
 """Unstressed distance from the tip at which hands hold the flat tail, in R0."""
 
@@ -35,6 +37,8 @@ class PlannedRing:
     """Bubble that it ends (joint) or lies in (guide)."""
     name: str
     """As in a recipe: `nose.end`, or `nose.middle` of a guide; `main.knot` of the knot."""
+    flat: bool = False
+    """Whether it lies on the flat tail that is left."""
 
 
 class RingTable:
@@ -94,6 +98,7 @@ def _rings(strip: Strip) -> list[PlannedRing]:
                 False,
                 bubble.name,
                 f"{bubble.name}.{k}",
+                flat=_beyond_front(bubble, strip, share),
             )
             for k, share in enumerate(_guide_shares(bubble, strip))
         ]
@@ -104,7 +109,27 @@ def _rings(strip: Strip) -> list[PlannedRing]:
 
 def _guide_shares(bubble: PlannedBubble, strip: Strip) -> tuple[float, ...]:
     if bubble.kind != "rest":
-        return BY_KIND[bubble.kind].guides
+        own = BY_KIND[bubble.kind].guides
+        round_end = strip.inflated_radius / bubble.length
+        # Their places alone tell the directions of a bent bubble's ends.
+        ends = (round_end, 1.0 - round_end) if bubble.bent and round_end < SLENDER else ()
+        return tuple(sorted({*own, *ends}))
     stretch = 1.0 if strip.capsule else maxwell_state(strip.rubber).bulged.b
     share = min(REST_GUIDE / stretch / bubble.rest_length, 0.5)
-    return share, max(1.0 - TIP_GUIDE * strip.size.radius / bubble.rest_length, 0.5 * (1.0 + share))
+    tip = max(1.0 - TIP_GUIDE * strip.size.radius / bubble.rest_length, 0.5 * (1.0 + share))
+    return (*_along_the_bend(bubble, strip, tip), tip) if bubble.bent else (share, tip)
+
+
+def _along_the_bend(bubble: PlannedBubble, strip: Strip, tip: float) -> list[float]:
+    """Shares of the rubber of a last bubble at which hands hold it to bend it, up to where it is round."""
+    until = max(bubble.length - strip.inflated_radius, 0.5 * bubble.length)
+    front = min((strip.rest_place(bubble, until) - bubble.rest_start) / bubble.rest_length, 0.5 * (1.0 + tip))
+    count = max(2, math.ceil(until / REST_GUIDE))
+    return [front * k / count for k in range(1, count + 1)]
+
+
+def _beyond_front(bubble: PlannedBubble, strip: Strip, share: float) -> bool:
+    """Whether a share of a bubble's rubber lies on the flat tail."""
+    if bubble.kind != "rest" or not strip.has_tail:
+        return False
+    return share * bubble.rest_length > strip.rest_place(bubble, bubble.length) - bubble.rest_start

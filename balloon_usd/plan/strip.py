@@ -51,6 +51,8 @@ class PlannedBubble:
     """Index of the step that makes it; of an unnamed rest, the number of steps."""
     pressure: float | None = None
     """Gauge pressure at which it is twisted off, Pa; only of bubbles of tubes."""
+    bent: bool = False
+    """Whether a step bends it: hands then hold it at more places."""
 
     @property
     def rest_length(self) -> float:

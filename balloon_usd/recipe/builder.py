@@ -17,6 +17,7 @@ from .writer import Entries, recipe_text, step_entries
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
+    from balloon_usd.operations.moves import Pose
     from balloon_usd.operations.tempo import Tempo
 
 BUILDER_FILE = "<builder>"
@@ -39,6 +40,7 @@ class RecipeBuilder:
         units: Units = "cm",
         fps: float | None = None,
         tempo: Tempo | None = None,
+        pose: Pose | None = None,
     ) -> None:
         self._units = units
         head = {"title": title or None, "source": source or None, "units": units, "fps": fps, "tempo": tempo}
@@ -46,6 +48,7 @@ class RecipeBuilder:
         self._name = name
         self._balloons: dict[str, Entries] = {}
         self._steps: list[Entries] = []
+        self._end = _given({"pose": pose})
         self._physics: Entries = {}
 
     def balloon(
@@ -121,7 +124,7 @@ class RecipeBuilder:
     def to_yaml(self) -> str:
         """Write what was collected as YAML text, right or wrong."""
         entries: Entries = {"format": 1, "name": self._name, **self._head, "balloons": self._balloons}
-        entries |= {"steps": self._steps} | ({"physics": self._physics} if self._physics else {})
+        entries |= {"steps": self._steps, **self._end} | ({"physics": self._physics} if self._physics else {})
         return recipe_text(entries)
 
     def build(self) -> Recipe:

@@ -20,6 +20,7 @@ from balloon_usd.language.problem import Complaint, Notice, Path, Problem, Recip
 from balloon_usd.language.quantities import METRES, Between, Reading, Units
 from balloon_usd.language.yaml_reader import Document, read_yaml
 from balloon_usd.operations.modifiers import Entries
+from balloon_usd.operations.moves import Pose
 from balloon_usd.operations.table import Step
 from balloon_usd.operations.tempo import Tempo
 from balloon_usd.operations.workpiece import Workpiece
@@ -73,6 +74,9 @@ class Recipe(Entries):
     """Balloons by name."""
     steps: Annotated[tuple[Step, ...], Field(min_length=1)]
     """What the hands do, in order."""
+    pose: Pose = "as made"
+    """How the finished figure is shown: where it was made, or put so that it stands on the ground at the
+    origin, hangs from a thread, or is held with its middle at the origin."""
     physics: Physics = Physics()
     """How it is simulated."""
 

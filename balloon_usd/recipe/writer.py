@@ -47,6 +47,8 @@ def recipe_entries(
         "balloons": {name: _balloon_entries(entry, units) for name, entry in balloons.items()},
         "steps": [step_entries(step, units) for step in steps],
     }
+    if "pose" in written:
+        entries["pose"] = written["pose"]
     physics = written.get("physics")
     if isinstance(physics, dict):
         entries["physics"] = _physics_entries(physics, units)

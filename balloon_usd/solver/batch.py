@@ -76,7 +76,7 @@ class Batch:
                 self._advance(index)
             self.model.read_back()
             arrays, statuses, suspects = self.model.frame_arrays, self.model.statuses, self.model.suspects
-            causes = self.model.failures()
+            causes, placements = self.model.failures(), self.model.placements
             # A plan that fails in this frame still takes part in the next one, unseen.
             if self._ahead and self.goes_on(index + 1):
                 self._advance(index + 1)
@@ -84,6 +84,9 @@ class Batch:
             for world in self._checks.suspicious(arrays, suspects):
                 if self._made(index)[world] and (cause := self._checks.failure(world)):
                     causes[world] = cause
+            for world, placement in placements.items():
+                for points in into.places_of(self.model.layout.places[world]):
+                    placement.put(points)
             changes = self._changes(index, statuses, causes)
         return Snapshot(index + 1, into, self._made(index), changes)
 

@@ -94,6 +94,11 @@ class FrameArrays:
             if mine is not None and its is not None:
                 np.copyto(its, mine)
 
+    def places_of(self, place: Place) -> list[NDArray[np.float32]]:
+        """Return the points of the walls and of the air of one sculpture: views of these arrays."""
+        air = () if self.air is None else tuple([self.air[span] for span in place.air])
+        return [*(self.points[span] for span in place.walls), *air]
+
     def part(self, before: Extent, extent: Extent) -> FrameArrays:
         """Return views of the parts of an extent that follow those of another, `before`."""
         walls = slice(before.vertices, before.vertices + extent.vertices)

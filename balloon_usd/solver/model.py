@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from balloon_usd.solver.hands import Hands
     from balloon_usd.solver.layout import Layout
     from balloon_usd.solver.performer import Performer
+    from balloon_usd.solver.placement import Placement
     from balloon_usd.solver.readback import Readback
     from balloon_usd.solver.status import Status
 
@@ -41,6 +42,8 @@ class Model(ABC):
         """Where every sculpture lies in the arrays of a frame."""
         self.statuses: list[Status] = []
         """Status of every sculpture when the state was read back."""
+        self.placements: dict[int, Placement] = {}
+        """Where frames show the sculptures that are not where they were made, as of that state."""
         self._hands, self._bodies, self._readback = hands, bodies, readback
         self._state: dict[str, NDArray[Any]] = {}
         """Arrays of the state read back last, by name."""
@@ -68,6 +71,8 @@ class Model(ABC):
         """
         self._state = self._readback.arrays()
         self.statuses = [performer.status for performer in self.performers]
+        placed = enumerate(performer.sculpture.placement for performer in self.performers)
+        self.placements = {world: placement for world, placement in placed if placement is not None}
 
     def rest(self) -> None:
         """Wait for the pending read-back, and so for all work before it."""

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from balloon_usd.plan import Plan
     from balloon_usd.plan.strip import Strip
     from balloon_usd.solver.hands import Hands
+    from balloon_usd.solver.placement import Placement
     from balloon_usd.solver.scene import Scene
 
 Floats = NDArray[np.float32]
@@ -41,6 +42,9 @@ class Sculpture:
 
     frame: ComingFrame
     """The frame that motions set goals for; none before the first."""
+
+    placement: Placement | None = None
+    """Where the frames show it, if not where it was made."""
 
     def __init__(self, plan: Plan, scene: Scene, hands: Hands, first_body: int) -> None:
         self.plan = plan
@@ -121,6 +125,22 @@ class Sculpture:
         joints = np.array([joint for each in moved for joint in each], dtype=np.int64)
         by = np.repeat(np.arange(len(moved)), [len(each) for each in moved])
         return Carried(joints, by, middle[joints].astype(np.float64))
+
+    @property
+    def _vertices(self) -> slice:
+        """All its vertices in the scene."""
+        start = self.scene.vertex_start
+        return slice(int(start[self.bodies[0]]), int(start[self.bodies[-1] + 1]))
+
+    def walls(self) -> NDArray[np.float64]:
+        """Return where all its vertices are, (V, 3), m."""
+        walls: NDArray[np.float64] = self.hands.places[self._vertices].astype(np.float64)
+        return walls
+
+    def centre(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the centre of its mass, (3,), m; `points`: its vertices, (V, 3), m."""
+        middle: NDArray[np.float64] = points.mean(axis=0)
+        return middle
 
     def ring_width(self, joint: int) -> float:
         """Return the mean distance of a ring's vertices from their middle, m."""

@@ -221,7 +221,7 @@ def flow(value: object) -> str:
 
 
 @given(
-    key=st.sampled_from(["format", "name", "title", "units", "fps", "balloons", "steps", "physics"]),
+    key=st.sampled_from(["format", "name", "title", "units", "fps", "balloons", "steps", "pose", "physics"]),
     value=VALUES,
 )
 @EXAMPLES

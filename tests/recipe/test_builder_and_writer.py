@@ -51,7 +51,7 @@ def dog() -> RecipeBuilder:
 
 def full() -> RecipeBuilder:
     return (
-        RecipeBuilder("all", title='a "title": #1\nline two', source="here", units="in", fps=30)
+        RecipeBuilder("all", title='a "title": #1\nline two', source="here", units="in", fps=30, pose="hang")
         .balloon("one", size=260, color=[0.1, 0.2, 1.0], inflated="40 cm", radius=0.008, thickness=0.0003)
         .balloon("two", size=160, color="#1f5fd0", tail=0.05, length="1.5 m")
         .bubbles({"a": 0.1}, b="4 in", balloon="one", turns=2.5, seconds=1, note="on")
@@ -82,7 +82,7 @@ def test_a_built_recipe_tells_that_it_was_built() -> None:
 def test_the_builder_knows_every_operation_and_manner() -> None:
     recipe = full().build()
     assert recipe.title == 'a "title": #1\nline two'
-    assert recipe.fps == 30.0
+    assert (recipe.fps, recipe.pose) == (30.0, "hang")
     assert recipe.balloons["one"].color.rgb == (0.1, 0.2, 1.0)
     assert recipe.balloons["one"].inflated == 0.4
     assert recipe.balloons["two"].length == 1.5

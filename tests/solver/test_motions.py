@@ -182,9 +182,10 @@ def test_a_joint_is_brought_to_that_of_another_balloon_and_all_else_follows_by_i
 
 
 @pytest.mark.parametrize(("model", "motions"), [("latex", LATEX_MOTIONS), ("kosaka", KOSAKA_MOTIONS)])
-def test_a_bent_bubble_takes_a_balloon_along_that_hangs_on_its_start(model, motions):
+def test_a_bent_bubble_takes_a_balloon_along_that_hangs_on_its_lighter_end(model, motions):
     room = Room(model)
     room.weld("red.knot", "arm.end")
+    room.weld("right.end", "hand.end")
     rings = tuple(room.ring(name) for name in ("nose.end", "left.0", "left.end"))
     bend = motions[moves.Bend](moves.Bend(**DONE, rings=rings, angle=1.5), room.sculpture)
     bend.advance(0.9)
@@ -192,6 +193,54 @@ def test_a_bent_bubble_takes_a_balloon_along_that_hangs_on_its_start(model, moti
     for name in ("red.knot", "arm.end", "blue.knot", "blue_rest.1"):
         assert room.moved(name) == pytest.approx(room.moved("nose.end"), abs=1e-6)
     assert room.moved("red_rest.1") == pytest.approx(np.zeros(3), abs=1e-6)
+
+
+def bend_fully(room, point, *names, flat=0):
+    """Bend the bubble that has these rings by 80 degrees."""
+    rings = tuple(room.ring(name) for name in names)
+    move = moves.Bend(**DONE, rings=rings, angle=np.radians(80.0), point=moves.POINTS[point], flat=flat)
+    bend = LATEX_MOTIONS[moves.Bend](move, room.sculpture)
+    bend.set_bend = lambda _: None
+    bend.advance(1.0)
+
+
+@pytest.mark.parametrize("point", ["up", "down", "left", "right"])
+@pytest.mark.parametrize(
+    ("rings", "goes", "stays"),
+    [
+        (("red.knot", "nose.0", "nose.end"), "red.knot", "red_rest.1"),
+        (("nose.end", "left.0", "left.end"), "red.knot", "red_rest.1"),
+        (("right.end", "red_rest.0", "red_rest.1"), "red_rest.1", "red.knot"),
+    ],
+    ids=["first", "middle", "last"],
+)
+def test_the_lighter_side_of_a_bent_bubble_goes_to_the_point_and_the_rest_of_the_figure_stays(
+    point, rings, goes, stays
+):
+    room = Room()
+    bend_fully(room, point, *rings)
+    assert room.moved(goes) @ moves.POINTS[point] > 0.02
+    assert room.moved(stays) == pytest.approx(np.zeros(3), abs=1e-6)
+
+
+def test_the_flat_tail_of_a_bent_rest_goes_on_in_the_direction_of_its_front():
+    room = Room()
+    bend_fully(room, "up", "right.end", "red_rest.0", "red_rest.1", flat=1)
+    places = [
+        room.middle[room.joint(name)] + room.moved(name) for name in ("right.end", "red_rest.0", "red_rest.1")
+    ]
+    angles = [np.degrees(np.arctan2(side[2], side[0])) for side in np.diff(places, axis=0)]
+    assert angles == pytest.approx([40.0, 80.0], abs=0.1)
+
+
+def test_hands_hold_a_rest_that_is_bent_up_to_its_front_and_one_that_is_not_at_two_places():
+    text = RECIPE.format(model="latex", long="length: 18, tail: 5")
+    bends = text.replace("physics:", "  - {bend: {red_rest: 60}, point: up}\nphysics:")
+    table, straight = plan_of(Recipe.parse(bends)).table, plan_of(Recipe.parse(text)).table
+    flat = [table.rings[k].flat for k in table.guides("red_rest")]
+    assert flat == [False] * (len(flat) - 1) + [True]
+    assert len(flat) >= 3
+    assert len(straight.guides("red_rest")) == len(table.guides("blue_rest")) == 2
 
 
 def test_a_pinched_neck_closes_and_all_that_hangs_on_its_knots_side_is_steadied():

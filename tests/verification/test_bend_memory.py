@@ -7,6 +7,7 @@ from functools import cache
 import numpy as np
 import pytest
 
+from balloon_usd.operations.moves import POINTS
 from balloon_usd.plan import plan
 from balloon_usd.recipe import Recipe
 from balloon_usd.solver.latex.memory import BEND_SET
@@ -62,3 +63,49 @@ def test_what_is_bent_more_keeps_more():
     assert kept[0] > 10.0
     assert kept[1] > 1.5 * kept[0]
     assert kept[2] > 1.3 * kept[1]
+
+
+FIGURE = """
+format: 1
+name: figure
+units: cm
+balloons:
+  main: {size: 260, length: 22, tail: 5}
+steps:
+  - bubbles: {nose: 10, left_leg: 6, right_leg: 6}
+  - lock: [left_leg, right_leg]
+    point: down
+  - rest: tail
+  - bend: {nose: 80, tail: 80}
+    point: POINT
+physics: {hold: 1}
+"""
+
+
+def curve_towards(simulation, frame, name, point):
+    """Angle between the directions of a bubble's ends in the plane of a direction, degrees: positive where
+    they go to it.
+    """
+    mesh = simulation.meshes[0][0]
+    bubble = next(bubble for bubble in simulation.plans[0].bubbles if bubble.name == name)
+    inside = (mesh.ring_along > bubble.rest_start + 1e-6) & (mesh.ring_along < bubble.rest_end - 1e-6)
+    rings = frame.points[0][mesh.ring_start[inside, None] + np.arange(mesh.around)].astype(float)
+    middle = rings.mean(axis=1)
+    wide = np.linalg.norm(rings - middle[:, None], axis=2).mean(axis=1)
+    middle = middle[wide > 0.6 * wide.max()]
+    chord = middle[-1] - middle[0]
+    chord -= point * (chord @ point)
+    steps = np.diff(middle, axis=0)
+    along = np.cumsum(np.linalg.norm(steps, axis=1))
+    slope = np.arctan2(steps @ point, steps @ (chord / np.linalg.norm(chord)))
+    return float(np.degrees(np.polyfit(along, np.unwrap(slope), 1)[0] * bubble.length))
+
+
+@pytest.mark.parametrize("point", ["up", "left"])
+def test_the_ends_of_a_nose_and_of_a_tail_point_where_they_were_bent_to(point):
+    made = plan(Recipe.parse(FIGURE.replace("POINT", point)))
+    simulation = simulate_many([made], detail="draft", device="cpu")
+    *_, (frame,) = simulation.frames()
+    way = np.array(POINTS[point])
+    for name in ("nose", "tail"):
+        assert 25.0 < curve_towards(simulation, frame, name, way) < 80.0, name

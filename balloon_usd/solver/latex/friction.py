@@ -102,4 +102,4 @@ def _cheeks(meeting: Sequence[_Met], near: set[int]) -> set[int]:
     """Middles of bubbles that lie side by side: two that share both a weld and the joint beyond it."""
     met = [(bubble, outside) for bubble, _, outside in meeting if outside in near]
     beyond = [outside for _, outside in met]
-    return {bubble.guides[0] for bubble, outside in met if beyond.count(outside) > 1}
+    return {bubble.guides[len(bubble.guides) // 2] for bubble, outside in met if beyond.count(outside) > 1}

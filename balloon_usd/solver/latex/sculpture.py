@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from balloon_usd.solver.latex.friction import Friction
 from balloon_usd.solver.latex.torsion import Torsion
 from balloon_usd.solver.sculpture import Sculpture
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from balloon_usd.plan import Plan
     from balloon_usd.solver.latex.controls import LatexControls
     from balloon_usd.solver.latex.scene import LatexScene
@@ -30,6 +34,12 @@ class LatexSculpture(Sculpture):
         self.torsion = Torsion(plan, scene, hands, self.joints, self.body, self.friction)
         self.inflated_at: dict[int, float] = {}
         """Time at which each body had its gas, s."""
+
+    def centre(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the centre of the mass of its rubber, (3,), m; `points`: its vertices, (V, 3), m."""
+        mass = self.scene.true_mass.numpy()[self._vertices].astype(np.float64)
+        middle: NDArray[np.float64] = mass @ points / mass.sum()
+        return middle
 
     @property
     def unwinding(self) -> str | None:

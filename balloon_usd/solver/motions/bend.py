@@ -12,6 +12,8 @@ from balloon_usd.solver.motions.motion import Motion
 from balloon_usd.solver.motions.smooth import smooth
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from balloon_usd.operations import moves
     from balloon_usd.solver.sculpture import Sculpture
 
@@ -19,18 +21,33 @@ Floats = NDArray[np.float64]
 
 
 class Bend(Motion, ABC):
-    """A bubble that is led onto an arc: its end stays, its start goes, and what hangs on it goes along."""
+    """A bubble that is led onto an arc: the end on which more hangs stays, and what hangs on the other goes
+    along.
+    """
 
     def __init__(self, move: moves.Bend, sculpture: Sculpture) -> None:
         """Take hold of the bubble and of what hangs on it."""
-        self._hands = sculpture.hands
+        self._sculpture, self._hands = sculpture, sculpture.hands
         self._bubble = sculpture.plan.table.rings[move.rings[1]].bubble
-        self._joints = [sculpture.joints[ring] for ring in move.rings]
+        rings, flat = move.rings, (0, move.flat)
+        if self._rubber_on(rings[-1], rings) < self._rubber_on(rings[0], rings):
+            rings, flat = rings[::-1], flat[::-1]
+        self._joints = [sculpture.joints[ring] for ring in rings]
         for joint in self._joints:
-            self._hands.lead(joint, sculpture.frame.middle)
-        self._carried = sculpture.carry(move.rings)
+            self.take(joint)
+        self._carried = sculpture.carry(rings)
         self._began = sculpture.frame.middle[self._joints].astype(np.float64)
-        self._arc = Arc(self._began, move.angle, np.array(move.point))
+        self._arc = Arc(self._began, move.angle, np.array(move.point), flat)
+
+    def _rubber_on(self, ring: int, rings: Sequence[int]) -> float:
+        """Return the unstressed length of all bubbles that hang on one of the bubble's rings, m."""
+        plan = self._sculpture.plan
+        hanging = set(self._sculpture.rings_hanging_on(rings)[rings.index(ring)])
+        return sum(each.rest_length for each in plan.bubbles if hanging & set(plan.table.guides(each.name)))
+
+    def take(self, joint: int) -> None:
+        """Take hold of a ring of the bubble."""
+        self._hands.lead(joint, self._sculpture.frame.middle)
 
     def advance(self, share: float) -> None:
         """Lead the rings of the bubble along, and let it keep its curve in the end."""
@@ -48,23 +65,29 @@ class Bend(Motion, ABC):
 class Arc:
     """A row of rings that is bent into an arc, its last one held."""
 
-    def __init__(self, began: Floats, angle: float, point: Floats) -> None:
+    def __init__(
+        self, began: Floats, angle: float, point: Floats, straight: tuple[int, int] = (0, 0)
+    ) -> None:
         """Take the rings as they are, (N, 3), m.
 
-        `angle`: between the directions of both ends, rad; `point`: unit direction in which the first goes.
+        `angle`: between the directions of both ends, rad; `point`: unit direction in which the first goes;
+        `straight`: how many rings at either end lie beyond the bend.
         """
-        sides = np.linalg.norm(np.diff(began, axis=0), axis=1)
+        sides = np.linalg.norm(np.diff(began, axis=0), axis=1)[::-1]
         self._axis = began[0] - began[-1]
         self._axis /= max(float(np.linalg.norm(self._axis)), 1e-9)
         self._point = point - self._axis * float(point @ self._axis)
         self._point /= max(float(np.linalg.norm(self._point)), 1e-9)
-        self._along = np.concatenate([[0.0], np.cumsum(sides[::-1])])
-        self._sides, self._held, self._angle = sides[::-1, None], began[-1], angle
+        along = np.concatenate([[0.0], np.cumsum(sides)])
+        begin, end = along[straight[1]], along[len(sides) - straight[0]]
+        bent = np.clip((along - begin) / max(end - begin, 1e-9), 0.0, 1.0)
+        self._turn = 0.5 * angle * (bent[1:] + bent[:-1])
+        """How far each side is turned in the end, rad."""
+        self._sides, self._held = sides[:, None], began[-1]
 
     def places(self, progress: float) -> Floats:
         """Return where the rings go, (N, 3), m; `progress`: 0 straight, 1 bent by the whole angle."""
-        along = self._along
-        turn = progress * self._angle * (along[1:] + along[:-1]) / (2.0 * along[-1])
-        steps = self._sides * (np.cos(turn)[:, None] * self._axis + np.sin(turn)[:, None] * self._point)
+        turn = progress * self._turn[:, None]
+        steps = self._sides * (np.cos(turn) * self._axis + np.sin(turn) * self._point)
         row: Floats = self._held + np.concatenate([np.zeros((1, 3)), np.cumsum(steps, axis=0)])
         return row[::-1]

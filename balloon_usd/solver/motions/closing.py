@@ -57,23 +57,30 @@ class ClosingChain:
     """A chain of bubbles whose ends are brought together."""
 
     def __init__(
-        self, lengths: Floats, along: Floats, point: Floats, gap: float, *, across: bool = True
+        self,
+        lengths: Floats,
+        along: Floats,
+        point: Floats,
+        across: Floats,
+        gap: float,
+        *,
+        turned: bool = True,
     ) -> None:
         """Take the sides from the first joint to the last, (sides,) m.
 
         `along`: unit direction of the balloon beyond the held joint. `point`: unit direction, across `along`,
-        to which the chain rises. `gap`: distance that stays between first and last joint, m.
-        `across`: whether the chain is turned across the balloon in the end.
+        to which the chain rises. `across`: unit direction, across both, in which its first side lies in the
+        end. `gap`: distance that stays between first and last joint, m. `turned`: whether the chain is turned
+        across the balloon in the end.
         """
         if len(lengths) == 2:
             # Two sides lie on each other when closed: as unequal sides they would tilt.
             lengths = np.full(2, lengths.mean())
         self._sides: list[float] = lengths[::-1].tolist()
         self._angles: list[float] = central_angles(lengths)[::-1].tolist()
-        self._back, self._point = -along, point
-        self._right = np.cross(point, -along)
+        self._back, self._point, self._across = -along, point, across
         self._gap = gap
-        self._turn = 0.5 * math.pi if across else 0.0
+        self._turn = 0.5 * math.pi if turned else 0.0
 
     def pose(self, progress: float) -> Floats:
         """Return the joints, (sides + 1, 3) float64, m, relative to the held last one.
@@ -86,7 +93,7 @@ class ClosingChain:
         cosine, sine = flat[-1][0] / far, flat[-1][1] / far
         slack = max(self._gap - far, 0.0) / len(self._sides)
         turned = self._turn * smooth((share - TURN_ACROSS_FROM) / (1.0 - TURN_ACROSS_FROM))
-        across = math.cos(turned) * self._back + math.sin(turned) * self._right
+        across = math.cos(turned) * self._back + math.sin(turned) * self._across
         # Numbers one by one: for so few joints, arrays take three times as long.
         places = [(cosine * x + sine * y + slack * k, cosine * y - sine * x) for k, (x, y) in enumerate(flat)]
         return np.asarray(np.array(places[::-1]) @ np.array([across, self._point]))

@@ -45,7 +45,8 @@ class Gather(Motion):
         if move.pulled:
             hands.pull(corners[1])
             sides = np.maximum(sides, move.pulled)
-        closing = ClosingChain(sides, ALONG, np.array(move.point), gap, across=not move.pulled)
+        ways = (ALONG, np.array(move.point), np.array(move.across))
+        closing = ClosingChain(sides, *ways, gap, turned=not move.pulled)
         off = began - began[-1] - closing.pose(0.0)
         cheeks, dips = _cheeks(move, sculpture, began), _dips(move, sculpture, began)
         self._chain = Chain(np.array(corners), began, closing, off, carried, cheeks, dips)

@@ -8,17 +8,13 @@ from balloon_usd.solver.kosaka.memory import BEND_SET, set_bend
 from balloon_usd.solver.motions.bend import Bend
 
 if TYPE_CHECKING:
-    from balloon_usd.operations import moves
     from balloon_usd.solver.kosaka.sculpture import KosakaSculpture
 
 
 class KosakaBend(Bend):
     """A bubble of a net that is led onto an arc."""
 
-    def __init__(self, move: moves.Bend, sculpture: KosakaSculpture) -> None:
-        """Take hold of the bubble and of what hangs on it."""
-        super().__init__(move, sculpture)
-        self._sculpture = sculpture
+    _sculpture: KosakaSculpture
 
     def set_bend(self, bubble: str) -> None:
         """Let its springs keep their lengths, in part."""

@@ -12,6 +12,7 @@ from balloon_usd.solver.motions.bring import Bring
 from balloon_usd.solver.motions.gather import Gather
 from balloon_usd.solver.motions.let_go import LetGo
 from balloon_usd.solver.motions.press import Press
+from balloon_usd.solver.motions.set_down import SetDown
 from balloon_usd.solver.motions.wait import Wait
 
 if TYPE_CHECKING:
@@ -29,6 +30,7 @@ KOSAKA_MOTIONS: Motions = {
     moves.Bend: KosakaBend,
     moves.Press: Press,
     moves.Weld: KosakaWeld,
+    moves.SetDown: SetDown,
     moves.LetGo: LetGo,
     moves.Hold: Wait,
 }

@@ -8,17 +8,17 @@ from balloon_usd.solver.latex.memory import set_bend
 from balloon_usd.solver.motions.bend import Bend
 
 if TYPE_CHECKING:
-    from balloon_usd.operations import moves
     from balloon_usd.solver.latex.sculpture import LatexSculpture
 
 
 class LatexBend(Bend):
     """A bubble of latex that is led onto an arc."""
 
-    def __init__(self, move: moves.Bend, sculpture: LatexSculpture) -> None:
-        """Take hold of the bubble and of what hangs on it."""
-        super().__init__(move, sculpture)
-        self._sculpture = sculpture
+    _sculpture: LatexSculpture
+
+    def take(self, joint: int) -> None:
+        """Grip a ring: bending a tube that is blown up takes more than a light push."""
+        self._hands.grip(joint, self._sculpture.frame.middle)
 
     def set_bend(self, bubble: str) -> None:
         """Squeeze the inside of the bend."""

@@ -15,6 +15,7 @@ from balloon_usd.solver.latex.motions.turn_fold import TurnFold
 from balloon_usd.solver.motions.bring import Bring
 from balloon_usd.solver.motions.gather import Gather
 from balloon_usd.solver.motions.press import Press
+from balloon_usd.solver.motions.set_down import SetDown
 from balloon_usd.solver.motions.wait import Wait
 from balloon_usd.solver.motions.weld import Weld
 
@@ -32,6 +33,7 @@ LATEX_MOTIONS: Motions = {
     moves.Press: Press,
     moves.Weld: Weld,
     moves.TurnFold: TurnFold,
+    moves.SetDown: SetDown,
     moves.LetGo: LatexLetGo,
     moves.Hold: Hold,
 }

@@ -1,0 +1,77 @@
+"""Putting a finished figure where it stays: on the ground, on a thread, or held where it is."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from balloon_usd.solver.motions.motion import Motion
+from balloon_usd.solver.motions.smooth import smooth
+from balloon_usd.solver.placement import Placement, turn_about, turn_between
+from balloon_usd.solver.resting import standing_direction
+
+if TYPE_CHECKING:
+    from balloon_usd.operations import moves
+    from balloon_usd.solver.sculpture import Sculpture
+
+Floats = NDArray[np.float64]
+
+DOWN = np.array([0.0, 0.0, -1.0])
+
+
+class SetDown(Motion):
+    """Hands that carry the whole figure as it is, by the placement of its frames."""
+
+    def __init__(self, move: moves.SetDown, sculpture: Sculpture) -> None:
+        """See how it lies, and find where it goes."""
+        self._sculpture = sculpture
+        points = sculpture.walls()
+        self._centre = sculpture.centre(points)
+        thread = _thread(points, self._centre, sculpture)
+        down = DOWN
+        if move.pose == "stand":
+            down = standing_direction(points, self._centre, DOWN)
+        elif move.pose == "hang":
+            down = _unit(-thread)
+        self._axis, self._angle = turn_between(down, DOWN)
+        turn = turn_about(self._axis, self._angle)
+        turned = (points - self._centre) @ turn.T
+        self._way = -(self._centre + _pivot(move.pose, turned, turn @ thread))
+
+    def advance(self, share: float) -> None:
+        """Carry it a share of the way."""
+        progress = smooth(share)
+        turn = turn_about(self._axis, progress * self._angle)
+        shift = self._centre + progress * self._way - turn @ self._centre
+        self._sculpture.placement = Placement(turn.astype(np.float32), shift.astype(np.float32))
+
+
+def _thread(points: Floats, centre: Floats, sculpture: Sculpture) -> Floats:
+    """Return where a thread is tied, from the centre, (3,), m: where the figure stays most upright."""
+    joints = sculpture.frame.middle[sculpture.all_joints].astype(np.float64)
+    arms = (joints if len(joints) else points) - centre
+    lengths = np.maximum(np.linalg.norm(arms, axis=1), 1e-9)
+    found: Floats = arms[int(np.argmax(arms[:, 2] / lengths))]
+    return found
+
+
+def _pivot(pose: str, turned: Floats, thread: Floats) -> Floats:
+    """Return what of the turned figure comes to the origin, (3,), m.
+
+    `turned`: its points from its centre, (N, 3), m; `thread`: where it is tied, from its centre, (3,), m.
+    """
+    if pose == "hang":
+        return thread
+    low, high = turned.min(axis=0), turned.max(axis=0)
+    middle: Floats = 0.5 * (low + high)
+    if pose == "stand":
+        middle[2] = low[2]
+    return middle
+
+
+def _unit(vector: Floats) -> Floats:
+    """Return a vector (3,) at length 1."""
+    found: Floats = vector / max(float(np.linalg.norm(vector)), 1e-9)
+    return found

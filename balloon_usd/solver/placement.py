@@ -1,0 +1,43 @@
+"""Where a finished figure is put: a rigid motion of all that its frames show."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+
+class Placement(NamedTuple):
+    """A turn about the origin and a shift behind it."""
+
+    turn: NDArray[np.float32]
+    """Rotation matrix, (3, 3)."""
+    shift: NDArray[np.float32]
+    """(3,), m."""
+
+    def put(self, points: NDArray[np.float32]) -> None:
+        """Move points (N, 3) in place, m."""
+        points[:] = points @ self.turn.T + self.shift
+
+
+def turn_between(one: Floats, other: Floats) -> tuple[Floats, float]:
+    """Return the axis (3,) and the angle (rad) of the smallest turn that takes a unit vector to another."""
+    axis = np.cross(one, other)
+    size = float(np.linalg.norm(axis))
+    if size < 1e-12:
+        # Opposite ones are turned about any axis across them.
+        axis = np.cross(one, np.eye(3)[int(np.argmin(np.abs(one)))])
+        size = float(np.linalg.norm(axis))
+        return axis / size, 0.0 if float(one @ other) > 0.0 else float(np.pi)
+    return axis / size, float(np.arctan2(size, one @ other))
+
+
+def turn_about(axis: Floats, angle: float) -> Floats:
+    """Return the rotation matrix (3, 3) about a unit axis (3,) by an angle (rad)."""
+    x, y, z = axis
+    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    turn: Floats = np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * (cross @ cross)
+    return turn

@@ -1,0 +1,86 @@
+"""Finished figures are put where their recipes say."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from balloon_usd.plan import plan
+from balloon_usd.recipe import Recipe
+from balloon_usd.solver.simulation import simulate_many
+
+STOOL = """
+format: 1
+name: stool
+units: cm
+balloons:
+  main: {size: 260, length: 15, tail: 6}
+steps:
+  - bubbles: {front: 4, left_leg: 6, right_leg: 6}
+  - lock: [left_leg, right_leg]
+    point: down
+  - rest: back
+pose: POSE
+physics: {hold: 0.5}
+"""
+
+
+@cache
+def made(pose):
+    """Make a figure; return its points, (V, 3), m, in every frame from the last of its making on, and what
+    the hands did last.
+    """
+    simulation = simulate_many([plan(Recipe.parse(STOOL.replace("POSE", pose)))], device="cpu")
+    doing, points = [], []
+    for (frame,) in simulation.frames():
+        doing.append(frame.doing)
+        points.append(np.concatenate(frame.points).astype(float))
+    last = max(k for k, text in enumerate(doing) if text == "hold")
+    return np.array(points[last:]), doing[-1], simulation.model.performers[0].sculpture
+
+
+def test_a_figure_stays_where_it_was_made_without_a_pose():
+    points, doing, sculpture = made("as made")
+    assert (len(points), doing, sculpture.placement) == (1, "hold", None)
+
+
+@pytest.mark.parametrize("pose", ["stand", "hang", "hold"])
+def test_hands_carry_the_figure_as_it_is_gently(pose):
+    points, _, _ = made(pose)
+    assert len(points) > 60
+    some = points[:, ::97]
+    sizes = np.linalg.norm(some[:, :, None] - some[:, None], axis=3)
+    assert np.abs(sizes - sizes[0]).max() < 2e-3
+    steps = np.linalg.norm(np.diff(points, axis=0), axis=2).max(axis=1)
+    assert steps.max() * 24.0 < 2.0
+    assert max(steps[0], *steps[-20:]) < 1e-3
+
+
+def test_a_figure_stands_on_the_ground_with_its_middle_over_the_origin():
+    points, doing, sculpture = made("stand")
+    low, high = points[-1].min(axis=0), points[-1].max(axis=0)
+    assert doing == "stand"
+    assert low[2] == pytest.approx(0.0, abs=5e-4)
+    assert (low + high)[:2] == pytest.approx([0.0, 0.0], abs=2e-3)
+    touching = points[-1][points[-1][:, 2] < 2e-3][:, :2]
+    centre = sculpture.centre(points[-1])[:2]
+    assert (touching.min(axis=0) < centre + 1e-3).all()
+    assert (touching.max(axis=0) > centre - 1e-3).all()
+
+
+def test_a_figure_hangs_below_the_thread_at_the_origin():
+    points, doing, sculpture = made("hang")
+    centre = sculpture.centre(points[-1])
+    assert doing == "hang"
+    assert centre[:2] == pytest.approx([0.0, 0.0], abs=2e-3)
+    assert centre[2] < -5e-3
+
+
+def test_a_figure_is_held_as_it_is_with_its_middle_at_the_origin():
+    points, doing, _ = made("hold")
+    assert doing == "held"
+    assert points[-1].min(axis=0) + points[-1].max(axis=0) == pytest.approx(np.zeros(3), abs=2e-3)
+    moved = points[-1] - points[0]
+    assert np.abs(moved - moved.mean(axis=0)).max() < 2e-3
