@@ -84,6 +84,24 @@ class Bring(Move):
 
 
 @dataclass(frozen=True)
+class SetNet(Move):
+    """Lead all joints of a net, as far as it is made, to their places in space, and so bring a ring to
+    another.
+    """
+
+    rings: tuple[int, ...] = ()
+    """Rings of its joints; the last one is held where it is."""
+    places: tuple[Vector, ...] = ()
+    """Where they lie in the net, m."""
+    sides: tuple[tuple[int, int], ...] = ()
+    """Bubbles, by the indices of the rings at their ends."""
+    moving: int | None = None
+    """Ring that is brought to the held one, where what is left of its balloon shall stand off the net; None
+    where the net is done.
+    """
+
+
+@dataclass(frozen=True)
 class Bend(Move):
     """Bend a bubble by leading its start and middle onto an arc, its end held."""
 

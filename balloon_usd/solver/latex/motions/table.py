@@ -9,6 +9,7 @@ from balloon_usd.solver.latex.motions.bend import LatexBend
 from balloon_usd.solver.latex.motions.inflate import Inflate
 from balloon_usd.solver.latex.motions.let_go import LatexLetGo
 from balloon_usd.solver.latex.motions.pinch import Pinch
+from balloon_usd.solver.latex.motions.set_net import LatexSetNet
 from balloon_usd.solver.latex.motions.spin import Spin
 from balloon_usd.solver.motions.bring import Bring
 from balloon_usd.solver.motions.gather import Gather
@@ -26,6 +27,7 @@ LATEX_MOTIONS: Motions = {
     moves.Spin: Spin,
     moves.Gather: Gather,
     moves.Bring: Bring,
+    moves.SetNet: LatexSetNet,
     moves.Bend: LatexBend,
     moves.Press: Press,
     moves.Weld: Weld,

@@ -1,0 +1,123 @@
+"""How a net opens: the way of its joints from where they are to their places, as hands turn it and shape it.
+
+The last joint stays where it is. The net is turned as a whole, along the shortest way; while it is, every
+joint goes straight to its place in it, and its sides keep their lengths.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+Floats = NDArray[np.float64]
+
+WAYPOINTS = 17
+"""Poses from the first to the last; hands go straight from one to the next."""
+CORRECTIONS = 40
+"""Corrections of the lengths of the sides at each of them."""
+DIRECTIONS = 400
+"""Directions tried for what is left of the balloon."""
+MIRRORED = np.array([1.0, 1.0, -1.0])
+
+
+def opening_path(began: Floats, places: Floats, sides: Sequence[tuple[int, int]], *, aimed: bool) -> Floats:
+    """Return the way of the joints, (WAYPOINTS, N, 3), m.
+
+    Args:
+        began: where they are, (N, 3), m.
+        places: where they lie in the net, (N, 3), m, turned or mirrored in any way.
+        sides: pairs of joints that keep their distance.
+        aimed: whether the net ends beside the x axis, on which what is left of a balloon lies beyond the last
+            joint.
+    """
+    here, shape = began - began[-1], places - places[-1]
+    # Neither a net nor its mirror image is the right one before it is rigid.
+    shape = min(shape, shape * MIRRORED, key=lambda each: _misfit(each, here))
+    shape = shape @ fit(shape, here).T
+    turn = rotation_vector(_aim(shape, here)) if aimed else np.zeros(3)
+    pairs = np.array(sides, dtype=np.int64).reshape(-1, 2)
+    before, after = _lengths(here, pairs), _lengths(shape, pairs)
+    path, off = [here], here
+    for share in np.linspace(0.0, 1.0, WAYPOINTS)[1:]:
+        straight = here + share * (shape - here)
+        off = _with_sides(straight, pairs, before + share * (after - before))
+        path.append(off @ rotation(share * turn).T)
+    return np.asarray(began[-1] + np.array(path))
+
+
+def _misfit(shape: Floats, here: Floats) -> float:
+    return float(np.linalg.norm(shape @ fit(shape, here).T - here))
+
+
+def fit(shape: Floats, here: Floats) -> Floats:
+    """Return the rotation about the origin that brings places nearest to others, (3, 3) (Kabsch 1976)."""
+    u, _, v = np.linalg.svd(here.T @ shape)
+    u[:, -1] *= np.sign(np.linalg.det(u @ v))
+    return np.asarray(u @ v)
+
+
+def _aim(shape: Floats, here: Floats) -> Floats:
+    """Return the rotation after which the x axis leaves the last joint through the widest gap of the net."""
+    k = np.arange(DIRECTIONS)
+    height = 1.0 - (2.0 * k + 1.0) / DIRECTIONS
+    turned, width = math.pi * (3.0 - math.sqrt(5.0)) * k, np.sqrt(1.0 - height**2)
+    ways = np.stack([width * np.cos(turned), width * np.sin(turned), height], axis=1)
+    far = np.linalg.norm(shape, axis=1)
+    others = shape[far > 1e-6] / far[far > 1e-6, None]
+    way = ways[np.argmin((ways @ others.T).max(axis=1))]
+    forward = _turning(way, np.array([1.0, 0.0, 0.0]))
+    _, y, z = (shape @ forward.T).T
+    spin = math.atan2(float(y @ here[:, 2] - z @ here[:, 1]), float(y @ here[:, 1] + z @ here[:, 2]))
+    return rotation(np.array([spin, 0.0, 0.0])) @ forward
+
+
+def _turning(one: Floats, other: Floats) -> Floats:
+    """Return the smallest rotation of one unit vector to another, (3, 3)."""
+    axis = np.cross(one, other)
+    sine = float(np.linalg.norm(axis))
+    if sine < 1e-9:
+        axis, sine = np.array([0.0, 0.0, 1.0]), 1.0 if one @ other < 0.0 else 0.0
+        return rotation(math.pi * sine * axis)
+    return rotation(axis * (math.atan2(sine, float(one @ other)) / sine))
+
+
+def rotation(vector: Floats) -> Floats:
+    """Return the matrix of a rotation vector, (3,), rad (Rodrigues)."""
+    angle = float(np.linalg.norm(vector))
+    x, y, z = vector / max(angle, 1e-12)
+    k = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    return np.asarray(np.eye(3) + math.sin(angle) * k + (1.0 - math.cos(angle)) * k @ k)
+
+
+def rotation_vector(matrix: Floats) -> Floats:
+    """Return the vector of a rotation by up to half a turn, (3,), rad."""
+    angle = math.acos(min(max(0.5 * (float(np.trace(matrix)) - 1.0), -1.0), 1.0))
+    axis = np.linalg.svd(matrix - np.eye(3))[2][-1]
+    twice = np.array([matrix[2, 1] - matrix[1, 2], matrix[0, 2] - matrix[2, 0], matrix[1, 0] - matrix[0, 1]])
+    return np.asarray(axis * (angle if float(twice @ axis) >= 0.0 else -angle))
+
+
+def _lengths(places: Floats, pairs: NDArray[np.int64]) -> Floats:
+    return np.asarray(np.linalg.norm(places[pairs[:, 0]] - places[pairs[:, 1]], axis=1))
+
+
+def _with_sides(places: Floats, pairs: NDArray[np.int64], lengths: Floats) -> Floats:
+    """Return places near these whose pairs have about these distances, the last one at the origin."""
+    found = places.copy()
+    shares = 1.0 / np.maximum(np.bincount(pairs.ravel(), minlength=len(places)), 1)[:, None]
+    for _ in range(CORRECTIONS):
+        apart = found[pairs[:, 0]] - found[pairs[:, 1]]
+        far = np.maximum(np.linalg.norm(apart, axis=1), 1e-9)
+        step = (0.5 * (lengths / far - 1.0))[:, None] * apart
+        shift = np.zeros_like(found)
+        np.add.at(shift, pairs[:, 0], step)
+        np.add.at(shift, pairs[:, 1], -step)
+        found += shares * shift
+        found -= found[-1]
+    return found
