@@ -6,7 +6,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from balloon_usd.operations.disjoint_sets import DisjointSets
-from balloon_usd.operations.moves import Gather, Move, Pinch, SetNet, Weld
+from balloon_usd.operations.moves import Bring, Gather, Move, Pinch, SetNet, Weld
 from balloon_usd.operations.score import SETTLE_SECONDS
 
 if TYPE_CHECKING:
@@ -27,30 +27,36 @@ def set_nets(score: Score, nets: Sequence[Net], table: RingTable, step: int) -> 
     """
     if not nets:
         return
-    score.moves[:] = _in_place_of_gathering(score.moves, nets, table)
+    score.moves[:] = _in_place_of_closing(score.moves, nets, table)
     for net in nets:
         rings = tuple(sorted(net.places))
         score.add(_setting(net, rings, Move(score.now, SETTING_SECONDS, step, "set the net")))
         score.add(Move(score.now, SETTLE_SECONDS, step, "set the net"))
 
 
-def _in_place_of_gathering(moves: Iterable[Move], nets: Sequence[Net], table: RingTable) -> list[Move]:
-    """Return the moves with a setting of the net in place of each gathering of a chain that is no longer
-    free: on a circle, joints that are one would be led apart.
+def _in_place_of_closing(moves: Iterable[Move], nets: Sequence[Net], table: RingTable) -> list[Move]:
+    """Return the moves with a setting of the net in place of each that closes one of its rings, but for the
+    first ring of a balloon, a free chain: on a circle, joints that are one would be led apart, and brought
+    straight to each other, they would make a lump.
     """
-    made = Made(table)
+    made = _Made(table)
     found: list[Move] = []
     for move in moves:
         made.see(move)
-        if isinstance(move, Gather) and made.ties(move.corners):
-            ends = {move.corners[0], move.corners[-1]}
-            net = next((net for net in nets if ends <= net.places.keys()), None)
-            if net is not None:
-                rings = made.with_held(move.corners[-1], net)
-                found.append(_setting(net, rings, move, move.corners[0]))
-                continue
-        found.append(move)
+        found.append(move if (ends := made.closing(move)) is None else _closing(move, ends, nets, made))
     return found
+
+
+def _closing(move: Move, ends: tuple[int, int], nets: Sequence[Net], made: _Made) -> Move:
+    """Return the move in which a net is set so that two of its rings meet; if none has both, the move given.
+
+    `ends`: the moving ring and the held one.
+    """
+    net = next((net for net in nets if net.places.keys() >= set(ends)), None)
+    if net is None:
+        return move
+    moving, held = ends
+    return _setting(net, made.with_held(held, net), move, moving)
 
 
 def _setting(net: Net, rings: tuple[int, ...], move: Move, moving: int | None = None) -> SetNet:
@@ -61,36 +67,50 @@ def _setting(net: Net, rings: tuple[int, ...], move: Move, moving: int | None = 
     return SetNet(move.start, move.seconds, move.step, move.text, rings, places, sides, moving)
 
 
-class Made:
+class _Made:
     """Rings that are closed so far, and those that are one."""
 
     def __init__(self, table: RingTable) -> None:
         """Begin with the knots, which are closed."""
         self._rings = table.rings
-        self._closed = {k for k, ring in enumerate(table.rings) if ring.along == 0.0}
+        self._closed = [k for k, ring in enumerate(table.rings) if ring.along == 0.0]
         self._welded: set[int] = set()
         self._welds: list[tuple[int, ...]] = []
 
     def see(self, move: Move) -> None:
         """Take note of what a move makes."""
         if isinstance(move, Pinch):
-            self._closed.add(move.ring)
+            self._closed.append(move.ring)
         elif isinstance(move, Weld):
             self._welded.update(move.rings)
             self._welds.append(move.rings)
 
-    def ties(self, rings: Iterable[int]) -> bool:
-        """Whether one of some rings is one with another by now."""
-        return not self._welded.isdisjoint(rings)
+    def closing(self, move: Move) -> tuple[int, int] | None:
+        """Return the rings that a move brings together, the moving and the held one, where these hang
+        together by now and not only as a free chain.
+        """
+        if isinstance(move, Gather) and not self._welded.isdisjoint(move.corners):
+            return move.corners[0], move.corners[-1]
+        if isinstance(move, Bring):
+            # What is left of a balloon lies beyond the ring that was closed last.
+            moving, held = sorted((move.ring, move.to), key=self._closed.index)
+            pieces = self._pieces()
+            if pieces.root(moving) == pieces.root(held):
+                return moving, held
+        return None
 
     def with_held(self, held: int, net: Net) -> tuple[int, ...]:
         """Return the closed rings of a net that hang together with a held one, which comes last."""
+        pieces = self._pieces()
+        others = [k for k in sorted(net.places.keys() & self._closed) if k != held]
+        return (*(k for k in others if pieces.root(k) == pieces.root(held)), held)
+
+    def _pieces(self) -> DisjointSets[int]:
+        """Return the closed rings that hang together."""
         pieces: DisjointSets[int] = DisjointSets()
         for weld in self._welds:
             pieces.merge(weld)
         for one, other in pairwise(sorted(self._closed)):
             if self._rings[one].balloon == self._rings[other].balloon:
                 pieces.merge((one, other))
-        root = pieces.root(held)
-        others = [k for k in sorted(self._closed & net.places.keys()) if pieces.root(k) == root and k != held]
-        return (*others, held)
+        return pieces

@@ -21,6 +21,10 @@ WAYPOINTS = 17
 """Poses from the first to the last; hands go straight from one to the next."""
 CORRECTIONS = 40
 """Corrections of the lengths of the sides at each of them."""
+FITS = 30
+"""Steps in which the net is laid over what there is of it."""
+NEAR = 0.01
+"""Distance below which a joint is where it belongs, m."""
 DIRECTIONS = 400
 """Directions tried for what is left of the balloon."""
 MIRRORED = np.array([1.0, 1.0, -1.0])
@@ -38,8 +42,9 @@ def opening_path(began: Floats, places: Floats, sides: Sequence[tuple[int, int]]
     """
     here, shape = began - began[-1], places - places[-1]
     # Neither a net nor its mirror image is the right one before it is rigid.
-    shape = min(shape, shape * MIRRORED, key=lambda each: _misfit(each, here))
-    shape = shape @ fit(shape, here).T
+    fits = [(each, *fit(each, here)) for each in (shape, shape * MIRRORED)]
+    shape, turned, _ = min(fits, key=lambda each: each[2])
+    shape = shape @ turned.T
     turn = rotation_vector(_aim(shape, here)) if aimed else np.zeros(3)
     pairs = np.array(sides, dtype=np.int64).reshape(-1, 2)
     before, after = _lengths(here, pairs), _lengths(shape, pairs)
@@ -51,15 +56,21 @@ def opening_path(began: Floats, places: Floats, sides: Sequence[tuple[int, int]]
     return np.asarray(began[-1] + np.array(path))
 
 
-def _misfit(shape: Floats, here: Floats) -> float:
-    return float(np.linalg.norm(shape @ fit(shape, here).T - here))
+def fit(shape: Floats, here: Floats) -> tuple[Floats, float]:
+    """Return the rotation that brings most of some places near to others, (3, 3), and the sum of the
+    distances that stay, m: new joints, far off the net, must not turn it.
 
-
-def fit(shape: Floats, here: Floats) -> Floats:
-    """Return the rotation about the origin that brings places nearest to others, (3, 3) (Kabsch 1976)."""
-    u, _, v = np.linalg.svd(here.T @ shape)
-    u[:, -1] *= np.sign(np.linalg.det(u @ v))
-    return np.asarray(u @ v)
+    Rotations of weighted places (Kabsch 1976), the weights falling with the distance (Weiszfeld 1937).
+    """
+    weight, turned, far = np.ones(len(shape)), np.eye(3), np.zeros(len(shape))
+    for _ in range(FITS):
+        one, other = (places - np.average(places, axis=0, weights=weight) for places in (shape, here))
+        u, _, v = np.linalg.svd((weight[:, None] * other).T @ one)
+        u[:, -1] *= np.sign(np.linalg.det(u @ v))
+        turned = u @ v
+        far = np.linalg.norm(one @ turned.T - other, axis=1)
+        weight = 1.0 / np.maximum(far, NEAR)
+    return turned, float(far.sum())
 
 
 def _aim(shape: Floats, here: Floats) -> Floats:
