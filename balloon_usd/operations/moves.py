@@ -99,6 +99,8 @@ class SetNet(Move):
     """Ring that is brought to the held one, where what is left of its balloon shall stand off the net; None
     where the net is done.
     """
+    onward: Vector | None = None
+    """Where the next joint of that balloon will lie, m; None where the net has no more of it."""
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -12,6 +13,7 @@ from balloon_usd.operations.score import SETTLE_SECONDS
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
+    from balloon_usd.operations.moves import Vector
     from balloon_usd.operations.score import Score
     from balloon_usd.plan.nets import Net
     from balloon_usd.plan.rings import RingTable
@@ -56,15 +58,16 @@ def _closing(move: Move, ends: tuple[int, int], nets: Sequence[Net], made: _Made
     if net is None:
         return move
     moving, held = ends
-    return _setting(net, made.with_held(held, net), move, moving)
+    setting = _setting(net, made.with_held(held, net), move)
+    return replace(setting, moving=moving, onward=made.onward(held, net))
 
 
-def _setting(net: Net, rings: tuple[int, ...], move: Move, moving: int | None = None) -> SetNet:
+def _setting(net: Net, rings: tuple[int, ...], move: Move) -> SetNet:
     """Return the setting of some rings of a net, with the time and the words of a move."""
     index = {ring: k for k, ring in enumerate(rings)}
     sides = tuple((index[a], index[b]) for a, b in net.sides if a in index and b in index)
     places = tuple(net.places[ring] for ring in rings)
-    return SetNet(move.start, move.seconds, move.step, move.text, rings, places, sides, moving)
+    return SetNet(move.start, move.seconds, move.step, move.text, rings, places, sides)
 
 
 class _Made:
@@ -104,6 +107,13 @@ class _Made:
         pieces = self._pieces()
         others = [k for k in sorted(net.places.keys() & self._closed) if k != held]
         return (*(k for k in others if pieces.root(k) == pieces.root(held)), held)
+
+    def onward(self, held: int, net: Net) -> Vector | None:
+        """Return the place in a net of the joint behind a held one on its balloon; None if it has none."""
+        later = (k for k in range(held + 1, len(self._rings)) if self._rings[k].joint)
+        behind = next(later, held)
+        same = self._rings[behind].balloon == self._rings[held].balloon and behind != held
+        return net.places.get(behind) if same else None
 
     def _pieces(self) -> DisjointSets[int]:
         """Return the closed rings that hang together."""

@@ -27,25 +27,31 @@ NEAR = 0.01
 """Distance below which a joint is where it belongs, m."""
 DIRECTIONS = 400
 """Directions tried for what is left of the balloon."""
+ONWARD = 0.3
+"""Weight of the way on beside that of the gap, as cosines."""
 MIRRORED = np.array([1.0, 1.0, -1.0])
 
 
-def opening_path(began: Floats, places: Floats, sides: Sequence[tuple[int, int]], *, aimed: bool) -> Floats:
+def opening_path(
+    began: Floats, places: Floats, sides: Sequence[tuple[int, int]], onward: Floats | None
+) -> Floats:
     """Return the way of the joints, (WAYPOINTS, N, 3), m.
 
     Args:
         began: where they are, (N, 3), m.
         places: where they lie in the net, (N, 3), m, turned or mirrored in any way.
         sides: pairs of joints that keep their distance.
-        aimed: whether the net ends beside the x axis, on which what is left of a balloon lies beyond the last
-            joint.
+        onward: where the joint that follows the last one will lie in the net, (3,), m; the net is turned so
+            that what is left of the balloon, along x, leaves it through a wide gap not far from there. None
+            where nothing is left.
     """
     here, shape = began - began[-1], places - places[-1]
+    ahead = np.zeros(3) if onward is None else onward - places[-1]
     # Neither a net nor its mirror image is the right one before it is rigid.
-    fits = [(each, *fit(each, here)) for each in (shape, shape * MIRRORED)]
-    shape, turned, _ = min(fits, key=lambda each: each[2])
-    shape = shape @ turned.T
-    turn = rotation_vector(_aim(shape, here)) if aimed else np.zeros(3)
+    fits = [(mirror, *fit(shape * mirror, here)) for mirror in (np.ones(3), MIRRORED)]
+    mirror, turned, _ = min(fits, key=lambda each: each[2])
+    shape, ahead = shape * mirror @ turned.T, ahead * mirror @ turned.T
+    turn = np.zeros(3) if onward is None else rotation_vector(_aim(shape, ahead, here))
     pairs = np.array(sides, dtype=np.int64).reshape(-1, 2)
     before, after = _lengths(here, pairs), _lengths(shape, pairs)
     path, off = [here], here
@@ -73,15 +79,18 @@ def fit(shape: Floats, here: Floats) -> tuple[Floats, float]:
     return turned, float(far.sum())
 
 
-def _aim(shape: Floats, here: Floats) -> Floats:
-    """Return the rotation after which the x axis leaves the last joint through the widest gap of the net."""
+def _aim(shape: Floats, ahead: Floats, here: Floats) -> Floats:
+    """Return the rotation after which the x axis leaves the last joint through a wide gap of the net, and not
+    against where it goes on.
+    """
     k = np.arange(DIRECTIONS)
     height = 1.0 - (2.0 * k + 1.0) / DIRECTIONS
     turned, width = math.pi * (3.0 - math.sqrt(5.0)) * k, np.sqrt(1.0 - height**2)
     ways = np.stack([width * np.cos(turned), width * np.sin(turned), height], axis=1)
     far = np.linalg.norm(shape, axis=1)
     others = shape[far > 1e-6] / far[far > 1e-6, None]
-    way = ways[np.argmin((ways @ others.T).max(axis=1))]
+    near = (ways @ others.T).max(axis=1) - ONWARD * (ways @ ahead) / max(float(np.linalg.norm(ahead)), 1e-9)
+    way = ways[np.argmin(near)]
     forward = _turning(way, np.array([1.0, 0.0, 0.0]))
     _, y, z = (shape @ forward.T).T
     spin = math.atan2(float(y @ here[:, 2] - z @ here[:, 1]), float(y @ here[:, 1] + z @ here[:, 2]))

@@ -35,7 +35,9 @@ class SetNet(Motion):
             hands.lead(joint, middle)
         self._carried = sculpture.carry(move.rings)
         began = middle[self._joints].astype(np.float64)
-        self._path = opening_path(began, np.array(move.places), move.sides, aimed=move.moving is not None)
+        places = np.array([*move.places, move.onward or move.places[-1]])
+        aimed = move.moving is not None
+        self._path = opening_path(began, places[:-1], move.sides, places[-1] if aimed else None)
         self._rest, self._straight = np.zeros(0, dtype=np.int64), np.zeros((0, 3))
         if move.moving is not None:
             self._rest, self._straight = _straight_rest(move.rings[-1], sculpture)
