@@ -17,9 +17,9 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-WAYPOINTS = 17
+WAYPOINTS = 13
 """Poses from the first to the last; hands go straight from one to the next."""
-CORRECTIONS = 40
+CORRECTIONS = 30
 """Corrections of the lengths of the sides at each of them."""
 FITS = 30
 """Steps in which the net is laid over what there is of it."""
@@ -129,15 +129,12 @@ def _lengths(places: Floats, pairs: NDArray[np.int64]) -> Floats:
 
 def _with_sides(places: Floats, pairs: NDArray[np.int64], lengths: Floats) -> Floats:
     """Return places near these whose pairs have about these distances, the last one at the origin."""
-    found = places.copy()
-    shares = 1.0 / np.maximum(np.bincount(pairs.ravel(), minlength=len(places)), 1)[:, None]
+    count = len(places)
+    ends = np.eye(count)[pairs[:, 0]] - np.eye(count)[pairs[:, 1]]
+    shares = ends.T / np.maximum(np.abs(ends).sum(axis=0), 1.0)[:, None]
+    found = places
     for _ in range(CORRECTIONS):
-        apart = found[pairs[:, 0]] - found[pairs[:, 1]]
-        far = np.maximum(np.linalg.norm(apart, axis=1), 1e-9)
-        step = (0.5 * (lengths / far - 1.0))[:, None] * apart
-        shift = np.zeros_like(found)
-        np.add.at(shift, pairs[:, 0], step)
-        np.add.at(shift, pairs[:, 1], -step)
-        found += shares * shift
-        found -= found[-1]
-    return found
+        apart = ends @ found
+        far = np.sqrt((apart * apart).sum(axis=1))
+        found = found + shares @ ((0.5 * (lengths / np.maximum(far, 1e-9) - 1.0))[:, None] * apart)
+    return np.asarray(found - found[-1])
