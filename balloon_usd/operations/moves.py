@@ -96,11 +96,11 @@ class SetNet(Move):
     sides: tuple[tuple[int, int], ...] = ()
     """Bubbles, by the indices of the rings at their ends."""
     moving: int | None = None
-    """Ring that is brought to the held one, where what is left of its balloon shall stand off the net; None
-    where the net is done.
-    """
+    """Ring that is brought to the last one; None where the net is done."""
     onward: Vector | None = None
-    """Where the next joint of that balloon will lie, m; None where the net has no more of it."""
+    """Where the next joint of the last ring's balloon will lie, m: what is left of that balloon begins at
+    this ring and shall stand off the net. None where nothing is left there.
+    """
 
 
 @dataclass(frozen=True)

@@ -58,8 +58,10 @@ def _closing(move: Move, ends: tuple[int, int], nets: Sequence[Net], made: _Made
     if net is None:
         return move
     moving, held = ends
-    setting = _setting(net, made.with_held(held, net), move)
-    return replace(setting, moving=moving, onward=made.onward(held, net))
+    if (end := made.open_end(held)) is None:
+        return replace(_setting(net, made.with_held(held, net), move), moving=moving)
+    onward = made.onward(end, net) or net.places[end]
+    return replace(_setting(net, made.with_held(end, net), move), moving=moving, onward=onward)
 
 
 def _setting(net: Net, rings: tuple[int, ...], move: Move) -> SetNet:
@@ -108,12 +110,23 @@ class _Made:
         others = [k for k in sorted(net.places.keys() & self._closed) if k != held]
         return (*(k for k in others if pieces.root(k) == pieces.root(held)), held)
 
-    def onward(self, held: int, net: Net) -> Vector | None:
-        """Return the place in a net of the joint behind a held one on its balloon; None if it has none."""
-        later = (k for k in range(held + 1, len(self._rings)) if self._rings[k].joint)
-        behind = next(later, held)
-        same = self._rings[behind].balloon == self._rings[held].balloon and behind != held
-        return net.places.get(behind) if same else None
+    def open_end(self, ring: int) -> int | None:
+        """Return the ring, one with this or itself, beyond which lies what is left of a balloon; None if
+        there is none.
+        """
+        joints: DisjointSets[int] = DisjointSets()
+        for weld in self._welds:
+            joints.merge(weld)
+        last = {self._rings[k].balloon: k for k in sorted(self._closed)}
+        ends = [k for k in self._closed if k in last.values() and joints.root(k) == joints.root(ring)]
+        return ends[-1] if ends else None
+
+    def onward(self, end: int, net: Net) -> Vector | None:
+        """Return the place in a net of the joint that follows an open end; None if none does."""
+        balloon = self._rings[end].balloon
+        later = (k for k in range(end + 1, len(self._rings)) if self._rings[k].joint)
+        following = next(later, end)
+        return net.places.get(following) if self._rings[following].balloon == balloon else None
 
     def _pieces(self) -> DisjointSets[int]:
         """Return the closed rings that hang together."""

@@ -76,6 +76,16 @@ def test_hands_set_a_net_instead_of_gathering_joints_that_are_one():
         assert {move.moving, move.rings[-1]} == set(welds[move.step].rings)
 
 
+def test_what_is_left_of_a_balloon_begins_at_the_ring_that_stays():
+    made = planned("book/tetrahedron_centre.yaml")
+    last = [move for move in made.choreography.moves if isinstance(move, SetNet)][-2]
+    names = [ring.name for ring in made.table.rings]
+    # The knot is brought to the centre, where the tip is tied already.
+    assert names[last.moving] == "main.knot"
+    assert names[last.rings[-1]] == "spoke_3_0.end"
+    assert last.onward is not None
+
+
 def test_two_balloons_meet_before_their_net_is_set():
     made = planned("book/tetrahedron_2.yaml").choreography.moves
     first, *others = [move for move in made if isinstance(move, (Bring, SetNet))]

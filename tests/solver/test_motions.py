@@ -190,7 +190,8 @@ def test_a_net_that_is_set_has_its_shape_and_what_is_left_of_its_balloon_lies_st
     room.middle[room.joint("red_rest.1")] += 0.0, 0.05, 0.02
     rings = tuple(map(room.ring, names))
     sides = ((0, 1), (1, 2), (2, 3))
-    move = moves.SetNet(**DONE, rings=rings, places=places, sides=sides, moving=rings[0])
+    how = {"moving": rings[0], "onward": (0.2, 0.0, 0.1)}
+    move = moves.SetNet(**DONE, rings=rings, places=places, sides=sides, **how)
     setting = motions[moves.SetNet](move, room.sculpture)
     setting.advance(1.0)
     reached = room.hands.goal[[room.joint(name) for name in names]]

@@ -35,14 +35,14 @@ class SetNet(Motion):
             hands.lead(joint, middle)
         self._carried = sculpture.carry(move.rings)
         began = middle[self._joints].astype(np.float64)
-        places = np.array([*move.places, move.onward or move.places[-1]])
-        aimed = move.moving is not None
-        self._path = opening_path(began, places[:-1], move.sides, places[-1] if aimed else None)
+        onward = None if move.onward is None else np.array(move.onward)
+        self._path = opening_path(began, np.array(move.places), move.sides, onward)
         self._rest, self._straight = np.zeros(0, dtype=np.int64), np.zeros((0, 3))
-        if move.moving is not None:
+        if onward is not None:
             self._rest, self._straight = _straight_rest(move.rings[-1], sculpture)
             for joint in self._rest.tolist():
                 hands.lead(joint, middle)
+        if move.moving is not None:
             moving = move.rings.index(move.moving)
             gap = 2.0 * float(hands.neck[self._joints[-1]])
             far = self._path[:, moving] - self._path[:, -1]
