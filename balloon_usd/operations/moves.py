@@ -97,6 +97,26 @@ class Bring(Move):
 
 
 @dataclass(frozen=True)
+class SetNet(Move):
+    """Lead all joints of a net, as far as it is made, to their places in space, and so bring a ring to
+    another.
+    """
+
+    rings: tuple[int, ...] = ()
+    """Rings of its joints; the last one is held where it is."""
+    places: tuple[Vector, ...] = ()
+    """Where they lie in the net, m."""
+    sides: tuple[tuple[int, int], ...] = ()
+    """Bubbles, by the indices of the rings at their ends."""
+    moving: int | None = None
+    """Ring that is brought to the last one; None where the net is done."""
+    onward: Vector | None = None
+    """Where the next joint of the last ring's balloon will lie, m: what is left of that balloon begins at
+    this ring and shall stand off the net. None where nothing is left there.
+    """
+
+
+@dataclass(frozen=True)
 class Bend(Move):
     """Bend a bubble by leading its rings onto an arc, held at the end on which more hangs."""
 

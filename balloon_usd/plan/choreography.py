@@ -11,6 +11,8 @@ from balloon_usd.operations.moves import Choreography, Hold, Inflate, LetGo, Mov
 from balloon_usd.operations.score import Score
 from balloon_usd.operations.tempo import PACES
 from balloon_usd.plan.laid_out import LaidOut
+from balloon_usd.plan.nets import nets_of
+from balloon_usd.plan.setting_nets import set_nets
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -58,6 +60,7 @@ def choreograph(recipe: Recipe, strips: Mapping[str, Strip], table: RingTable) -
         step.perform(score, index)
         if isinstance(step, Timed) and step.seconds is not None and not step.keeps_time:
             score.retime(first, begin, step.seconds)
+    set_nets(score, nets_of(recipe.piece, strips, table), table, len(recipe.steps))
     score.add(LetGo(score.now, 0.0, len(recipe.steps), "let go", for_good=True))
     score.add(Hold(score.now, recipe.physics.hold, len(recipe.steps), "hold"))
     if recipe.pose != "as made":

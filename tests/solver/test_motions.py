@@ -182,6 +182,29 @@ def test_a_joint_is_brought_to_that_of_another_balloon_and_all_else_follows_by_i
 
 
 @pytest.mark.parametrize(("model", "motions"), [("latex", LATEX_MOTIONS), ("kosaka", KOSAKA_MOTIONS)])
+def test_a_net_that_is_set_has_its_shape_and_what_is_left_of_its_balloon_lies_straight(model, motions):
+    room = Room(model)
+    room.weld("left.end", "arm.end")
+    names = ("red.knot", "nose.end", "left.end", "right.end")
+    places = ((0.0, 0.0, 0.0), (0.1, 0.0, 0.0), (0.0, 0.1, 0.0), (0.0, 0.0, 0.1))
+    room.middle[room.joint("red_rest.1")] += 0.0, 0.05, 0.02
+    rings = tuple(map(room.ring, names))
+    sides = ((0, 1), (1, 2), (2, 3))
+    how = {"moving": rings[0], "onward": (0.2, 0.0, 0.1)}
+    move = moves.SetNet(**DONE, rings=rings, places=places, sides=sides, **how)
+    setting = motions[moves.SetNet](move, room.sculpture)
+    setting.advance(1.0)
+    reached = room.hands.goal[[room.joint(name) for name in names]]
+    assert np.linalg.norm(np.diff(reached[1:], axis=0), axis=1) == pytest.approx(0.1 * 2.0**0.5, abs=1e-6)
+    assert room.moved("right.end") == pytest.approx(np.zeros(3), abs=1e-6)
+    assert room.moved("arm.end") == pytest.approx(room.moved("left.end"), abs=1e-6)
+    rest = room.hands.goal[room.joint("red_rest.1")] - room.middle[room.joint("right.end")]
+    assert rest[0] > 0.0
+    assert rest[1:] == pytest.approx(np.zeros(2), abs=1e-6)
+    assert not room.hands.mode[room.joint("hand.end")]
+
+
+@pytest.mark.parametrize(("model", "motions"), [("latex", LATEX_MOTIONS), ("kosaka", KOSAKA_MOTIONS)])
 def test_a_bent_bubble_takes_a_balloon_along_that_hangs_on_its_lighter_end(model, motions):
     room = Room(model)
     room.weld("red.knot", "arm.end")

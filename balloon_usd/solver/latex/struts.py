@@ -12,6 +12,8 @@ from balloon_usd.solver.hands import STEP_STIFFNESS
 from balloon_usd.solver.upload import ArrayUpload
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
     from balloon_usd.solver.latex.scene import LatexScene
 
 Floats = NDArray[np.float32]
@@ -49,6 +51,8 @@ class Struts:
         self.pairs: dict[tuple[int, int], int] = {}
         """Strut of every pair of joints."""
         self._wanted: set[tuple[int, int]] = set()
+        self._loosened: set[tuple[int, int]] = set()
+        """Pairs whose struts hold nothing until they are asked for again."""
         self._uploads = {name: ArrayUpload(scene, name) for name in ARRAYS}
         self._mass = scene.joint_mass.numpy().copy()
 
@@ -59,10 +63,18 @@ class Struts:
     def release(self, joints: set[int], kept: set[tuple[int, int]]) -> None:
         """Take away the struts between some joints, but for those pairs that are kept."""
         self._wanted = {pair for pair in self._wanted if not joints.issuperset(pair) or pair in kept}
-        gone = [p for p in self.pairs if joints.issuperset(p) and p not in kept]
-        if gone:
+        self._slacken([p for p in self.pairs if joints.issuperset(p) and p not in kept])
+
+    def loosen(self, joints: set[int]) -> None:
+        """Let the struts between some joints hold nothing, until they are asked for again."""
+        loose = [pair for pair in self.pairs if joints.issuperset(pair)]
+        self._loosened.update(loose)
+        self._slacken(loose)
+
+    def _slacken(self, pairs: Sequence[tuple[int, int]]) -> None:
+        if pairs:
             for name in ("strut_stiffness", "strut_damping"):
-                self._uploads[name].staged()[[self.pairs[pair] for pair in gone]] = 0.0
+                self._uploads[name].staged()[[self.pairs[pair] for pair in pairs]] = 0.0
                 self._uploads[name].send()
 
     def put(self, middle: Floats) -> None:
@@ -74,7 +86,10 @@ class Struts:
             ValueError: more struts than the capacity, or too many end at one joint.
         """
         fresh = sorted(self._wanted.difference(self.pairs))
+        again = sorted(self._wanted & self._loosened)
         self._wanted.clear()
+        if again:
+            self._tighten(again, middle)
         if not fresh:
             return
         before, capacity = len(self.pairs), len(self.scene.strut_joint)
@@ -84,13 +99,8 @@ class Struts:
         for a, b in fresh:
             k = self.pairs[a, b] = len(self.pairs)
             arrays["strut_joint"][k] = (a, b)
-            arrays["strut_length"][k] = np.linalg.norm(middle[b] - middle[a])
-            least = float(min(self._mass[a], self._mass[b]))
-            most = STRUT_SHARE * STEP_STIFFNESS * least / self.scene.settings.dt**2
-            stiffness = np.float32(min(self.law.stiffness, most))
-            arrays["strut_stiffness"][k] = stiffness
-            arrays["strut_damping"][k] = 0.3 * np.sqrt(stiffness * least)
             arrays["strut_yield"][k] = self.law.yielding
+            self._measure((a, b), arrays, middle)
             _enter(arrays["joint_struts"], k, a, b)
         for name, upload in self._uploads.items():
             if name == "joint_struts":
@@ -98,6 +108,29 @@ class Struts:
             else:
                 # Earlier struts may have yielded since: their lengths on the device stay.
                 upload.send(before, len(self.pairs))
+
+    def _tighten(self, pairs: Sequence[tuple[int, int]], middle: Floats) -> None:
+        """Let loosened struts hold the distances that their joints have now."""
+        names = ("strut_length", "strut_stiffness", "strut_damping")
+        arrays = {name: self._uploads[name].staged() for name in names}
+        for pair in pairs:
+            self._measure(pair, arrays, middle)
+        for name in names:
+            for k in (self.pairs[pair] for pair in pairs):
+                self._uploads[name].send(k, k + 1)
+        self._loosened.difference_update(pairs)
+
+    def _measure(
+        self, pair: tuple[int, int], arrays: Mapping[str, NDArray[np.float32]], middle: Floats
+    ) -> None:
+        """Give the strut of a pair its length, its stiffness and its damping."""
+        k, (a, b) = self.pairs[pair], pair
+        arrays["strut_length"][k] = np.linalg.norm(middle[b] - middle[a])
+        least = float(min(self._mass[a], self._mass[b]))
+        most = STRUT_SHARE * STEP_STIFFNESS * least / self.scene.settings.dt**2
+        stiffness = np.float32(min(self.law.stiffness, most))
+        arrays["strut_stiffness"][k] = stiffness
+        arrays["strut_damping"][k] = 0.3 * np.sqrt(stiffness * least)
 
 
 def _enter(slots: NDArray[np.int32], strut: int, first: int, second: int) -> None:

@@ -13,6 +13,7 @@ from balloon_usd.solver.motions.gather import Gather
 from balloon_usd.solver.motions.let_go import LetGo
 from balloon_usd.solver.motions.press import Press
 from balloon_usd.solver.motions.set_down import SetDown
+from balloon_usd.solver.motions.set_net import SetNet
 from balloon_usd.solver.motions.wait import Wait
 
 if TYPE_CHECKING:
@@ -27,6 +28,7 @@ KOSAKA_MOTIONS: Motions = {
     moves.Pinch: Draw,
     moves.Gather: Gather,
     moves.Bring: Bring,
+    moves.SetNet: SetNet,
     moves.Bend: KosakaBend,
     moves.Press: Press,
     moves.Weld: KosakaWeld,

@@ -10,6 +10,7 @@ from balloon_usd.solver.latex.motions.hold import Hold
 from balloon_usd.solver.latex.motions.inflate import Inflate
 from balloon_usd.solver.latex.motions.let_go import LatexLetGo
 from balloon_usd.solver.latex.motions.pinch import Pinch
+from balloon_usd.solver.latex.motions.set_net import LatexSetNet
 from balloon_usd.solver.latex.motions.spin import Spin
 from balloon_usd.solver.latex.motions.turn_fold import TurnFold
 from balloon_usd.solver.motions.bring import Bring
@@ -29,6 +30,7 @@ LATEX_MOTIONS: Motions = {
     moves.Spin: Spin,
     moves.Gather: Gather,
     moves.Bring: Bring,
+    moves.SetNet: LatexSetNet,
     moves.Bend: LatexBend,
     moves.Press: Press,
     moves.Weld: Weld,

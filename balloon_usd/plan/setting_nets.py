@@ -1,0 +1,139 @@
+"""Setting nets: moves in which hands give a net its shape in space, as its rings close and in the end."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+from balloon_usd.operations.disjoint_sets import DisjointSets
+from balloon_usd.operations.moves import Bring, Gather, Move, Pinch, SetNet, Weld
+from balloon_usd.operations.score import SETTLE_SECONDS
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from balloon_usd.operations.moves import Vector
+    from balloon_usd.operations.score import Score
+    from balloon_usd.plan.nets import Net
+    from balloon_usd.plan.rings import RingTable
+
+SETTING_SECONDS = 1.5
+"""Leading all joints of a finished net to their places, s."""
+
+
+def set_nets(score: Score, nets: Sequence[Net], table: RingTable, step: int) -> None:
+    """Let hands set nets where these would gather a chain that is part of one, and when all is made.
+
+    `step`: number of steps of the recipe.
+    """
+    if not nets:
+        return
+    score.moves[:] = _in_place_of_closing(score.moves, nets, table)
+    for net in nets:
+        rings = tuple(sorted(net.places))
+        score.add(_setting(net, rings, Move(score.now, SETTING_SECONDS, step, "set the net")))
+        score.add(Move(score.now, SETTLE_SECONDS, step, "set the net"))
+
+
+def _in_place_of_closing(moves: Iterable[Move], nets: Sequence[Net], table: RingTable) -> list[Move]:
+    """Return the moves with a setting of the net in place of each that closes one of its rings, but for the
+    first ring of a balloon, a free chain: on a circle, joints that are one would be led apart, and brought
+    straight to each other, they would make a lump.
+    """
+    made = _Made(table)
+    found: list[Move] = []
+    for move in moves:
+        made.see(move)
+        found.append(move if (ends := made.closing(move)) is None else _closing(move, ends, nets, made))
+    return found
+
+
+def _closing(move: Move, ends: tuple[int, int], nets: Sequence[Net], made: _Made) -> Move:
+    """Return the move in which a net is set so that two of its rings meet; if none has both, the move given.
+
+    `ends`: the moving ring and the held one.
+    """
+    net = next((net for net in nets if net.places.keys() >= set(ends)), None)
+    if net is None:
+        return move
+    moving, held = ends
+    if (end := made.open_end(held)) is None:
+        return replace(_setting(net, made.with_held(held, net), move), moving=moving)
+    onward = made.onward(end, net) or net.places[end]
+    return replace(_setting(net, made.with_held(end, net), move), moving=moving, onward=onward)
+
+
+def _setting(net: Net, rings: tuple[int, ...], move: Move) -> SetNet:
+    """Return the setting of some rings of a net, with the time and the words of a move."""
+    index = {ring: k for k, ring in enumerate(rings)}
+    sides = tuple((index[a], index[b]) for a, b in net.sides if a in index and b in index)
+    places = tuple(net.places[ring] for ring in rings)
+    return SetNet(move.start, move.seconds, move.step, move.text, rings, places, sides)
+
+
+class _Made:
+    """Rings that are closed so far, and those that are one."""
+
+    def __init__(self, table: RingTable) -> None:
+        """Begin with the knots, which are closed."""
+        self._rings = table.rings
+        self._closed = [k for k, ring in enumerate(table.rings) if ring.along == 0.0]
+        self._welded: set[int] = set()
+        self._welds: list[tuple[int, ...]] = []
+
+    def see(self, move: Move) -> None:
+        """Take note of what a move makes."""
+        if isinstance(move, Pinch):
+            self._closed.append(move.ring)
+        elif isinstance(move, Weld):
+            self._welded.update(move.rings)
+            self._welds.append(move.rings)
+
+    def closing(self, move: Move) -> tuple[int, int] | None:
+        """Return the rings that a move brings together, the moving and the held one, where these hang
+        together by now and not only as a free chain.
+        """
+        if isinstance(move, Gather) and not self._welded.isdisjoint(move.corners):
+            return move.corners[0], move.corners[-1]
+        if isinstance(move, Bring):
+            # What is left of a balloon lies beyond the ring that was closed last.
+            moving, held = sorted((move.ring, move.to), key=self._closed.index)
+            pieces = self._pieces()
+            if pieces.root(moving) == pieces.root(held):
+                return moving, held
+        return None
+
+    def with_held(self, held: int, net: Net) -> tuple[int, ...]:
+        """Return the closed rings of a net that hang together with a held one, which comes last."""
+        pieces = self._pieces()
+        others = [k for k in sorted(net.places.keys() & self._closed) if k != held]
+        return (*(k for k in others if pieces.root(k) == pieces.root(held)), held)
+
+    def open_end(self, ring: int) -> int | None:
+        """Return the ring, one with this or itself, beyond which lies what is left of a balloon; None if
+        there is none.
+        """
+        joints: DisjointSets[int] = DisjointSets()
+        for weld in self._welds:
+            joints.merge(weld)
+        last = {self._rings[k].balloon: k for k in sorted(self._closed)}
+        ends = [k for k in self._closed if k in last.values() and joints.root(k) == joints.root(ring)]
+        return ends[-1] if ends else None
+
+    def onward(self, end: int, net: Net) -> Vector | None:
+        """Return the place in a net of the joint that follows an open end; None if none does."""
+        balloon = self._rings[end].balloon
+        later = (k for k in range(end + 1, len(self._rings)) if self._rings[k].joint)
+        following = next(later, end)
+        return net.places.get(following) if self._rings[following].balloon == balloon else None
+
+    def _pieces(self) -> DisjointSets[int]:
+        """Return the closed rings that hang together."""
+        pieces: DisjointSets[int] = DisjointSets()
+        for weld in self._welds:
+            pieces.merge(weld)
+        for one, other in pairwise(sorted(self._closed)):
+            if self._rings[one].balloon == self._rings[other].balloon:
+                pieces.merge((one, other))
+        return pieces

@@ -1,0 +1,140 @@
+"""How a net opens: the way of its joints from where they are to their places, as hands turn it and shape it.
+
+The last joint stays where it is. The net is turned as a whole, along the shortest way; while it is, every
+joint goes straight to its place in it, and its sides keep their lengths.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+Floats = NDArray[np.float64]
+
+WAYPOINTS = 13
+"""Poses from the first to the last; hands go straight from one to the next."""
+CORRECTIONS = 30
+"""Corrections of the lengths of the sides at each of them."""
+FITS = 30
+"""Steps in which the net is laid over what there is of it."""
+NEAR = 0.01
+"""Distance below which a joint is where it belongs, m."""
+DIRECTIONS = 400
+"""Directions tried for what is left of the balloon."""
+ONWARD = 0.3
+"""Weight of the way on beside that of the gap, as cosines."""
+MIRRORED = np.array([1.0, 1.0, -1.0])
+
+
+def opening_path(
+    began: Floats, places: Floats, sides: Sequence[tuple[int, int]], onward: Floats | None
+) -> Floats:
+    """Return the way of the joints, (WAYPOINTS, N, 3), m.
+
+    Args:
+        began: where they are, (N, 3), m.
+        places: where they lie in the net, (N, 3), m, turned or mirrored in any way.
+        sides: pairs of joints that keep their distance.
+        onward: where the joint that follows the last one will lie in the net, (3,), m; the net is turned so
+            that what is left of the balloon, along x, leaves it through a wide gap not far from there. None
+            where nothing is left.
+    """
+    here, shape = began - began[-1], places - places[-1]
+    ahead = np.zeros(3) if onward is None else onward - places[-1]
+    # Neither a net nor its mirror image is the right one before it is rigid.
+    fits = [(mirror, *fit(shape * mirror, here)) for mirror in (np.ones(3), MIRRORED)]
+    mirror, turned, _ = min(fits, key=lambda each: each[2])
+    shape, ahead = shape * mirror @ turned.T, ahead * mirror @ turned.T
+    turn = np.zeros(3) if onward is None else rotation_vector(_aim(shape, ahead, here))
+    pairs = np.array(sides, dtype=np.int64).reshape(-1, 2)
+    before, after = _lengths(here, pairs), _lengths(shape, pairs)
+    path, off = [here], here
+    for share in np.linspace(0.0, 1.0, WAYPOINTS)[1:]:
+        straight = here + share * (shape - here)
+        off = _with_sides(straight, pairs, before + share * (after - before))
+        path.append(off @ rotation(share * turn).T)
+    return np.asarray(began[-1] + np.array(path))
+
+
+def fit(shape: Floats, here: Floats) -> tuple[Floats, float]:
+    """Return the rotation that brings most of some places near to others, (3, 3), and the sum of the
+    distances that stay, m: new joints, far off the net, must not turn it.
+
+    Rotations of weighted places (Kabsch 1976), the weights falling with the distance (Weiszfeld 1937).
+    """
+    weight, turned, far = np.ones(len(shape)), np.eye(3), np.zeros(len(shape))
+    for _ in range(FITS):
+        one, other = (places - np.average(places, axis=0, weights=weight) for places in (shape, here))
+        u, _, v = np.linalg.svd((weight[:, None] * other).T @ one)
+        u[:, -1] *= np.sign(np.linalg.det(u @ v))
+        turned = u @ v
+        far = np.linalg.norm(one @ turned.T - other, axis=1)
+        weight = 1.0 / np.maximum(far, NEAR)
+    return turned, float(far.sum())
+
+
+def _aim(shape: Floats, ahead: Floats, here: Floats) -> Floats:
+    """Return the rotation after which the x axis leaves the last joint through a wide gap of the net, and not
+    against where it goes on.
+    """
+    k = np.arange(DIRECTIONS)
+    height = 1.0 - (2.0 * k + 1.0) / DIRECTIONS
+    turned, width = math.pi * (3.0 - math.sqrt(5.0)) * k, np.sqrt(1.0 - height**2)
+    ways = np.stack([width * np.cos(turned), width * np.sin(turned), height], axis=1)
+    far = np.linalg.norm(shape, axis=1)
+    others = shape[far > 1e-6] / far[far > 1e-6, None]
+    near = (ways @ others.T).max(axis=1) - ONWARD * (ways @ ahead) / max(float(np.linalg.norm(ahead)), 1e-9)
+    way = ways[np.argmin(near)]
+    forward = _turning(way, np.array([1.0, 0.0, 0.0]))
+    _, y, z = (shape @ forward.T).T
+    spin = math.atan2(float(y @ here[:, 2] - z @ here[:, 1]), float(y @ here[:, 1] + z @ here[:, 2]))
+    return rotation(np.array([spin, 0.0, 0.0])) @ forward
+
+
+def _turning(one: Floats, other: Floats) -> Floats:
+    """Return the smallest rotation of one unit vector to another, (3, 3)."""
+    axis = np.cross(one, other)
+    sine = float(np.linalg.norm(axis))
+    if sine < 1e-9:
+        axis, sine = np.array([0.0, 0.0, 1.0]), 1.0 if one @ other < 0.0 else 0.0
+        return rotation(math.pi * sine * axis)
+    return rotation(axis * (math.atan2(sine, float(one @ other)) / sine))
+
+
+def rotation(vector: Floats) -> Floats:
+    """Return the matrix of a rotation vector, (3,), rad (Rodrigues)."""
+    angle = float(np.linalg.norm(vector))
+    x, y, z = vector / max(angle, 1e-12)
+    k = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    return np.asarray(np.eye(3) + math.sin(angle) * k + (1.0 - math.cos(angle)) * k @ k)
+
+
+def rotation_vector(matrix: Floats) -> Floats:
+    """Return the vector of a rotation by up to half a turn, (3,), rad."""
+    angle = math.acos(min(max(0.5 * (float(np.trace(matrix)) - 1.0), -1.0), 1.0))
+    axis = np.linalg.svd(matrix - np.eye(3))[2][-1]
+    twice = np.array([matrix[2, 1] - matrix[1, 2], matrix[0, 2] - matrix[2, 0], matrix[1, 0] - matrix[0, 1]])
+    return np.asarray(axis * (angle if float(twice @ axis) >= 0.0 else -angle))
+
+
+def _lengths(places: Floats, pairs: NDArray[np.int64]) -> Floats:
+    return np.asarray(np.linalg.norm(places[pairs[:, 0]] - places[pairs[:, 1]], axis=1))
+
+
+def _with_sides(places: Floats, pairs: NDArray[np.int64], lengths: Floats) -> Floats:
+    """Return places near these whose pairs have about these distances, the last one at the origin."""
+    count = len(places)
+    ends = np.eye(count)[pairs[:, 0]] - np.eye(count)[pairs[:, 1]]
+    shares = ends.T / np.maximum(np.abs(ends).sum(axis=0), 1.0)[:, None]
+    found = places
+    for _ in range(CORRECTIONS):
+        apart = ends @ found
+        far = np.sqrt((apart * apart).sum(axis=1))
+        found = found + shares @ ((0.5 * (lengths / np.maximum(far, 1e-9) - 1.0))[:, None] * apart)
+    return np.asarray(found - found[-1])

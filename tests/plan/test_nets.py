@@ -1,0 +1,104 @@
+"""Nets: which sculptures have one, what shape it has in space, and when hands set it."""
+
+from __future__ import annotations
+
+from itertools import combinations
+from pathlib import Path
+
+import networkx as nx
+import numpy as np
+import pytest
+
+from balloon_usd.operations.moves import Bring, Gather, LetGo, SetNet, Weld
+from balloon_usd.plan import plan
+from balloon_usd.plan.nets import embed, nets_of
+from balloon_usd.recipe import Recipe
+
+RECIPES = Path(__file__).parents[2] / "recipes"
+SOLIDS = {
+    "tetrahedron": (nx.tetrahedral_graph, np.sqrt(3.0 / 8.0)),
+    "cube": (nx.cubical_graph, np.sqrt(3.0) / 2.0),
+    "octahedron": (nx.octahedral_graph, np.sqrt(0.5)),
+    "dodecahedron": (nx.dodecahedral_graph, np.sqrt(3.0) * (1.0 + np.sqrt(5.0)) / 4.0),
+    "icosahedron": (nx.icosahedral_graph, np.sqrt(10.0 + 2.0 * np.sqrt(5.0)) / 4.0),
+}
+"""Graphs of the regular solids, and the radii of the spheres about them at edges of 1."""
+
+
+def planned(path):
+    return plan(Recipe.load(RECIPES / path))
+
+
+def nets(path):
+    made = planned(path)
+    return nets_of(made.recipe.piece, made.strips, made.table)
+
+
+@pytest.mark.parametrize("solid", SOLIDS)
+def test_the_edges_of_a_regular_solid_open_into_that_solid(solid):
+    graph, radius = SOLIDS[solid]
+    sides = np.array(sorted(graph().edges))
+    places = embed(sides, np.full(len(sides), 0.1))
+    edges = np.linalg.norm(places[sides[:, 0]] - places[sides[:, 1]], axis=1)
+    assert edges == pytest.approx(0.1, rel=1e-3)
+    assert np.linalg.norm(places - places.mean(axis=0), axis=1) == pytest.approx(0.1 * radius, rel=1e-3)
+
+
+def test_bubbles_of_unequal_lengths_keep_them_where_they_can():
+    sides = np.array([(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)])
+    lengths = np.array([0.30, 0.20, 0.25, 0.22, 0.24, 0.26])
+    places = embed(sides, lengths)
+    edges = np.linalg.norm(places[sides[:, 0]] - places[sides[:, 1]], axis=1)
+    assert edges == pytest.approx(lengths, rel=0.01)
+
+
+def test_locked_pairs_loops_and_lone_rings_are_no_nets():
+    assert not any(nets(f"{name}.yaml") for name in ("dog", "poodle", "flower", "book/dog_it"))
+
+
+def test_every_ring_of_a_joint_lies_at_one_place_of_its_net():
+    (net,) = nets("book/octahedron.yaml")
+    corners = set(net.places.values())
+    assert len(net.places) == 13
+    assert len(corners) == 6
+    far = sorted(float(np.linalg.norm(np.subtract(a, b))) for a, b in combinations(corners, 2))
+    assert far == pytest.approx([0.1] * 12 + [0.1 * np.sqrt(2.0)] * 3, rel=0.01)
+
+
+def test_hands_set_a_net_instead_of_gathering_joints_that_are_one():
+    made = planned("book/octahedron.yaml").choreography.moves
+    first, *others = [move for move in made if isinstance(move, (Gather, SetNet)) and move.step < 14]
+    assert isinstance(first, Gather)
+    assert others
+    assert all(isinstance(move, SetNet) for move in others)
+    welds = {move.step: move for move in made if isinstance(move, Weld)}
+    for move in others:
+        assert {move.moving, move.rings[-1]} == set(welds[move.step].rings)
+
+
+def test_what_is_left_of_a_balloon_begins_at_the_ring_that_stays():
+    made = planned("book/tetrahedron_centre.yaml")
+    last = [move for move in made.choreography.moves if isinstance(move, SetNet)][-2]
+    names = [ring.name for ring in made.table.rings]
+    # The knot is brought to the centre, where the tip is tied already.
+    assert names[last.moving] == "main.knot"
+    assert names[last.rings[-1]] == "spoke_3_0.end"
+    assert last.onward is not None
+
+
+def test_two_balloons_meet_before_their_net_is_set():
+    made = planned("book/tetrahedron_2.yaml").choreography.moves
+    first, *others = [move for move in made if isinstance(move, (Bring, SetNet))]
+    assert isinstance(first, Bring)
+    assert len(others) == 4
+    assert all(isinstance(move, SetNet) for move in others)
+
+
+def test_a_net_is_set_once_more_before_the_hands_let_go_for_good():
+    made = planned("book/octahedron.yaml").choreography.moves
+    setting, settling, let_go = made[-4:-1]
+    assert isinstance(setting, SetNet)
+    assert setting.moving is None
+    assert isinstance(let_go, LetGo)
+    assert let_go.for_good
+    assert let_go.start == pytest.approx(settling.end)

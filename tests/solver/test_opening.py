@@ -1,0 +1,63 @@
+"""The way of a net's joints to their places in space."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from balloon_usd.solver.motions.opening import fit, opening_path, rotation, rotation_vector
+
+TURNED = rotation(np.array([0.4, -1.1, 0.7]))
+SIDES = [(0, 1), (1, 2), (2, 3), (3, 4)]
+CUBE = np.array([(0, 0, 0), (0, 0, 1), (0, 1, 1), (0, 1, 0), (1, 1, 0), (1, 0, 0), (1, 0, 1)], dtype=float)
+RING = [(0, 1), (1, 2), (2, 3), (3, 4), (4, 5), (5, 6), (6, 1)]
+
+
+def distances(places):
+    return np.linalg.norm(places[:, None] - places, axis=2)
+
+
+def lengths(places, sides):
+    first, second = np.array(sides).T
+    return np.linalg.norm(places[first] - places[second], axis=1)
+
+
+def test_a_net_ends_in_its_shape_and_its_last_joint_stays():
+    began = np.array([(0.0, 0, 0), (1, 0, 0), (2, 0, 0.2), (3, 0.1, 0), (4, 0, 0)])
+    path = opening_path(began, CUBE[:5] @ TURNED.T + 7.0, SIDES, np.zeros(3))
+    assert path[0] == pytest.approx(began)
+    assert distances(path[-1]) == pytest.approx(distances(CUBE[:5]))
+    assert np.ptp(path[:, -1], axis=0) == pytest.approx(0.0)
+
+
+def test_bubbles_keep_their_lengths_on_the_way():
+    began = np.array([(0.0, 0, 0), (1, 0, 0), (2, 0, 0), (3, 0, 0), (4, 0, 0)])
+    for pose in opening_path(began, CUBE[:5], SIDES, CUBE[5]):
+        assert lengths(pose, SIDES) == pytest.approx(1.0, abs=0.05)
+
+
+def test_a_net_that_has_its_shape_stays_where_it_is_unless_something_is_left_of_its_balloon():
+    began = (CUBE @ TURNED.T) * (1.0, 1.0, -1.0)
+    path = opening_path(began, CUBE, RING, None)
+    assert path[-1] == pytest.approx(began, abs=1e-6)
+
+
+def test_what_is_left_of_the_balloon_stands_off_the_net():
+    began = CUBE @ TURNED.T
+    last = opening_path(began, CUBE, RING, CUBE[-1])[-1]
+    others = last[:-1] - last[-1]
+    assert distances(last) == pytest.approx(distances(CUBE))
+    assert (others[:, 0] < 0.0).all()
+
+
+def test_joints_that_are_not_in_the_net_yet_do_not_mirror_it():
+    began = CUBE @ TURNED.T
+    began[-1] = 9.0, 0.0, 0.0
+    turned, _ = fit(CUBE, began)
+    assert turned == pytest.approx(TURNED, abs=0.02)
+
+
+@pytest.mark.parametrize("angle", [0.0, 1e-7, 0.5, 3.1, np.pi])
+def test_a_rotation_is_found_again_up_to_half_a_turn(angle):
+    matrix = rotation(angle * np.array([0.6, 0.0, -0.8]))
+    assert rotation(rotation_vector(matrix)) == pytest.approx(matrix, abs=1e-6)
