@@ -32,7 +32,7 @@ class ModelTraits:
 
 MODELS: dict[ModelName, ModelTraits] = {
     "latex": ModelTraits(
-        version="latex 1",
+        version="latex 2",
         title="hyperelastic rubber and gas",
         winds=True,
         starts_blown_up=False,
@@ -41,7 +41,7 @@ MODELS: dict[ModelName, ModelTraits] = {
         burst_stretch=BURST_STRETCH,
     ),
     "kosaka": ModelTraits(
-        version="kosaka 1",
+        version="kosaka 2",
         title="springs and air particles",
         winds=False,
         starts_blown_up=True,
