@@ -204,8 +204,9 @@ class Score:
         """Twist joints that lie together into one."""
         self.add(Weld(self.now, 0.0, index, text, rings=rings, turns=turns))
         if not self.blown_up and self._can_turn(rings):
-            seconds = self.pace.turning_seconds(turns, self._reach(*rings))
-            self.add(TurnFold(self.now, seconds, index, text, rings=rings, turns=turns))
+            first, last = sorted(rings)
+            seconds = self.pace.turning_seconds(turns, self._reach(first, last))
+            self.add(TurnFold(self.now, seconds, index, text, rings=(first, last), turns=turns))
         self.add(Move(self.now, SETTLE_SECONDS, index, text))
         self.let_go(index)
 
@@ -215,7 +216,7 @@ class Score:
         """
         if len(rings) != 2 or self.layout.ring(rings[0]).balloon != self.layout.ring(rings[1]).balloon:
             return False
-        bubbles = self._between(*rings)
+        bubbles = self._between(*sorted(rings))
         shortest = LEAST_TURNED if len(bubbles) > 1 else 2.0 * LEAST_TURNED
         return min(bubble.length / bubble.width for bubble in bubbles) >= shortest
 

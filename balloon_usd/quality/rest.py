@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from balloon_usd.operations.moves import LetGo
+from balloon_usd.operations.moves import LetGo, SetDown
 from balloon_usd.quality.measures import MEASURES
 
 if TYPE_CHECKING:
@@ -27,12 +27,15 @@ class Rest:
     def __init__(self, plan: Plan) -> None:
         """Find out when to look."""
         fps, last = plan.recipe.fps, plan.frame_count
+        carried = [m.start for m in plan.choreography.moves if isinstance(m, SetDown)]
         let_go = max(m.end for m in plan.choreography.moves if isinstance(m, LetGo) and m.for_good)
         # The time of a frame is (code - 1) / fps.
         self._let_go = min(1 + round(let_go * fps), last)
-        self._half = (self._let_go + last) // 2
+        self._rested = min(1 + round(carried[0] * fps), last) if carried else last
+        """The frame before hands carry the figure to its pose: that is no creep."""
+        self._half = (self._let_go + self._rested) // 2
         self._late = max(last - max(round(LATE * fps), 1), 1)
-        self._fps, self._last = fps, last
+        self._fps = fps
         self._kept: dict[int, Floats] = {}
         self._before: Floats | None = None
         self._speed = self._creep = self._creep_late = 0.0
@@ -40,15 +43,16 @@ class Rest:
     def add(self, frame: Frame) -> None:
         """Take the next frame."""
         code = frame.time_code
-        if code < self._late and code not in (self._let_go, self._half):
+        kept = (self._let_go, self._half, self._rested)
+        if code < self._late and code not in kept:
             return
         points = np.concatenate(frame.points)
-        if code in (self._let_go, self._half):
+        if code in kept:
             self._kept[code] = points
         if self._before is not None and code > self._late:
             self._speed = max(self._speed, self._fps * _farthest(self._before, points))
         self._before = points if code >= self._late else None
-        if code == self._last:
+        if code == self._rested:
             self._creep = _farthest(self._kept[self._let_go], points)
             self._creep_late = _farthest(self._kept[self._half], points)
 

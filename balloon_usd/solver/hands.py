@@ -110,6 +110,10 @@ class Hands:
         self.grip(joint, middle)
         self.mode[joint] = CLASP_MODE
 
+    def unclasp(self, joint: int) -> None:
+        """Let a ring that is gripped turn with the walls beside it."""
+        self.mode[joint] = GRIP_MODE
+
     def lead(self, joint: int, middle: Floats) -> None:
         """Begin to lead a ring from where it is."""
         if self.mode[joint] == 0:

@@ -97,6 +97,8 @@ class RunSummary:
         number = {bubble.name: k for k, bubble in enumerate(plan.bubbles)}
         found: dict[str, float] = {}
         for mesh, strip in zip(self._meshes, plan.strips.values(), strict=True):
+            if not strip.has_tail:
+                continue
             # The polygon holds more than the circle that it is drawn about.
             polygon = mesh.around * math.tan(math.pi / mesh.around) / math.pi
             for bubble in _closed(strip, last.undone):

@@ -170,5 +170,6 @@ class Sculpture:
 
 def _tops(plan: Plan) -> set[int]:
     """Return the rings of a plan in the middle of bubbles that close on themselves."""
-    guides = [plan.table.guides(bubble.name) for bubble in plan.bubbles if BY_KIND[bubble.kind].closes]
+    closing = {kind for kind, operation in BY_KIND.items() if operation.closes}
+    guides = [plan.table.guides(bubble.name) for bubble in plan.bubbles if bubble.kind in closing]
     return {each[len(each) // 2] for each in guides if each}

@@ -65,11 +65,11 @@ def test_a_look_can_be_chosen(form, cli, solver, write_recipe, left):
         (("--look", "crome"), '--look: unknown look "crome", did you mean "chrome"?'),
         (
             ("--look", "wood"),
-            '--look: unknown look "wood", expected one of recipe, clear, chrome, clay, stress, thesis',
+            '--look: unknown look "wood", expected one of recipe, clear, chrome, clay, print, stress, thesis',
         ),
         (
             ("--look", "thesis"),
-            "snake.yaml: --look thesis needs model: kosaka, take one of recipe, clear, chrome, clay, stress",
+            "snake.yaml: --look thesis needs model: kosaka, take one of recipe, clear, chrome, clay, print, stress",
         ),
     ],
 )

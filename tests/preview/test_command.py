@@ -44,7 +44,7 @@ def test_a_look_can_be_chosen(look, preview, tmp_path):
 
 def test_a_look_that_is_not_there_is_refused_with_those_that_are(preview):
     line = refused(preview("capsule.usda", "--look", "wood"))
-    assert line == 'capsule.usda has no look "wood", only chrome, clay, clear, recipe, stress, thesis'
+    assert line == 'capsule.usda has no look "wood", only chrome, clay, clear, print, recipe, stress, thesis'
 
 
 def test_a_slip_of_the_pen_in_a_look_is_told_the_nearest(preview):

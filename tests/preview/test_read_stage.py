@@ -222,7 +222,7 @@ def test_a_stage_is_read_in_its_own_look_or_the_one_asked_for(springs):
 
 def test_a_look_that_is_not_there_is_refused_with_those_that_are(springs, save):
     with pytest.raises(
-        PreviewError, match=r'has no look "wood", only chrome, clay, clear, recipe, stress, thesis$'
+        PreviewError, match=r'has no look "wood", only chrome, clay, clear, print, recipe, stress, thesis$'
     ):
         read_stage(springs, "wood")
     with pytest.raises(PreviewError, match=r'has no look "Crome", did you mean "chrome"\?$'):

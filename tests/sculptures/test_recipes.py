@@ -7,7 +7,6 @@ from pathlib import Path
 
 import numpy as np
 
-from balloon_usd.balloon.rubber import BURST_STRETCH
 from balloon_usd.check import check_file, text_of
 from balloon_usd.operations.moves import Weld
 from tests.crossing import deepest_crossing
@@ -56,7 +55,8 @@ def test_joints_that_are_twisted_into_one_lie_together(made):
 
 def test_every_bubble_is_full_and_none_has_burst(made):
     assert made.last.pressure.min() > 3.0e3, made.last.pressure
-    assert made.summary.highest_stretch < BURST_STRETCH, made.summary.highest_bubble
+    load = made.summary.wall_load
+    assert load.load < 0.95, f"{load.bubble} has {load.load:.0%} of the load at which it bursts"
 
 
 def test_tails_are_as_planned_all_joints_hold_and_no_wall_lies_in_another(made):

@@ -81,7 +81,9 @@ def test_a_lock_twist_that_is_let_go_does_not_move_itself(verify):
     for frames in simulation.frames():
         assert isinstance(frames[0], Frame), frames[0]
     scene = simulation.model.scene
+    # Nothing holds it any more, as what lies.
     simulation.model.hands.set_drag(0, 0.0)
+    simulation.model.hands.touch([0])
     push, turn = momentum_of(scene)
     for _ in range(round(simulation.fps)):
         simulation.model.hands.upload()

@@ -42,7 +42,9 @@ class TurnFold(Motion):
         hands, fold = self._hands, {joints[ring] for ring in rings}
         bases = [joints[ring] for ring in move.rings]
         for joint in bases:
-            hands.clasp(joint, middle)
+            # Clasped rings, which do not turn with the walls, leave folds twice as deep in the necks.
+            hands.grip(joint, middle)
+            hands.unclasp(joint)
         for joint in set(joints) - fold - set(bases):
             hands.lead(joint, middle)
         self._point: Floats = middle[bases].mean(axis=0, dtype=np.float64)
