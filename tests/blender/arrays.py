@@ -46,6 +46,10 @@ def array_differences(
         if domain is None and name in shown:
             domain = shown[name][0]
             values = np.repeat(values, len(shown[name][2]), axis=0)
+        if domain == "FACE" and TYPES[kind] == "FLOAT_COLOR":
+            # Blender spreads colours of faces over their corners.
+            counts = np.asarray(UsdGeom.Mesh(prim).GetFaceVertexCountsAttr().Get())
+            domain, values = "CORNER", np.repeat(values, counts, axis=0)
         yield from _compare(name, domain, TYPES[kind], values, shown.get(name))
 
 

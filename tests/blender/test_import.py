@@ -146,7 +146,8 @@ def an_end(stage):
 
 
 def what_a_colour_reads(stage):
-    reader = next(prim for prim in stage.Traverse() if prim.GetAttribute("inputs:varname"))
+    stress = Usd.PrimRange(stage.GetPrimAtPath("/dog/mtl/stress"))
+    reader = next(prim for prim in stress if prim.GetAttribute("inputs:varname"))
     reader.GetAttribute("inputs:varname").Set("stretch")
 
 
