@@ -13,6 +13,7 @@ from balloon_usd.solver.latex.motions.beyond import CLEAR
 from balloon_usd.solver.latex.spins import VertexSet
 from balloon_usd.solver.motions.hanging import folded_between
 from balloon_usd.solver.motions.motion import Motion
+from balloon_usd.solver.placement import turn_about
 
 if TYPE_CHECKING:
     from balloon_usd.operations import moves
@@ -63,7 +64,7 @@ class TurnFold(Motion):
         rate = 2.0 * math.pi * turns / (end - begin)
         self._hands.spin(self._turning, self._point, self._axis, rate)
         angle = 2.0 * math.pi * self._move.turns * self._share
-        self._hands.goal[self._led] = self._point + _rotated(self._began, self._axis, angle)
+        self._hands.goal[self._led] = self._point + self._began @ turn_about(self._axis, angle).T
 
 
 def _vertices(sculpture: LatexSculpture, rings: tuple[int, ...]) -> Ints:
@@ -83,10 +84,3 @@ def _vertices(sculpture: LatexSculpture, rings: tuple[int, ...]) -> Ints:
         turns = np.where(after > before, at_ring, between)
         found.append(np.flatnonzero(turns) + int(scene.vertex_start[body]))
     return np.concatenate(found)
-
-
-def _rotated(vectors: Floats, axis: Floats, angle: float) -> Floats:
-    """Return vectors (N, 3) turned about a unit axis by an angle, rad (Rodrigues' formula)."""
-    along = (vectors @ axis)[:, None] * axis
-    across = vectors - along
-    return along + math.cos(angle) * across + math.sin(angle) * np.cross(axis, across)
