@@ -48,8 +48,8 @@ class Sculpture:
         meshes = tuple(mesh_of(strip, level) for strip in plan.strips.values())
         self._codes = order.frames.within(plan.frame_count)
         self._run_summary = RunSummary(plan, meshes)
-        self._history = History(plan, meshes) if order.report else None
         self._quality = QualityWatch(plan, meshes, self._codes)
+        self._history = History(plan, meshes, self._quality.crossings) if order.report else None
         self._open = ExitStack()
         self._writer = StageWriter(describe_stage(plan, meshes), order.folder, **order.form)
         self._undone: tuple[str, ...] = ()
