@@ -53,7 +53,7 @@ class Sculpture:
         self._open = ExitStack()
         self._writer = StageWriter(describe_stage(plan, meshes), order.folder, **order.form)
         self._undone: tuple[str, ...] = ()
-        self._frames = 0
+        self._frames = self._last = 0
         self._begun = time.perf_counter()
 
     def start(self) -> None:
@@ -79,7 +79,7 @@ class Sculpture:
             if self._history is not None:
                 self._history.add(frame)
             self._writer.write(frame)
-            self._frames += 1
+            self._frames, self._last = self._frames + 1, frame.time_code
 
     def finish(self) -> Made:
         """Give everything its final name once the last frame is taken, or the simulation has failed.
@@ -94,7 +94,7 @@ class Sculpture:
             remove_failed(folder, name)
             if not self._frames:
                 raise NoFrames
-        written = self._writer.finish(self.failed)
+        written = self._writer.finish(self.failed, self._quality.crossings.facts(self._last))
         self._open.close()
         quality = self._quality.data()
         products = self._products(written, quality)

@@ -29,8 +29,9 @@ def crossings_line(report: CrossingReport) -> str:
     parts = [*_counts(report), *_pairs(report)]
     if report.frames[report.last].in_necks:
         parts.append(f"{report.frames[report.last].in_necks} in necks")
-    if report.left_out:
-        parts.append(f"{len(report.left_out)} meshes left out, which are not closed")
+    if count := len(report.left_out):
+        which = "1 mesh left out that is" if count == 1 else f"{count} meshes left out that are"
+        parts.append(f"{which} not closed")
     return f"{report.stage}: {', '.join(parts)}"
 
 

@@ -28,6 +28,8 @@ if TYPE_CHECKING:
 
 LIP_RING, KNOT_RING = 3, 7
 """Rings of a tube at which its lip and its knot end."""
+ROUNDING = 1e-4
+"""Of texture coordinates, as a share of the reach of a neck."""
 MOST_AROUND = 256
 """Vertices of a ring, at most: no level of detail has as many."""
 
@@ -67,13 +69,20 @@ def necks_of(quads: Numbers, st: Floats, bubbles: Numbers, first: Floats) -> lis
     places = np.append(t[:, 0, 0], t[-1, 0, 3])
     meets = 1 + np.flatnonzero(rows[1:] != rows[:-1])
     if _is_tube(places):
-        # In R0, from the knot.
-        along = places * LIP_LENGTH / places[LIP_RING] - LIP_LENGTH - KNOT_LENGTH
-        reach, ties = NECK_REACH, [KNOT_RING]
+        # In R0, from the knot; the caps are beyond all necks.
+        along = np.full(len(first), np.inf)
+        along[: rings[0, 0]] = -np.inf
+        along[rings] = (places * LIP_LENGTH / places[LIP_RING] - LIP_LENGTH - KNOT_LENGTH)[:, None]
+        start, reach = KNOT_RING, NECK_REACH
     else:
-        along, radius = _measured(first[rings])
-        reach, ties = CAPSULE_NECK_REACH * radius, []
-    return [_neck(rings, along, at, reach, len(first)) for at in [*ties, *meets.tolist()]]
+        along, radius = _measured(first, rings)
+        start, reach = 0, CAPSULE_NECK_REACH * radius
+    reach *= 1.0 + ROUNDING
+    found = [Neck(rings[start], np.flatnonzero(along <= reach), rings)]
+    for at in meets.tolist():
+        place = along[rings[at]].mean()
+        found.append(Neck(rings[at], np.flatnonzero(np.abs(along - place) <= reach), rings))
+    return found
 
 
 def joints_between(necks: Sequence[Neck], points: Floats, vertices: int) -> Numbers:
@@ -92,14 +101,6 @@ def joints_between(necks: Sequence[Neck], points: Floats, vertices: int) -> Numb
         for index in together:
             joint[necks[index].vertices] = number
     return joint
-
-
-def _neck(rings: Numbers, along: Floats, at: int, reach: float, vertices: int) -> Neck:
-    near = np.abs(along - along[at]) <= reach * (1.0 + 1e-4)
-    found = rings[near].ravel()
-    if at == KNOT_RING and near[0]:
-        found = np.concatenate([np.arange(rings[0, 0]), found])
-    return Neck(rings[at], found[found < vertices], rings)
 
 
 def _around(quads: Numbers, vertices: int) -> int:
@@ -124,10 +125,12 @@ def _is_tube(places: Floats) -> bool:
     return math.isclose(share, KNOT_LENGTH / LIP_LENGTH, rel_tol=1e-3)
 
 
-def _measured(rings: Floats) -> tuple[Floats, float]:
-    """Return how far rings (R, around, 3) are along their middle line, (R,), and the largest radius."""
-    steps = np.linalg.norm(np.diff(rings.mean(axis=1), axis=0), axis=1)
-    return np.concatenate([[0.0], np.cumsum(steps)]), float(_radii(rings).max())
+def _measured(first: Floats, rings: Numbers) -> tuple[Floats, float]:
+    """Return how far vertices are from the start of a straight capsule, (V,), and its radius."""
+    middles = first[rings].mean(axis=1)
+    axis = middles[-1] - middles[0]
+    along = first @ (axis / max(float(np.linalg.norm(axis)), 1e-30))
+    return along - along.min(), float(_radii(first[rings]).max())
 
 
 def _radii(rings: Floats) -> Floats:

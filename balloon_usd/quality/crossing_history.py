@@ -26,10 +26,15 @@ class CrossingHistory:
         """Time code of the first of the frames with most crossings."""
         return max(self.frames, key=lambda code: self.frames[code].count)
 
-    @property
-    def last(self) -> int:
-        """Time code of the last frame that was counted."""
-        return max(self.frames)
+    def facts(self, last: int) -> dict[str, int]:
+        """Return how many there are in the last frame, of a time code, and where there are most."""
+        if not self.frames:
+            return {}
+        worst = {
+            "most_crossings": self.frames[self.worst].count,
+            "most_crossings_frame": self.worst,
+        }
+        return {"crossings": self.frames[last].count, **worst} if last in self.frames else worst
 
     def pairs(self) -> list[Pair]:
         """Return the bubbles that cross, those first that cross most in any one frame."""
