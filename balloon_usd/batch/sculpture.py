@@ -14,7 +14,7 @@ from balloon_usd.files.failed_name import failed_name
 from balloon_usd.files.hashes import hashes_of
 from balloon_usd.origin import provenance_of
 from balloon_usd.plan.meshing import mesh_of
-from balloon_usd.quality.watch import QualityWatch
+from balloon_usd.quality.watch import QualityWatch, counted_over_time
 from balloon_usd.report import History, write_report
 from balloon_usd.solver.run_summary import RunSummary
 from balloon_usd.stage import StageWriter
@@ -48,7 +48,9 @@ class Sculpture:
         meshes = tuple(mesh_of(strip, level) for strip in plan.strips.values())
         self._codes = order.frames.within(plan.frame_count)
         self._run_summary = RunSummary(plan, meshes)
-        self._quality = QualityWatch(plan, meshes, self._codes)
+        # Crossings over time are the report's: those who want none want their frames soon.
+        counted = counted_over_time(plan, self._codes) if order.report else self._codes[-1:]
+        self._quality = QualityWatch(plan, meshes, counted)
         self._history = History(plan, meshes, self._quality.crossings) if order.report else None
         self._open = ExitStack()
         self._writer = StageWriter(describe_stage(plan, meshes), order.folder, **order.form)

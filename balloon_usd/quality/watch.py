@@ -16,32 +16,34 @@ from balloon_usd.quality.twists import TwistTails
 from balloon_usd.quality.walls import walls_of
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
     from balloon_usd.solver.frame import Frame
 
 BETWEEN_COUNTS = 0.5
-"""Time between two frames in which crossings are counted, s: a count takes a tenth of the time of a frame."""
+"""Time between two frames in which crossings are counted over time, s: a count takes a writer as long as five
+frames.
+"""
 
 
 class QualityWatch:
     """Takes the frames of one sculpture, each once; keeps a few numbers a bubble and the points of four."""
 
-    def __init__(self, plan: Plan, meshes: Sequence[BalloonMesh], codes: range | None = None) -> None:
+    def __init__(self, plan: Plan, meshes: Sequence[BalloonMesh], counted: Iterable[int] = ()) -> None:
         """Begin with nothing seen.
 
         Args:
             plan: of the sculpture.
             meshes: one a balloon, in the order of `Plan.strips`.
-            codes: time codes between which crossings are counted; None counts from the first to the last.
+            counted: time codes of frames in which crossings are counted, besides the last one.
         """
         self._plan, self._meshes = plan, meshes
-        self._counted = codes_counted(plan, range(1, plan.frame_count + 1) if codes is None else codes)
+        self._counted = {*counted, plan.frame_count}
         self._counter = CrossingCounter(walls_of(plan, meshes), len(self._counted))
         self.crossings = CrossingHistory()
-        """Twice a second, and in the last frame."""
+        """In those frames."""
         self._rest = Rest(plan)
         self._tails = TwistTails(plan, meshes)
         self._end: Frame | None = None
@@ -90,10 +92,10 @@ class QualityWatch:
         }
 
 
-def codes_counted(plan: Plan, codes: range) -> frozenset[int]:
-    """Return the time codes at which crossings are counted: some of those that are written, and the last."""
+def counted_over_time(plan: Plan, codes: range) -> list[int]:
+    """Return those of some time codes at which crossings are counted to be told over time."""
     every = max(round(BETWEEN_COUNTS * plan.recipe.fps), 1)
-    return frozenset([*codes[::every], codes[-1], plan.frame_count])
+    return [*codes[::every], codes[-1]]
 
 
 def _gas(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame) -> dict[str, float]:
