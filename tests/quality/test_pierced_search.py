@@ -52,6 +52,8 @@ def test_one_search_follows_a_surface_that_moves():
     # A tube comes down on another one, far from the origin, passes through it and leaves it.
     points, quads = together(tube(0.02, 0.3), tube(0.02, 0.3, across=True))
     search = PiercedSearch(quads, len(points))
+    # Its tree is built where all faces are in one place.
+    assert_same(search.find(np.zeros_like(points, dtype=np.float32)), with_numpy(0.0 * points, quads))
     counts = []
     for height in np.linspace(0.06, -0.06, 9):
         moved = points + [3.0, -2.0, 1.0]
