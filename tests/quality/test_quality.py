@@ -19,7 +19,7 @@ from balloon_usd.quality.line import quality_line
 from balloon_usd.quality.measures import MEASURES
 from balloon_usd.quality.ranking import worst_first
 from balloon_usd.quality.symmetry import mirrored, pairs_of
-from balloon_usd.quality.watch import QualityWatch
+from balloon_usd.quality.watch import QualityWatch, counted_over_time
 from balloon_usd.recipe import Recipe
 from balloon_usd.solver.frame import Frame
 from tests.quality.ears import EARS, points_of
@@ -197,6 +197,29 @@ def test_walls_that_cross_within_one_neck_are_told_apart(figure, still):
     crossings = quality_of(figure, crumpled)["crossings"]
     assert crossings["in_necks"] > 10
     assert (crossings["value"], crossings["verdict"]) == (0, "good")
+
+
+def test_crossings_are_counted_twice_a_second_and_the_most_are_told_with_their_frame(figure):
+    plan, meshes = figure
+    codes = range(1, plan.frame_count + 1)
+    counted = counted_over_time(plan, codes)
+    assert counted[:3] == [1, 13, 25]
+    assert counted[-1] == plan.frame_count
+    watch = QualityWatch(plan, meshes, counted)
+    for code in codes:
+        frame = as_planned(plan, meshes, code)
+        if code in (25, 26):
+            # The end of the tail lies in its beginning.
+            (x,) = (points[:, 0] for points in frame.points)
+            frame.points[0][x > x.max() - 0.01] -= np.float32([0.02, 0.0005, 0.0003])
+        watch.add(frame)
+    crossings = watch.data()["crossings"]
+    assert crossings["value"] == 0
+    assert crossings["most"] > 20
+    assert crossings["most_at"] == 25
+    assert list(watch.crossings.frames) == sorted(set(counted))
+    facts = {"crossings": 0, "most_crossings": crossings["most"], "most_crossings_frame": 25}
+    assert watch.crossings.facts(plan.frame_count) == facts
 
 
 def test_pairs_are_left_and_right_bubbles_of_equal_recipes(figure):
