@@ -14,7 +14,7 @@ from balloon_usd.files.failed_name import failed_name
 from balloon_usd.files.hashes import hashes_of
 from balloon_usd.origin import provenance_of
 from balloon_usd.plan.meshing import mesh_of
-from balloon_usd.quality.watch import QualityWatch
+from balloon_usd.quality.watch import QualityWatch, counted_over_time
 from balloon_usd.report import History, write_report
 from balloon_usd.solver.run_summary import RunSummary
 from balloon_usd.stage import StageWriter
@@ -48,12 +48,14 @@ class Sculpture:
         meshes = tuple(mesh_of(strip, level) for strip in plan.strips.values())
         self._codes = order.frames.within(plan.frame_count)
         self._run_summary = RunSummary(plan, meshes)
-        self._history = History(plan, meshes) if order.report else None
-        self._quality = QualityWatch(plan, meshes)
+        # Crossings over time are the report's: those who want none want their frames soon.
+        counted = counted_over_time(plan, self._codes) if order.report else self._codes[-1:]
+        self._quality = QualityWatch(plan, meshes, counted)
+        self._history = History(plan, meshes, self._quality.crossings) if order.report else None
         self._open = ExitStack()
         self._writer = StageWriter(describe_stage(plan, meshes), order.folder, **order.form)
         self._undone: tuple[str, ...] = ()
-        self._frames = 0
+        self._frames = self._last = 0
         self._begun = time.perf_counter()
 
     def start(self) -> None:
@@ -79,7 +81,7 @@ class Sculpture:
             if self._history is not None:
                 self._history.add(frame)
             self._writer.write(frame)
-            self._frames += 1
+            self._frames, self._last = self._frames + 1, frame.time_code
 
     def finish(self) -> Made:
         """Give everything its final name once the last frame is taken, or the simulation has failed.
@@ -94,7 +96,7 @@ class Sculpture:
             remove_failed(folder, name)
             if not self._frames:
                 raise NoFrames
-        written = self._writer.finish(self.failed)
+        written = self._writer.finish(self.failed, self._quality.crossings.facts(self._last))
         self._open.close()
         quality = self._quality.data()
         products = self._products(written, quality)

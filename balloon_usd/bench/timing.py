@@ -7,13 +7,18 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from balloon_usd.plan import plan
+from balloon_usd.quality.crossing_counter import CrossingCounter
+from balloon_usd.quality.walls import walls_of
 from balloon_usd.recipe import Recipe
 from balloon_usd.solver import simulation as solver
+from balloon_usd.solver.frame import Frame
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
+    from balloon_usd.solver.snapshot import Outcome
 
 UNTIMED = 2
 """Frames before the clock runs."""
@@ -38,6 +43,8 @@ class Timing:
     seconds: float
     """Time that they took (s)."""
     fps: float
+    crossings: int
+    """In the last frame, of all figures that differ: walls that pierce walls, but for those in necks."""
 
     @property
     def rate(self) -> float:
@@ -69,9 +76,11 @@ def measure(name: str, plans: Sequence[Plan], detail: str, device: str, most: in
     next(frames)
     ready = time.perf_counter()
     count = min(most or max(simulation.frame_counts), *simulation.frame_counts)
+    last = first
     for _ in range(count - UNTIMED):
-        next(frames)
+        last = next(frames)
     seconds = time.perf_counter() - ready
+    crossings = _crossings(plans, simulation.meshes, last)
     vertices = sum(len(mesh.points) for meshes in simulation.meshes for mesh in meshes)
     particles = sum(len(air) for frame in first for air in getattr(frame, "air", ()))
     return Timing(
@@ -84,4 +93,19 @@ def measure(name: str, plans: Sequence[Plan], detail: str, device: str, most: in
         count - UNTIMED,
         seconds,
         plans[0].recipe.fps,
+        crossings,
     )
+
+
+def _crossings(
+    plans: Sequence[Plan], meshes: Sequence[Sequence[BalloonMesh]], frames: Sequence[Outcome]
+) -> int:
+    """Count the crossings of each figure once: copies of one have the same."""
+    seen = {id(plan): place for place, plan in enumerate(plans)}
+    found = 0
+    for place in seen.values():
+        frame = frames[place]
+        if isinstance(frame, Frame):
+            walls = walls_of(plans[place], meshes[place])
+            found += CrossingCounter(walls, 1).count(frame.points).count
+    return found

@@ -30,6 +30,7 @@ COLUMNS = (
     "real time",
     "ns each",
     "us/substep",
+    "crossings",
     "x one",
 )
 
@@ -159,7 +160,7 @@ def _row(timing: Timing, one: Timing | None) -> str:
     return (
         f"{timing.name:>10}{timing.copies:>11}{timing.vertices:>11}{timing.particles:>11}{timing.substeps:>11}"
         f"{timing.setup:>11.2f}{timing.frames:>11}{timing.rate:>11.1f}{timing.rate / timing.fps:>10.2f}x"
-        f"{timing.cost:>11.1f}{timing.substep:>11.1f}{times:>11}"
+        f"{timing.cost:>11.1f}{timing.substep:>11.1f}{timing.crossings:>11}{times:>11}"
     )
 
 

@@ -46,7 +46,7 @@ def pierced_triangles(points: Floats, triangles: Numbers, faces: Numbers | None 
     """
     triangles = triangles.astype(np.int64)
     edges = np.unique(np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1), axis=0)
-    unit = _unit(points, triangles)
+    unit = lattice_unit(float(np.ptp(points[triangles], axis=1).max(initial=0.0)))
     places = np.rint(points / unit).astype(np.int64)
     spans, corners = places[edges], places[triangles]
     pairs = overlapping_boxes(spans.min(axis=1), spans.max(axis=1), corners.min(axis=1), corners.max(axis=1))
@@ -54,21 +54,30 @@ def pierced_triangles(points: Floats, triangles: Numbers, faces: Numbers | None 
     ends = edges[pairs[:, 0]]
     apart = ~(ends[:, :, None] == around[:, None, :]).any(axis=(1, 2))
     pairs = pairs[apart]
-    found, behind = _pierce(spans[pairs[:, 0]], corners[pairs[:, 1]])
-    pairs = pairs[found]
+    pairs = pairs[_pierce(spans[pairs[:, 0]], corners[pairs[:, 1]])]
+    behind = reach_behind(spans[pairs[:, 0]], corners[pairs[:, 1]])
     return Pierced(edges[pairs[:, 0]], pairs[:, 1], behind * unit)
 
 
-def _unit(points: Floats, triangles: Numbers) -> float:
-    """Return the unit of the lattice, m: a power of two, so that most coordinates only change their scale."""
-    corners = points[triangles]
-    widest = float(np.ptp(corners, axis=1).max(initial=0.0))
+def lattice_unit(widest: float) -> float:
+    """Return the unit of the lattice, m: a power of two, so that most coordinates only change their scale.
+
+    `widest`: longest side of the boxes round all triangles, m.
+    """
     # Boxes that overlap are no farther apart than both are wide; rounding moves each end by half a unit.
     return math.ldexp(1.0, math.ceil(math.log2(max(2.0 * widest, 1e-30) * (1.0 + 2.0**-BITS * 8.0))) - BITS)
 
 
-def _pierce(ends: Numbers, corners: Numbers) -> tuple[NDArray[np.bool_], Floats]:
-    """Tell which edges, (N, 2, 3), pass through triangles, (N, 3, 3), and how far behind those reach."""
+def reach_behind(ends: Numbers, corners: Numbers) -> Floats:
+    """Return how far edges, (N, 2, 3), reach behind the triangles that they pierce, (N, 3, 3), in units."""
+    a = corners[:, 0]
+    normal = np.cross(corners[:, 1] - a, corners[:, 2] - a)
+    behind = -np.minimum(_dot(normal, ends[:, 0] - a), _dot(normal, ends[:, 1] - a)).astype(np.float64)
+    return np.asarray(behind / np.linalg.norm(normal.astype(np.float64), axis=1))
+
+
+def _pierce(ends: Numbers, corners: Numbers) -> NDArray[np.bool_]:
+    """Tell which edges, (N, 2, 3), pass through triangles, (N, 3, 3)."""
     p, q = ends[:, 0], ends[:, 1]
     a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
     normal = np.cross(b - a, c - a)
@@ -80,8 +89,7 @@ def _pierce(ends: Numbers, corners: Numbers) -> tuple[NDArray[np.bool_], Floats]
     through = (sides[0] != 0) & (sides[0] == sides[1]) & (sides[1] == sides[2])
     found = np.zeros(len(ends), dtype=np.bool_)
     found[parted[through]] = True
-    behind = -np.minimum(over_p[found], over_q[found]).astype(np.float64)
-    return found, behind / np.linalg.norm(normal[found].astype(np.float64), axis=1)
+    return found
 
 
 def _dot(a: Numbers, b: Numbers) -> Numbers:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from balloon_usd.quality.crossing_history import pair_text
 from balloon_usd.quality.measures import Verdict
 
 if TYPE_CHECKING:
@@ -50,11 +51,14 @@ def _joints(result: Data) -> Iterator[str]:
 
 
 def _crossings(result: Data, depth: Data) -> str:
+    # Records of earlier versions do not tell where there were most.
+    most = result.get("most", 0)
+    earlier = f"{most} in frame {result['most_at']}" if most > result["value"] else ""
     if not result["value"]:
-        return "0 crossings"
+        return f"0 crossings ({earlier})" if earlier else "0 crossings"
     a, b = result["bubbles"][0]["pair"]
-    where = f"{a} with itself" if a == b else f"{a} and {b}"
-    return f"{result['value']} crossings ({where}, {MILLI * depth['value']:.1f} mm)"
+    told = [pair_text((a, b)), f"{MILLI * depth['value']:.1f} mm", *filter(None, [earlier])]
+    return f"{result['value']} crossings ({', '.join(told)})"
 
 
 def _symmetry(data: Data) -> Iterator[str]:

@@ -1,52 +1,61 @@
-"""Walls that pierce each other in the last frame: how often, in which bubbles, how deep."""
+"""Walls that pierce each other in one frame: how often, in which bubbles, how deep."""
 
 from __future__ import annotations
 
 from collections import Counter
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from balloon_usd.quality.crossings import pierced_triangles
 from balloon_usd.quality.depth import deepest
-from balloon_usd.quality.measures import MEASURES
-from balloon_usd.quality.walls import NO_NECK, walls_of
+from balloon_usd.quality.walls import NO_NECK
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping
 
     from numpy.typing import NDArray
 
-    from balloon_usd.balloon.tube_mesh import BalloonMesh
-    from balloon_usd.plan import Plan
     from balloon_usd.quality.crossings import Pierced
-    from balloon_usd.solver.frame import Frame
+    from balloon_usd.quality.walls import Walls
 
 MOST_DEPTHS = 128
 """Vertices whose depth is measured, each against all walls."""
 
+Pair = tuple[str, str]
 
-def crossings_of(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame) -> dict[str, dict[str, Any]]:
-    """Return the crossings of a frame and their depth, as results by the keys of measures."""
-    walls = walls_of(plan, meshes)
-    points = np.concatenate(frame.points).astype(np.float64)
-    pierced = pierced_triangles(points, walls.triangles, walls.faces)
-    around = np.concatenate([pierced.edges, walls.faces[pierced.triangles]], axis=1)
-    necks = walls.neck[around]
-    in_neck = (necks[:, 0] != NO_NECK) & (necks == necks[:, :1]).all(axis=1)
-    names = [bubble.name for bubble in plan.bubbles]
+
+@dataclass(frozen=True)
+class Crossings:
+    """The crossings of one frame: pairs of an edge and a face that it pierces."""
+
+    count: int
+    """Those in no neck."""
+    in_necks: int
+    """Those between rubber that is folded up in the neck of one joint."""
+    pairs: Mapping[Pair, int]
+    """The former by the two bubbles, the most first; a bubble may cross itself."""
+
+
+def crossings_in(walls: Walls, pierced: Pierced) -> Crossings:
+    """Return the crossings of walls, from the edges and triangles of one frame."""
+    outside = _outside_necks(walls, pierced)
     own = walls.bubble_of_vertex[pierced.edges[:, 0]]
-    both = np.sort(np.stack([own, walls.bubble_of_triangle[pierced.triangles]], axis=1), axis=1)[~in_neck]
-    counts = Counter((names[a], names[b]) for a, b in both.tolist())
-    told = {
-        "in_necks": int(in_neck.sum()),
-        "bubbles": [{"pair": list(pair), "count": count} for pair, count in counts.most_common()],
-    }
-    depth = deepest(points, walls.triangles, _ends(pierced, ~in_neck))
-    return {
-        "crossings": MEASURES["crossings"].result(len(both), told),
-        "depth": MEASURES["depth"].result(depth),
-    }
+    both = np.sort(np.stack([own, walls.bubble_of_triangle[pierced.triangles]], axis=1), axis=1)[outside]
+    pairs = Counter((walls.names[a], walls.names[b]) for a, b in both.tolist())
+    return Crossings(len(both), len(outside) - len(both), dict(pairs.most_common()))
+
+
+def depth_in(walls: Walls, pierced: Pierced, points: NDArray[np.float64]) -> float:
+    """Return how deep the deepest vertex at a crossing in no neck lies inside a wall, m; `points`: (V, 3)."""
+    return deepest(points, walls.triangles, _ends(pierced, _outside_necks(walls, pierced)))
+
+
+def _outside_necks(walls: Walls, pierced: Pierced) -> NDArray[np.bool_]:
+    """Tell which pairs have not all their corners in the neck of one joint."""
+    around = walls.quads[pierced.triangles % len(walls.quads)]
+    necks = walls.neck[np.concatenate([pierced.edges, around], axis=1)]
+    return np.asarray((necks[:, 0] == NO_NECK) | (necks != necks[:, :1]).any(axis=1))
 
 
 def _ends(pierced: Pierced, of_these: NDArray[np.bool_]) -> NDArray[np.int64]:

@@ -28,14 +28,16 @@ NO_NECK = -1
 class Walls(NamedTuple):
     """All balloons of a sculpture together, their vertices one after another."""
 
+    quads: Numbers
+    """(F, 4) vertices."""
     triangles: Numbers
-    """(T, 3), both halves of every quad."""
-    faces: Numbers
-    """Quad of every triangle, (T, 4)."""
+    """(T, 3), the first halves of all quads, then the second ones."""
     bubble_of_triangle: Numbers
     """(T,), in plan order."""
     bubble_of_vertex: Numbers
     """A bubble that each vertex belongs to, (V,)."""
+    names: tuple[str, ...]
+    """Of the bubbles."""
     neck: Numbers
     """Joint in whose neck each vertex lies, (V,); `NO_NECK` of others."""
 
@@ -58,16 +60,20 @@ def walls_of(plan: Plan, meshes: Sequence[BalloonMesh]) -> Walls:
         necks.append(neck)
         vertices += len(mesh.points)
         before += len(strip.bubbles)
-    faces, of_face = np.concatenate(quads), np.concatenate(bubbles)
-    of_vertex = np.zeros(vertices, dtype=np.int64)
-    of_vertex[faces] = of_face[:, None]
-    return Walls(
-        np.concatenate([faces[:, :3], faces[:, [0, 2, 3]]]),
-        np.concatenate([faces, faces]),
-        np.concatenate([of_face, of_face]),
-        of_vertex,
-        np.concatenate(necks),
-    )
+    names = tuple(bubble.name for bubble in plan.bubbles)
+    return walls_from(np.concatenate(quads), np.concatenate(bubbles), np.concatenate(necks), names)
+
+
+def walls_from(quads: Numbers, bubble_of_quad: Numbers, neck: Numbers, names: tuple[str, ...]) -> Walls:
+    """Return the walls of quads (F, 4) in bubbles (F,), with the necks of all vertices (V,)."""
+    of_vertex = np.zeros(len(neck), dtype=np.int64)
+    of_vertex[quads] = bubble_of_quad[:, None]
+    return Walls(quads, halves(quads), np.tile(bubble_of_quad, 2), of_vertex, names, neck)
+
+
+def halves(quads: Numbers) -> Numbers:
+    """Return the triangles of quads (F, 4), (2 F, 3): the first halves of all, then the second ones."""
+    return np.concatenate([quads[:, :3], quads[:, [0, 2, 3]]])
 
 
 def _reach(strip: Strip) -> float:

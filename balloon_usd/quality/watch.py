@@ -5,28 +5,45 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+from balloon_usd.quality.crossing_counter import CrossingCounter
+from balloon_usd.quality.crossing_history import CrossingHistory
 from balloon_usd.quality.joints import lost_joints
 from balloon_usd.quality.measures import MEASURES, Verdict
-from balloon_usd.quality.pierced_walls import crossings_of
 from balloon_usd.quality.ranking import excess
 from balloon_usd.quality.rest import Rest
 from balloon_usd.quality.symmetry import symmetry_of
 from balloon_usd.quality.twists import TwistTails
+from balloon_usd.quality.walls import walls_of
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
     from balloon_usd.solver.frame import Frame
 
+BETWEEN_COUNTS = 0.5
+"""Time between two frames in which crossings are counted over time, s: a count takes a writer as long as five
+frames.
+"""
+
 
 class QualityWatch:
     """Takes the frames of one sculpture, each once; keeps a few numbers a bubble and the points of four."""
 
-    def __init__(self, plan: Plan, meshes: Sequence[BalloonMesh]) -> None:
-        """Begin with nothing seen; one mesh a balloon, in the order of `Plan.strips`."""
+    def __init__(self, plan: Plan, meshes: Sequence[BalloonMesh], counted: Iterable[int] = ()) -> None:
+        """Begin with nothing seen.
+
+        Args:
+            plan: of the sculpture.
+            meshes: one a balloon, in the order of `Plan.strips`.
+            counted: time codes of frames in which crossings are counted, besides the last one.
+        """
         self._plan, self._meshes = plan, meshes
+        self._counted = {*counted, plan.frame_count}
+        self._counter = CrossingCounter(walls_of(plan, meshes), len(self._counted))
+        self.crossings = CrossingHistory()
+        """In those frames."""
         self._rest = Rest(plan)
         self._tails = TwistTails(plan, meshes)
         self._end: Frame | None = None
@@ -35,6 +52,8 @@ class QualityWatch:
         """Take the next frame; the last one must not be changed afterwards."""
         self._rest.add(frame)
         self._tails.add(frame)
+        if frame.time_code in self._counted:
+            self.crossings.add(frame.time_code, self._counter.count(frame.points))
         if frame.time_code == self._plan.frame_count:
             self._end = frame
 
@@ -48,13 +67,35 @@ class QualityWatch:
             "tail": MEASURES["tail"].largest(self._tails.off),
             **self._rest.results(),
             "joints": _joints(plan, meshes, end),
-            **crossings_of(plan, meshes, end),
+            **self._crossings(end),
             **symmetry_of(plan, meshes, end),
         }
         off = [key for key in MEASURES if found[key]["verdict"] == Verdict.OFF]
         off.sort(key=lambda key: -excess(found[key]))
         verdict = Verdict.OFF if off else Verdict.GOOD
         return {"verdict": verdict.value, "off": off, **{key: found[key] for key in MEASURES}}
+
+    def _crossings(self, end: Frame) -> dict[str, dict[str, Any]]:
+        """Return the crossings of the last frame, and where there were most."""
+        history = self.crossings
+        found = history.frames[end.time_code]
+        told = {
+            "in_necks": found.in_necks,
+            "bubbles": [{"pair": list(pair), "count": count} for pair, count in found.pairs.items()],
+            "most": history.frames[history.worst].count,
+            "most_at": history.worst,
+        }
+        depth = self._counter.depth(end.points) if found.count else 0.0
+        return {
+            "crossings": MEASURES["crossings"].result(found.count, told),
+            "depth": MEASURES["depth"].result(depth),
+        }
+
+
+def counted_over_time(plan: Plan, codes: range) -> list[int]:
+    """Return those of some time codes at which crossings are counted to be told over time."""
+    every = max(round(BETWEEN_COUNTS * plan.recipe.fps), 1)
+    return [*codes[::every], codes[-1]]
 
 
 def _gas(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame) -> dict[str, float]:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any
 
+from balloon_usd.report.crossings import crossing_rows
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
@@ -65,6 +67,7 @@ def report_data(
         "undone": [{"joint": name, **_moment(code, recipe.fps)} for name, code in history.undone],
         "failed": _failure(history, failed),
         "quality": None if quality is None else dict(quality),
+        "crossings": crossing_rows(history.crossings),
         "time_code": list(history.time_codes),
         "time": _rounded("time", history.times),
         "bubbles": [

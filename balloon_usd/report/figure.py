@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from balloon_usd.report.axis import time_axis
+from balloon_usd.report.crossings import crossing_panel
 from balloon_usd.report.labels import rows_for
 from balloon_usd.report.palette import ALARM, INK, PALE_INK, PAPER, STEP_RULE, bubble_color
 from balloon_usd.report.panel import (
@@ -49,7 +50,7 @@ NAMES_LEAST = 150
 
 
 def draw_figure(history: History, *, detail: str, failed: str = "") -> Image.Image:
-    """Return the figure of a run: pressure, volume, stretch, contact and tail over time.
+    """Return the figure of a run: pressure, volume, stretch, contact, tail and crossings over time.
 
     Args:
         history: frames of a sculpture, at least one.
@@ -65,7 +66,7 @@ def draw_figure(history: History, *, detail: str, failed: str = "") -> Image.Ima
     rows = rows_for([across.place(moment) for moment in moments], widths, STEP_GAP)
     first = HEADER + MARGIN + (max(rows) + 1 if rows else 0) * STEP_ROW + 8
     bottom = first + sum(heights) + BETWEEN * (len(panels) - 1)
-    paper = Paper(_width(history, across, moments, widths), bottom + FOOTER)
+    paper = Paper(_width(panels, across, moments, widths), bottom + FOOTER)
     _write_header(paper, history, detail)
     _mark_steps(paper, marks, moments, rows, across, first)
     top = first
@@ -99,6 +100,8 @@ def panels_of(history: History) -> tuple[Panel, ...]:
             for index, name in enumerate(history.tail_names)
         )
         panels.append(Panel("Tail left", "cm", "flat rubber at the tip of each balloon", tails, 1))
+    if crossings := crossing_panel(history.crossings, history.plan.recipe.fps):
+        panels.append(crossings)
     return tuple(panels)
 
 
@@ -124,9 +127,9 @@ def _across(history: History) -> Axis:
     return time_axis(float(times[0]), end, PLOT_LEFT, PLOT_LEFT + PLOT_WIDTH)
 
 
-def _width(history: History, across: Axis, moments: Sequence[float], widths: Sequence[float]) -> int:
+def _width(panels: Sequence[Panel], across: Axis, moments: Sequence[float], widths: Sequence[float]) -> int:
     """Return the width of the paper, with room for all names and for the text of the last steps."""
-    names = [*history.bubble_names, *history.tail_names]
+    names = [curve.name for panel in panels for curve in panel.curves]
     named = across.end + NAME_BEGIN + max(NAMES_LEAST, *(text_width(name, TEXT_SIZE) for name in names))
     told = [across.place(moment) + width for moment, width in zip(moments, widths, strict=True)]
     return round(max(named, *told) if told else named) + MARGIN

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
+    from balloon_usd.quality.crossing_history import CrossingHistory
     from balloon_usd.solver.frame import Frame
 
     Floats = NDArray[np.float64]
@@ -24,9 +25,18 @@ if TYPE_CHECKING:
 class History:
     """Gathers the frames of one sculpture into a few numbers each; no mesh is kept."""
 
-    def __init__(self, plan: Plan, meshes: Sequence[BalloonMesh]) -> None:
-        """Begin with nothing seen; one mesh a balloon, in the order of `Plan.strips`."""
+    def __init__(
+        self, plan: Plan, meshes: Sequence[BalloonMesh], crossings: CrossingHistory | None = None
+    ) -> None:
+        """Begin with nothing seen.
+
+        Args:
+            plan: of the sculpture.
+            meshes: one a balloon, in the order of `Plan.strips`.
+            crossings: filled by who counts them; None where nobody does.
+        """
         self.plan = plan
+        self.crossings = crossings
         self._tails = FlatTails(plan, meshes)
         self._owners = _owners(plan, meshes)
         self._time_codes: list[int] = []

@@ -50,7 +50,7 @@ class Panel:
 
     title: str
     unit: str
-    """Of the values; "" for a ratio."""
+    """Of the values; "1" for a number, "" for a ratio."""
     note: str
     """What the values are, in a few words."""
     curves: tuple[Curve, ...]
@@ -58,6 +58,8 @@ class Panel:
     """Digits after the point of the values at the end."""
     limit: tuple[float, str] | None = None
     """A value that should not be passed, and its name."""
+    times: NDArray[np.float64] | None = None
+    """Of every value (N,), s; None where they are those of all frames."""
 
     def axis(self, top: float, bottom: float) -> Axis:
         """Return the axis that shows all values and zero, or one for a ratio."""
@@ -80,11 +82,12 @@ def draw_panel(
     Args:
         paper: to draw on.
         panel: what to draw.
-        times: of every value (N,), s.
+        times: of all frames (N,), s.
         moments: that get a thin upright line, s.
         across: the axis of time.
         span: top and bottom (pixels), the title included.
     """
+    times = times if panel.times is None else panel.times
     top, bottom = span[0] + TITLE_HEIGHT, span[1]
     up = panel.axis(top, bottom)
     paper.box((across.start, top), (across.end, bottom), PANEL)
@@ -113,7 +116,7 @@ def draw_moments(paper: Paper, moments: Sequence[float], across: Axis, span: tup
 
 
 def _write_title(paper: Paper, panel: Panel, left: float, y: float) -> None:
-    title = f"{panel.title}, {panel.unit}" if panel.unit else panel.title
+    title = f"{panel.title}, {panel.unit}" if panel.unit not in ("", "1") else panel.title
     note = left + text_width(title, TITLE_SIZE) + 12
     paper.box((left + 1, y - 10), (note + text_width(panel.note, SMALL_SIZE) + 6, y + 10), PAPER)
     paper.text((left, y), title, INK, TITLE_SIZE)

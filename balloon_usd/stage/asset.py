@@ -11,7 +11,7 @@ from balloon_usd.stage.detail_files import MATERIALS, PAYLOAD, TEXTURE, detail_f
 from balloon_usd.stage.earlier import Earlier, carry_over, find_earlier, orphaned_texture
 from balloon_usd.stage.error import writing
 from balloon_usd.stage.geometry import author_geometry
-from balloon_usd.stage.interface import Extents, add_detail, author_failure, author_root, set_asset_info
+from balloon_usd.stage.interface import Extents, add_detail, author_outcome, author_root, set_asset_info
 from balloon_usd.stage.layer_metadata import set_provenance, set_time_range, set_units
 from balloon_usd.stage.looks import looks_of
 from balloon_usd.stage.materials import author_materials
@@ -105,7 +105,7 @@ def _interface_layer(description: StageDescription, take: Take, wanted: Wanted, 
         layer, description, provenance_of(description.provenance, description.fps, wanted.detail)
     )
     set_asset_info(root, f"{description.name}.usda")
-    author_failure(layer, root, take, wanted)
+    author_outcome(layer, root, take, wanted)
     written = Extents(take.extent, take.final.extent)
     for name, extents in sorted({**earlier.kept, wanted.detail: written}.items()):
         add_detail(root, name, extents)

@@ -9,7 +9,7 @@ from balloon_usd.openusd import Sdf, Usd
 from balloon_usd.stage.built import Built
 from balloon_usd.stage.error import writing
 from balloon_usd.stage.geometry import author_geometry
-from balloon_usd.stage.interface import author_failure, author_root, set_asset_info, set_extents_hint
+from balloon_usd.stage.interface import author_outcome, author_root, set_asset_info, set_extents_hint
 from balloon_usd.stage.looks import PRINT, STRESS, looks_of
 from balloon_usd.stage.materials import author_materials
 from balloon_usd.stage.prim_paths import root_path
@@ -75,7 +75,7 @@ def author_rest(
 ) -> None:
     """Author all that does not move into the layer of the samples; `looks`: those that have materials."""
     root = layer.GetPrimAtPath(root_path(description.name))
-    author_failure(layer, root, take, wanted)
+    author_outcome(layer, root, take, wanted)
     set_extents_hint(root, take.extent)
     stage = Usd.Stage.Open(layer)
     author_geometry(stage, description, take.final)

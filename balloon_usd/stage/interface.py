@@ -61,8 +61,13 @@ def set_asset_info(root: Any, file_name: str) -> None:
     root.SetInfo("assetInfo", {"identifier": identifier, "name": root.name, "version": __version__})
 
 
-def author_failure(layer: Any, root: Any, take: Take, wanted: Wanted) -> None:
-    """Say in the root layer that the simulation failed, if it did; its file has another name then."""
+def author_outcome(layer: Any, root: Any, take: Take, wanted: Wanted) -> None:
+    """Say in the root layer what is known of the frames, and whether the simulation failed.
+
+    The file has another name if it did.
+    """
+    if wanted.facts:
+        set_provenance(layer, {**layer.customLayerData[KEY], **wanted.facts})
     if wanted.failed:
         set_provenance(layer, {**layer.customLayerData[KEY], **failure_of(wanted.failed, take.last)})
         ending = PurePosixPath(root.GetInfo("assetInfo")["identifier"].path).suffix

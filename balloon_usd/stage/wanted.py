@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from balloon_usd.files.failed_name import failed_name
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
 
 
 @dataclass(frozen=True)
@@ -19,6 +23,8 @@ class Wanted:
     """Whether a shot stands beside it."""
     failed: str = ""
     """Why the simulation ended before its last frame; "" if it did not."""
+    facts: Mapping[str, int] = field(default_factory=dict)
+    """What is known of the frames once all are written, for the root layer."""
 
     def file_stem(self, name: str) -> str:
         """Return what the files of a sculpture of this name are called, without an ending."""

@@ -119,18 +119,19 @@ class StageWriter:
         self._stream.write(frame)
 
     @usd_access()
-    def finish(self, failed: str = "") -> WrittenStage:
+    def finish(self, failed: str = "", facts: Mapping[str, int] | None = None) -> WrittenStage:
         """Write the rest and give the stage its final name.
 
         Args:
             failed: why the simulation ended before its last frame, if it did. The stage says so then and is
                 called NAME.failed; what stands under the final name stays.
+            facts: what is known of the frames, for the root layer's customLayerData.
 
         Raises:
             StageError: it cannot be written, or there are no frames.
         """
         take = self._stream.close()
-        self._wanted = replace(self._wanted, failed=failed)
+        self._wanted = replace(self._wanted, failed=failed, facts=facts or {})
         built = self._form.complete(self._layers, take, self._description, self._wanted, self._work)
         del self._stream, self._layers
         if failed:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shutil
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -191,3 +193,31 @@ def test_a_process_ends_with_the_exit_code_and_without_warnings_of_usd(stages, t
     assert process.returncode == 2
     assert len(error.splitlines()) == 1
     assert out.splitlines()[0].startswith(f"{stages / 'dog.usdc'}: fine")
+
+
+def test_crossings_are_counted_in_the_frames_that_are_asked_for_and_are_a_fault(check, tmp_path):
+    # The second tube is down in the first one in frame 3.
+    moved = [
+        replace(
+            f, points=(f.points[0], f.points[1] - np.float32([0, 0.003, 0.085 if f.time_code == 3 else 0]))
+        )
+        for f in frames(5)
+    ]
+    write_stage(sculpture(name="crossed"), moved, tmp_path, flat=True)
+    result = check("--crossings", "dog", "crossed.usdc")
+    assert result.exit_code == 1, result.output
+    fine, line = result.stdout.splitlines()
+    assert fine == "dog: 0 crossings in 6 frames"
+    assert re.match(
+        r"crossed.usdc: \d+ crossings in frame 3, the worst of 5 frames, 0 in the last one, ", line
+    )
+    for asked, counted in (("4:", [4, 5]), ("1,5", [1, 5])):
+        result = check("--crossings", "--frames", asked, "--json", "crossed.usdc")
+        assert result.exit_code == 0, result.output
+        (stage,) = json.loads(result.stdout)["stages"]
+        assert (stage["result"], stage["crossings"]["time_code"]) == ("fine", counted)
+
+
+def test_frames_that_a_stage_has_not_and_frames_without_crossings_are_refused(check):
+    assert "dog.usdc: has frames 1 to 6 only" in refused(check("--crossings", "--frames", "7:", "dog.usdc"))
+    assert refused(check("--frames", "2:", "dog")) == "--frames: not used without --crossings"

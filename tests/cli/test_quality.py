@@ -6,6 +6,7 @@ import json
 from pathlib import Path
 
 import pytest
+from pxr import Sdf
 
 from balloon_usd.batch.order import Order
 from balloon_usd.batch.record import Record, Status
@@ -54,6 +55,21 @@ def test_the_report_and_the_journal_have_the_same_quality_and_the_summary_a_line
     assert result.stdout.count("quality: gas ") == 1
 
 
+def test_the_stage_carries_its_crossings_and_the_report_those_of_every_frame_counted(
+    cli, solver, write_recipe
+):
+    solver.trouble = {"snake": "fold"}
+    result = cli("run", write_recipe(), "-o", "out", "--device", "cpu", "--no-preview", "--flat")
+    assert result.exit_code == 0, result.output
+    facts = Sdf.Layer.FindOrOpen("out/snake.usdc").customLayerData["balloon_usd"]
+    rows = json.loads(Path("out/snake.report.json").read_text("utf-8"))["crossings"]
+    found = records()[0]["summary"]["quality"]["crossings"]
+    assert found["value"] > 20
+    assert facts["crossings"] == found["value"] == rows["count"][-1]
+    assert facts["most_crossings"] == found["most"] == max(rows["count"])
+    assert facts["most_crossings_frame"] == found["most_at"]
+
+
 def test_a_run_without_a_report_has_its_quality_too(cli, solver, write_recipe):
     cli("run", write_recipe(), "-o", "out", "--no-preview", "--no-report")
     assert records()[0]["summary"]["quality"]["verdict"] in ("good", "off")
@@ -71,6 +87,17 @@ def test_the_worst_figures_of_a_batch_are_told_first_and_good_ones_not_at_all(pr
     assert [line.split(":")[0] for line in lines] == ["quality of both", "quality of gas"]
     assert "2 crossings (nose and tail, 1.0 mm)" in lines[0]
     assert lines[1].startswith("quality of gas: gas 30.0 % off (neck)")
+
+
+def test_most_crossings_are_told_where_there_were_more_than_in_the_end(printed):
+    def line(value, most):
+        record = figure("dog", crossings=value, depth=0.001)
+        record.summary["quality"]["crossings"] |= {"most": most, "most_at": 313}
+        return next(iter(printed(record)))
+
+    assert "held, 0 crossings (12 in frame 313), " in line(0, 12)
+    assert "held, 2 crossings (nose and tail, 1.0 mm, 12 in frame 313), " in line(2, 12)
+    assert "held, 2 crossings (nose and tail, 1.0 mm), " in line(2, 2)
 
 
 def test_a_large_batch_tells_of_a_few_and_counts_the_others(printed):

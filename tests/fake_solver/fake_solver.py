@@ -7,6 +7,7 @@ import os
 import pickle
 import signal
 import time
+from dataclasses import replace
 from itertools import accumulate, pairwise
 from pathlib import Path
 
@@ -93,7 +94,8 @@ class FakeSimulation:
                 if code > 3
                 else self._made(plan, meshes, code)
             )
-        return self._made(plan, meshes, code, undone=trouble == "undone")
+        frame = self._made(plan, meshes, code, undone=trouble == "undone")
+        return replace(frame, points=tuple(map(folded, frame.points))) if trouble == "fold" else frame
 
     def _act(self, trouble, name):
         if trouble == "sleep":
@@ -124,6 +126,15 @@ class FakeSimulation:
             "pinch: nose",
             undone=("nose.end", "middle.end") if undone else (),
         )
+
+
+def folded(points):
+    """A tube whose one half lies in the other."""
+    middle = np.float32(0.5) * (points[:, 0].min() + points[:, 0].max())
+    over = points.copy()
+    over[points[:, 0] > middle] += np.float32([0.0, 0.002, 0.001])
+    over[:, 0] = np.abs(points[:, 0] - middle)
+    return over
 
 
 class FakeSolver:

@@ -8,46 +8,15 @@ import pytest
 from balloon_usd.quality.boxes import overlapping_boxes
 from balloon_usd.quality.crossings import pierced_triangles
 from balloon_usd.quality.depth import deepest
-
-
-def block(corner, size):
-    """A box of twelve triangles, its points, triangles and the quad of each triangle."""
-    unit = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
-    quads = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
-    return np.array(corner) + unit * size, np.concatenate([quads[:, :3], quads[:, [0, 2, 3]]]), quads
+from balloon_usd.quality.walls import halves
+from tests.quality import surfaces
+from tests.quality.surfaces import block, by_hand
 
 
 def together(*blocks):
-    points = np.concatenate([points for points, _, _ in blocks])
-    starts = np.cumsum([0, *[len(points) for points, _, _ in blocks[:-1]]])
-    triangles = np.concatenate([t + s for (_, t, _), s in zip(blocks, starts, strict=True)])
-    faces = np.concatenate([np.tile(q, (2, 1)) + s for (_, _, q), s in zip(blocks, starts, strict=True)])
-    return points, triangles, faces
-
-
-def six_volumes(a, b, c, d):
-    """Six times the volume of a tetrahedron of integers, in Python's own."""
-    u, v, w = ([int(x) for x in row] for row in (b - a, c - a, d - a))
-    cross = (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
-    return sum(x * y for x, y in zip(cross, w, strict=True))
-
-
-def by_hand(points, triangles):
-    """All pairs of an edge and a triangle that it pierces, one by one, of points on a lattice of integers."""
-    sides = {tuple(sorted((int(t[i]), int(t[i - 1])))) for t in triangles for i in range(3)}
-    found = set()
-    for edge in sides:
-        p, q = points[list(edge)]
-        for index, triangle in enumerate(triangles):
-            if set(edge) & set(triangle.tolist()):
-                continue
-            a, b, c = points[triangle]
-            over = six_volumes(a, b, c, p), six_volumes(a, b, c, q)
-            around = [six_volumes(p, q, *pair) for pair in ((a, b), (b, c), (c, a))]
-            parted = min(over) < 0 < max(over)
-            if parted and (min(around) > 0 or max(around) < 0):
-                found.add((*edge, index))
-    return found
+    """Boxes as triangles, with the quad of each."""
+    points, quads = surfaces.together(*blocks)
+    return points, halves(quads), np.tile(quads, (2, 1))
 
 
 def test_two_boxes_apart_do_not_cross():

@@ -19,25 +19,12 @@ from balloon_usd.quality.line import quality_line
 from balloon_usd.quality.measures import MEASURES
 from balloon_usd.quality.ranking import worst_first
 from balloon_usd.quality.symmetry import mirrored, pairs_of
-from balloon_usd.quality.watch import QualityWatch
+from balloon_usd.quality.watch import QualityWatch, counted_over_time
 from balloon_usd.recipe import Recipe
 from balloon_usd.solver.frame import Frame
+from tests.quality.ears import EARS, points_of
 
 RECIPES = Path(__file__).parents[2] / "recipes"
-EARS = """\
-format: 1
-name: ears
-units: cm
-balloons:
-  main: {size: 260, length: 30, tail: 6}
-steps:
-  - bubbles: {nose: 8, left_ear: 9, right_ear: 9}
-  - lock: [left_ear, right_ear]
-    point: up
-  - bubbles: {neck: 7}
-  - rest: tail
-physics: {hold: 1}
-"""
 
 
 @pytest.fixture(scope="module")
@@ -45,20 +32,6 @@ def figure():
     """A plan and its meshes."""
     plan = plan_of(Recipe.parse(EARS, file="ears.yaml"))
     return plan, [mesh_of(strip, detail_named("draft")) for strip in plan.strips.values()]
-
-
-def points_of(plan, meshes):
-    """A tube along a path: ears are a loop that is its own mirror image, from one joint back to it."""
-    (mesh,) = meshes
-    ends = [0.0, *(bubble.rest_end for bubble in plan.bubbles)]
-    before = np.clip(mesh.along, 0.0, ends[1])
-    loop = np.clip((mesh.along - ends[1]) / (ends[3] - ends[1]), 0.0, 1.0) * 2.0 * np.pi
-    after = np.clip(mesh.along - ends[3], 0.0, None)
-    x = before + after + np.clip(mesh.along, None, 0.0)
-    points = np.zeros((len(x), 3))
-    points[:, 0], points[:, 1], points[:, 2] = x, 0.05 * np.sin(loop), 0.05 * (1.0 - np.cos(loop))
-    # Narrow enough to be closed, and apart from each other everywhere.
-    return (points + 0.2 * mesh.points * [0.0, 1.0, 1.0]).astype(np.float32)
 
 
 def as_planned(plan, meshes, code, **changes):
@@ -224,6 +197,29 @@ def test_walls_that_cross_within_one_neck_are_told_apart(figure, still):
     crossings = quality_of(figure, crumpled)["crossings"]
     assert crossings["in_necks"] > 10
     assert (crossings["value"], crossings["verdict"]) == (0, "good")
+
+
+def test_crossings_are_counted_twice_a_second_and_the_most_are_told_with_their_frame(figure):
+    plan, meshes = figure
+    codes = range(1, plan.frame_count + 1)
+    counted = counted_over_time(plan, codes)
+    assert counted[:3] == [1, 13, 25]
+    assert counted[-1] == plan.frame_count
+    watch = QualityWatch(plan, meshes, counted)
+    for code in codes:
+        frame = as_planned(plan, meshes, code)
+        if code in (25, 26):
+            # The end of the tail lies in its beginning.
+            (x,) = (points[:, 0] for points in frame.points)
+            frame.points[0][x > x.max() - 0.01] -= np.float32([0.02, 0.0005, 0.0003])
+        watch.add(frame)
+    crossings = watch.data()["crossings"]
+    assert crossings["value"] == 0
+    assert crossings["most"] > 20
+    assert crossings["most_at"] == 25
+    assert list(watch.crossings.frames) == sorted(set(counted))
+    facts = {"crossings": 0, "most_crossings": crossings["most"], "most_crossings_frame": 25}
+    assert watch.crossings.facts(plan.frame_count) == facts
 
 
 def test_pairs_are_left_and_right_bubbles_of_equal_recipes(figure):

@@ -14,6 +14,8 @@ from PIL import Image, ImageChops
 from balloon_usd.balloon.detail import detail_named
 from balloon_usd.plan import plan as plan_of
 from balloon_usd.plan.meshing import mesh_of
+from balloon_usd.quality.crossing_history import CrossingHistory
+from balloon_usd.quality.pierced_walls import Crossings
 from balloon_usd.recipe import Recipe
 from balloon_usd.report import History, ReportError, draw_figure, report_data, report_text, write_report
 from balloon_usd.report.figure import panels_of
@@ -178,6 +180,7 @@ def test_the_document_has_its_keys_in_order_and_units_for_its_numbers(history):
         "undone",
         "failed",
         "quality",
+        "crossings",
         "time_code",
         "time",
         "bubbles",
@@ -201,6 +204,42 @@ def test_the_quality_is_told_as_it_was_measured_and_null_where_it_was_not(histor
     quality = {"verdict": "good", "off": [], "speed": {"value": 0.001}}
     data = report_data(history, detail="draft", provenance=ORIGIN, quality=quality)
     assert json.loads(report_text(data))["quality"] == quality
+
+
+def crossed():
+    """A history in which two bubbles cross, one crosses itself, and nothing does in the end."""
+    crossings = CrossingHistory()
+    crossings.add(1, Crossings(0, 3, {}))
+    crossings.add(13, Crossings(9, 4, {("nose", "tail"): 7, ("nose", "nose"): 2}))
+    crossings.add(20, Crossings(0, 5, {}))
+    history = History(*flat(), crossings)
+    for code in range(1, 21):
+        history.add(frame(history.plan, flat()[1], code))
+    return history
+
+
+def test_crossings_are_told_for_every_frame_in_which_they_were_counted_and_null_where_they_were_not(history):
+    assert report_data(history, detail="draft", provenance=ORIGIN)["crossings"] is None
+    data = json.loads(report_text(report_data(crossed(), detail="draft", provenance=ORIGIN)))
+    assert data["crossings"] == {
+        "time_code": [1, 13, 20],
+        "count": [0, 9, 0],
+        "in_necks": [3, 4, 5],
+        "bubbles": [
+            {"pair": ["nose", "tail"], "count": [0, 7, 0]},
+            {"pair": ["nose", "nose"], "count": [0, 2, 0]},
+        ],
+    }
+
+
+def test_the_figure_has_a_curve_of_all_crossings_and_of_the_worst_pairs_by_name(history):
+    assert "Crossings" not in [panel.title for panel in panels_of(history)]
+    panel = panels_of(crossed())[-1]
+    assert panel.title == "Crossings"
+    assert [curve.name for curve in panel.curves] == ["all", "nose and tail", "nose with itself"]
+    assert [curve.values.tolist() for curve in panel.curves] == [[0, 9, 0], [0, 7, 0], [0, 2, 0]]
+    assert panel.times.tolist() == [0.0, 0.5, 19 / 24]
+    assert draw_figure(crossed(), detail="draft").height > draw_figure(history, detail="draft").height
 
 
 def test_numbers_are_rounded_to_what_single_precision_means(history):

@@ -1,0 +1,137 @@
+"""Necks of twisted balloons, found in a stage: rings where bubbles meet, and the joints that hold them.
+
+The meshes of balloons are rows of rings (`balloon.ringed_faces`). Their texture coordinates tell how far each
+ring was from the knot before it was blown up.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import networkx as nx
+import numpy as np
+
+from balloon_usd.balloon.ringed_faces import inner_vertices, ring_starts, ringed_quads
+from balloon_usd.balloon.tube_mesh import KNOT_LENGTH, LIP_LENGTH
+from balloon_usd.quality.joints import APART
+from balloon_usd.quality.walls import CAPSULE_NECK_REACH, NECK_REACH, NO_NECK
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    Floats = NDArray[np.float64]
+    Numbers = NDArray[np.int64]
+
+LIP_RING, KNOT_RING = 3, 7
+"""Rings of a tube at which its lip and its knot end."""
+ROUNDING = 1e-4
+"""Of texture coordinates, as a share of the reach of a neck."""
+MOST_AROUND = 256
+"""Vertices of a ring, at most: no level of detail has as many."""
+
+
+@dataclass(frozen=True)
+class Neck:
+    """Rubber on both sides of a place where bubbles meet, or that is tied into a knot."""
+
+    ring: Numbers
+    """Vertices of the ring in its middle."""
+    vertices: Numbers
+    """All of its vertices."""
+    rings: Numbers
+    """All rings of its balloon, (R, around) vertices."""
+
+    def moved(self, before: int) -> Neck:
+        """Return it with the numbers of its vertices counted on from some before them."""
+        return Neck(self.ring + before, self.vertices + before, self.rings + before)
+
+
+def necks_of(quads: Numbers, st: Floats, bubbles: Numbers, first: Floats) -> list[Neck]:
+    """Return the necks of a balloon; none where the mesh is no row of rings.
+
+    Args:
+        quads: (F, 4) vertices.
+        st: texture coordinates of the corners, (F, 4, 2); empty where there are none.
+        bubbles: of the faces, (F,).
+        first: points (V, 3) of the earliest frame, m.
+    """
+    around = _around(quads, len(first))
+    if not around or len(st) != len(quads):
+        return []
+    rings = ring_starts(around, _rings(len(first), around))[:, None].astype(np.int64) + np.arange(around)
+    faces = slice((around // 4) ** 2, (around // 4) ** 2 + (len(rings) - 1) * around)
+    rows = bubbles[faces].reshape(-1, around)[:, 0]
+    t = st[faces, :, 1].reshape(-1, around, 4)
+    places = np.append(t[:, 0, 0], t[-1, 0, 3])
+    meets = 1 + np.flatnonzero(rows[1:] != rows[:-1])
+    if _is_tube(places):
+        # In R0, from the knot; the caps are beyond all necks.
+        along = np.full(len(first), np.inf)
+        along[: rings[0, 0]] = -np.inf
+        along[rings] = (places * LIP_LENGTH / places[LIP_RING] - LIP_LENGTH - KNOT_LENGTH)[:, None]
+        start, reach = KNOT_RING, NECK_REACH
+    else:
+        along, radius = _measured(first, rings)
+        start, reach = 0, CAPSULE_NECK_REACH * radius
+    reach *= 1.0 + ROUNDING
+    found = [Neck(rings[start], np.flatnonzero(along <= reach), rings)]
+    for at in meets.tolist():
+        place = along[rings[at]].mean()
+        found.append(Neck(rings[at], np.flatnonzero(np.abs(along - place) <= reach), rings))
+    return found
+
+
+def joints_between(necks: Sequence[Neck], points: Floats, vertices: int) -> Numbers:
+    """Return the joint in whose neck each vertex lies, (V,); `NO_NECK` of others.
+
+    Necks that lie together in some points (V, 3) m belong to one joint.
+    """
+    joint = np.full(vertices, NO_NECK, dtype=np.int64)
+    if not necks:
+        return joint
+    middles = np.array([points[neck.ring].mean(axis=0) for neck in necks])
+    widest = [_radii(points[neck.rings]).max() for neck in necks]
+    apart = np.linalg.norm(middles[:, None] - middles[None], axis=2)
+    near = nx.from_numpy_array(apart <= APART * np.maximum.outer(widest, widest))
+    for number, together in enumerate(nx.connected_components(near)):
+        for index in together:
+            joint[necks[index].vertices] = number
+    return joint
+
+
+def _around(quads: Numbers, vertices: int) -> int:
+    """Return how many vertices each ring has; 0 where the faces are no row of rings."""
+    for around in range(8, MOST_AROUND + 1, 4):
+        rings = _rings(vertices, around)
+        fits = rings > 1 and 2 * inner_vertices(around) + rings * around == vertices
+        if fits and np.array_equal(quads, ringed_quads(around, rings)):
+            return around
+    return 0
+
+
+def _rings(vertices: int, around: int) -> int:
+    return (vertices - 2 * inner_vertices(around)) // around
+
+
+def _is_tube(places: Floats) -> bool:
+    """Whether rings stand as lip and knot of a tube have them; those of a capsule stand alike everywhere."""
+    if len(places) <= KNOT_RING or places[LIP_RING] <= 0.0:
+        return False
+    share = (places[KNOT_RING] - places[LIP_RING]) / (places[LIP_RING] - places[0])
+    return math.isclose(share, KNOT_LENGTH / LIP_LENGTH, rel_tol=1e-3)
+
+
+def _measured(first: Floats, rings: Numbers) -> tuple[Floats, float]:
+    """Return how far vertices are from the start of a straight capsule, (V,), and its radius."""
+    middles = first[rings].mean(axis=1)
+    axis = middles[-1] - middles[0]
+    along = first @ (axis / max(float(np.linalg.norm(axis)), 1e-30))
+    return along - along.min(), float(_radii(first[rings]).max())
+
+
+def _radii(rings: Floats) -> Floats:
+    return np.asarray(np.linalg.norm(rings - rings.mean(axis=1, keepdims=True), axis=2).mean(axis=1))

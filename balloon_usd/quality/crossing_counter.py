@@ -1,0 +1,60 @@
+"""Counting the crossings of one surface in some frames, or in many."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from balloon_usd.quality.crossings import pierced_triangles
+from balloon_usd.quality.pierced_walls import crossings_in, depth_in
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from balloon_usd.quality.crossings import Pierced
+    from balloon_usd.quality.pierced_search import PiercedSearch
+    from balloon_usd.quality.pierced_walls import Crossings
+    from balloon_usd.quality.walls import Walls
+
+FEW = 8
+"""Frames up to which NumPy is done sooner than Warp is imported."""
+
+
+class CrossingCounter:
+    """Counts the crossings of walls; NumPy or Warp do so with the same result, bit for bit."""
+
+    def __init__(self, walls: Walls, frames: int) -> None:
+        """Get ready for about so many frames."""
+        self._walls = walls
+        self._search = _search(walls) if frames > FEW else None
+
+    def count(self, points: Sequence[NDArray[np.float32]]) -> Crossings:
+        """Return the crossings of a frame; `points`: (V, 3) float32 of every balloon, m."""
+        return crossings_in(self._walls, self._pierced(_joined(points)))
+
+    def depth(self, points: Sequence[NDArray[np.float32]]) -> float:
+        """Return how deep the deepest vertex at a crossing of a frame lies inside a wall, m."""
+        joined = _joined(points)
+        return depth_in(self._walls, self._pierced(joined), joined.astype(np.float64))
+
+    def _pierced(self, points: NDArray[np.float32]) -> Pierced:
+        if self._search is not None:
+            return self._search.find(points)
+        faces = np.tile(self._walls.quads, (2, 1))
+        return pierced_triangles(points.astype(np.float64), self._walls.triangles, faces)
+
+
+def _joined(points: Sequence[NDArray[np.float32]]) -> NDArray[np.float32]:
+    return np.concatenate(points) if len(points) > 1 else points[0]
+
+
+def _search(walls: Walls) -> PiercedSearch:
+    """Return a search on the CPU: on a GPU it would wait for the frames that are simulated there."""
+    from balloon_usd.quality.pierced_search import PiercedSearch  # noqa: PLC0415
+    from balloon_usd.solver.device import start_warp  # noqa: PLC0415
+
+    start_warp()
+    return PiercedSearch(walls.quads, len(walls.neck))
