@@ -27,14 +27,8 @@ class CrossingHistory:
         return max(self.frames, key=lambda code: self.frames[code].count)
 
     def facts(self, last: int) -> dict[str, int]:
-        """Return how many there are in the last frame, of a time code, and where there are most."""
-        if not self.frames:
-            return {}
-        worst = {
-            "most_crossings": self.frames[self.worst].count,
-            "most_crossings_frame": self.worst,
-        }
-        return {"crossings": self.frames[last].count, **worst} if last in self.frames else worst
+        """Return how many there are in the last frame, of a time code: the same with and without a report."""
+        return {"crossings": self.frames[last].count} if last in self.frames else {}
 
     def pairs(self) -> list[Pair]:
         """Return the bubbles that cross, those first that cross most in any one frame."""
