@@ -42,6 +42,10 @@ STICK = wp.constant(0.5)
 """Tangential stiffness of a contact, in normal stiffnesses."""
 STABLE = wp.constant(0.25)
 """Largest contact stiffness, in the lightest of the vertex masses per squared time step."""
+FIRM = wp.constant(2.5)
+"""Pressure that each of two walls adds at zero distance, in the higher gauge pressure behind them: at rest a
+fifth of the offset is used up.
+"""
 CROWD = wp.constant(0.5)
 """Share of the vertices that touch a quad, above 1, by which that limit is divided: two share one limit."""
 OWN = wp.constant(256)
@@ -488,7 +492,25 @@ def order_hits(
 
 
 @wp.func
-def limits_of_pair(pair: int, touch: Touch, dt: float, mesh: Mesh, balloons: Balloons, contacts: Contacts):
+def pressure_behind(i: int, q: int, mesh: Mesh, segment_pressure: wp.array[float]):
+    """Return the higher of the gauge pressures (Pa) behind a vertex and behind a quad."""
+    behind = float_at(segment_pressure, int_at(mesh.quad_segment, q))
+    bubble = int_at(mesh.vertex_segment, i)
+    if bubble >= 0:
+        behind = wp.max(behind, float_at(segment_pressure, bubble))
+    return behind
+
+
+@wp.func
+def limits_of_pair(
+    pair: int,
+    touch: Touch,
+    dt: float,
+    mesh: Mesh,
+    balloons: Balloons,
+    contacts: Contacts,
+    segment_pressure: wp.array[float],
+):
     """Return what stays constant between two searches for a vertex that touches a quad: the quad's vertices,
     the stiffness (N/m), the damping (N s/m), the friction, and how far beside the quad it is held (m).
     """
@@ -503,8 +525,9 @@ def limits_of_pair(pair: int, touch: Touch, dt: float, mesh: Mesh, balloons: Bal
         ),
     )
     crowd = wp.max(CROWD * float(int_at(contacts.hit_count, q)), 1.0)
+    most_pressure = wp.max(touch.pressure, FIRM * pressure_behind(i, q, mesh, segment_pressure))
     stiffness = wp.min(
-        touch.pressure * float_at(contacts.area, i) / touch.offset, STABLE * lightest / (dt * dt * crowd)
+        most_pressure * float_at(contacts.area, i) / touch.offset, STABLE * lightest / (dt * dt * crowd)
     )
     damping = NORMAL_DAMPING * lightest / (dt * crowd)
     beside = 2.0 * SIDE_SLIP * wp.sqrt(wp.length(vec3_at(contacts.quad_area, q)))

@@ -48,13 +48,16 @@ def prepare_contacts(
     touch: Touch,
     mesh: Mesh,
     balloons: Balloons,
+    chambers: Chambers,
     contacts: Contacts,
     forces: Forces,
 ):
     """Write what stays constant for every contact until the next search."""
     # No barrier follows: `press_contacts` gives each contact to the same thread.
     for at in range(own.pair_begin + threads.threads - 1 - threads.thread, own.pair_end, threads.threads):
-        touched, limits = limits_of_pair(int_at(contacts.pairs, at), touch, dt, mesh, balloons, contacts)
+        touched, limits = limits_of_pair(
+            int_at(contacts.pairs, at), touch, dt, mesh, balloons, contacts, chambers.pressure
+        )
         forces.pair_corners[at] = touched
         forces.pair_limits[at] = limits
 
