@@ -42,7 +42,7 @@ STICK = wp.constant(0.5)
 """Tangential stiffness of a contact, in normal stiffnesses."""
 STABLE = wp.constant(0.25)
 """Largest contact stiffness, in the lightest of the vertex masses per squared time step."""
-FIRM = wp.constant(2.5)
+FIRM = wp.constant(1.7)
 """Pressure that each of two walls adds at zero distance, in the higher gauge pressure behind them: at rest a
 fifth of the offset is used up.
 """
