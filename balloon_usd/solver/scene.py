@@ -31,7 +31,9 @@ if TYPE_CHECKING:
 NO_LIMIT = 1.0e38
 """Stretch above any other: no limit."""
 SELF_DISTANCE = 0.6
-"""Unstressed distance along one bubble within which its wall never meets itself, R0."""
+"""Unstressed distance along one bubble within which its wall never meets itself, R0: two rows of a crease in
+`draft`.
+"""
 SHARED = (Balloons, Checks, Contacts, Hands, Joints, Mesh, Sculptures, State, Welds)
 """Structs of arrays that scenes of all models have."""
 
