@@ -92,7 +92,6 @@ def lay_meshes(scene: Scene, host: Arrays, weld_count: int) -> None:
     scene.arrays.fill("target", -1)
     scene.arrays.set_size("welds", max(1, weld_count))
     scene.arrays.zero_others(*SHARED)
-    scene.touch.offset = scene.settings.contact_offset
     scene.touch.pressure = scene.settings.contact_pressure
     scene.touch.margin = 0.5 * scene.settings.contact_offset
     scene.touch.apart = SELF_DISTANCE

@@ -23,7 +23,7 @@ class SceneSettings:
     """Coulomb coefficient of rubber on rubber."""
     scale_mass: bool = True
     """Whether masses are raised until the time step is stable."""
-    contact_offset: float = 2.0e-3
+    contact_offset: float = 1.5e-3
     """Distance at which walls begin to press, m."""
     contact_pressure: float = 1.0e4
     """Pressure that each of two walls adds at zero distance, Pa; more where more gas is behind them."""
