@@ -60,6 +60,8 @@ class Body:
     """Rings before those that a plan speaks of."""
     spare_segments: int = 0
     """Segments before the first bubble."""
+    contact_offset: float | None = None
+    """Distance at which its walls begin to press, m; None for that of the scene."""
     place: NDArray[np.float32] | None = None
     """Unstressed place of every vertex, (V, 3) float32, m, where it is not told by `along`."""
 

@@ -34,6 +34,10 @@ def mesh_arrays(scene: FlatBodies, host: Arrays) -> None:
     host["quad_place"] = np.concatenate(middles).astype(np.float32)
     host["balloon_world"] = np.asarray(scene.worlds, dtype=np.int32)
     host["quad_world"] = host["balloon_world"][host["quad_balloon"]]
+    offset = scene.settings.contact_offset
+    host["contact_offset"] = np.array(
+        [offset if b.contact_offset is None else b.contact_offset for b in bodies], dtype=np.float32
+    )
     host["balloon_radius"] = np.array([b.radius for b in bodies], dtype=np.float32)
     for name, value in (
         ("gravity", scene.settings.gravity),

@@ -30,8 +30,10 @@ if TYPE_CHECKING:
 
 NO_LIMIT = 1.0e38
 """Stretch above any other: no limit."""
-SELF_DISTANCE = 1.0
-"""Unstressed distance along one bubble within which its wall never meets itself, R0."""
+SELF_DISTANCE = 0.6
+"""Unstressed distance along one bubble within which its wall never meets itself, R0: two rows of a crease in
+`draft`.
+"""
 SHARED = (Balloons, Checks, Contacts, Hands, Joints, Mesh, Sculptures, State, Welds)
 """Structs of arrays that scenes of all models have."""
 
@@ -90,7 +92,6 @@ def lay_meshes(scene: Scene, host: Arrays, weld_count: int) -> None:
     scene.arrays.fill("target", -1)
     scene.arrays.set_size("welds", max(1, weld_count))
     scene.arrays.zero_others(*SHARED)
-    scene.touch.offset = scene.settings.contact_offset
     scene.touch.pressure = scene.settings.contact_pressure
     scene.touch.margin = 0.5 * scene.settings.contact_offset
     scene.touch.apart = SELF_DISTANCE

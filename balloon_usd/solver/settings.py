@@ -26,4 +26,4 @@ class SceneSettings:
     contact_offset: float = 1.5e-3
     """Distance at which walls begin to press, m."""
     contact_pressure: float = 1.0e4
-    """Pressure that each of two walls adds at zero distance, Pa: together above any pressure inside."""
+    """Pressure that each of two walls adds at zero distance, Pa; more where more gas is behind them."""

@@ -31,6 +31,8 @@ AIR_FACES = {"cpu": 3072, "cuda": 6144}
 """
 WATCHED = 2.0
 """Distance within which walls are watched between two searches, in thicknesses of the contact region."""
+SELF_DISTANCE = 1.0
+"""Unstressed distance along one capsule within which its wall never meets itself, radii."""
 
 
 @dataclass
@@ -55,6 +57,7 @@ def kosaka_scene(
     scene.margin = MARGIN * min(b.parameters.re for b in bodies)
     mass = np.concatenate([np.full(len(b.points), b.vertex_mass) for b in bodies]).astype(np.float32)
     lay_meshes(scene, {"mass": mass}, sum(len(b.rings) for b in bodies))
+    scene.touch.apart = SELF_DISTANCE
     scene.touch.margin = WATCHED * settings.contact_offset
     host: Arrays = {}
     _net_arrays(scene, host)

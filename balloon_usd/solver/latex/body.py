@@ -63,6 +63,10 @@ TIP_THICKENING = 0.5
 """Wall is thicker by this share at the tip, where the former was dipped deepest."""
 TIP_LENGTH = 1.0
 """Length over which that thickening fades, in R0."""
+CONTACT_OFFSET = 0.45
+"""Distance at which walls begin to press, in R0, 2 mm for a 260: twice the height of a bubble's arc over a face
+in `draft`, so that edges of pressed bubbles do not cross.
+"""
 START_TAPER = 1.6
 """Slope at which the flat tube widens beside the knot at the start (m per m)."""
 
@@ -115,6 +119,7 @@ def tube_body(
         rubber=rubber,
         worked=seed * float(rubber.energy(bulged.a, bulged.b)),
         radius=radius,
+        contact_offset=CONTACT_OFFSET * radius,
         along=mesh.along,
         mesh_rings=tuple((int(f), n) for f in mesh.ring_start),
         vertex_ring=ring_of,

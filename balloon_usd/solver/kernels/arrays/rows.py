@@ -156,10 +156,8 @@ class Drift:
 class Touch:
     """How walls press on each other."""
 
-    offset: float
-    """Distance at which walls begin to press, m."""
     pressure: float
-    """Contact pressure where the offset is used up, Pa."""
+    """Least contact pressure where the distance at which walls press is used up, Pa."""
     margin: float
     """Further distance within which walls are watched between two searches, m."""
     apart: float

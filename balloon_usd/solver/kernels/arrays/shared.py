@@ -69,6 +69,9 @@ class Balloons:
     gravity: wp.array[float] = array("balloons", unit="m/s2", meaning="pull of gravity")
     drag: wp.array[float] = array("balloons", unit="1/s", meaning="drag of the air")
     friction: wp.array[float] = array("balloons", meaning="Coulomb friction")
+    contact_offset: wp.array[float] = array(
+        "balloons", unit="m", meaning="distance at which its walls begin to press"
+    )
     touching: wp.array[int] = array("balloons", meaning="1: its walls may touch anything; 2: what they touch")
 
 

@@ -42,6 +42,10 @@ STICK = wp.constant(0.5)
 """Tangential stiffness of a contact, in normal stiffnesses."""
 STABLE = wp.constant(0.25)
 """Largest contact stiffness, in the lightest of the vertex masses per squared time step."""
+FIRM = wp.constant(2.5)
+"""Pressure that each of two walls adds at zero distance, in the higher gauge pressure behind them: at rest a
+fifth of the offset is used up.
+"""
 CROWD = wp.constant(0.5)
 """Share of the vertices that touch a quad, above 1, by which that limit is divided: two share one limit."""
 OWN = wp.constant(256)
@@ -205,6 +209,8 @@ class Seeker:
     """Its outward unit normal."""
     depth: float
     """Deepest overlap taken for a contact on its side, m."""
+    offset: float
+    """Distance at which walls begin to press on it, m."""
     reach: float
     """Distance within which it looks at the middles of quads, m."""
 
@@ -217,6 +223,7 @@ def seeker_of(i: int, touch: Touch, mesh: Mesh, balloons: Balloons):
     seeker.bubble = mesh.vertex_segment[i]
     seeker.place = mesh.vertex_place[i]
     seeker.apart = touch.apart * balloons.balloon_radius[seeker.balloon]
+    seeker.offset = balloons.contact_offset[seeker.balloon]
     return seeker
 
 
@@ -262,7 +269,7 @@ def distance_of_wall(
         face = a / wp.max(size, 1.0e-12)
         height = wp.dot(d, face)
         limit = wp.min(seeker.depth, DEPTH_LIMIT * float_at(contacts.ring_radius, int_at(mesh.quad_ring, q)))
-        near = height > -limit and height < touch.offset + touch.margin
+        near = height > -limit and height < seeker.offset + touch.margin
         if wp.dot(face, seeker.normal) < FACING and near:
             beside = SIDE_SLIP * wp.sqrt(size)
             distance = distance_beside(q, face, beside, seeker.position, mesh.quads, state.x)
@@ -398,7 +405,7 @@ def find_walls(
     seeker.position = state.x[i]
     seeker.normal = wp.normalize(outward)
     seeker.depth = DEPTH_LIMIT * contacts.ring_radius[mesh.vertex_ring[i]]
-    seeker.reach = REACH * wp.sqrt(size) + touch.offset + touch.margin
+    seeker.reach = REACH * wp.sqrt(size) + seeker.offset + touch.margin
     contacts.normal[i] = seeker.normal
     contacts.area[i] = size
     own = contacts.vertex_own[i]
@@ -488,9 +495,27 @@ def order_hits(
 
 
 @wp.func
-def limits_of_pair(pair: int, touch: Touch, dt: float, mesh: Mesh, balloons: Balloons, contacts: Contacts):
+def pressure_behind(i: int, q: int, mesh: Mesh, segment_pressure: wp.array[float]):
+    """Return the higher of the gauge pressures (Pa) behind a vertex and behind a quad."""
+    behind = float_at(segment_pressure, int_at(mesh.quad_segment, q))
+    bubble = int_at(mesh.vertex_segment, i)
+    if bubble >= 0:
+        behind = wp.max(behind, float_at(segment_pressure, bubble))
+    return behind
+
+
+@wp.func
+def limits_of_pair(
+    pair: int,
+    touch: Touch,
+    dt: float,
+    mesh: Mesh,
+    balloons: Balloons,
+    contacts: Contacts,
+    segment_pressure: wp.array[float],
+):
     """Return what stays constant between two searches for a vertex that touches a quad: the quad's vertices,
-    the stiffness (N/m), the damping (N s/m), the friction, and how far beside the quad it is held (m).
+    the stiffness (N/m), the damping (N s/m), the friction, and the distance at which it is pressed (m).
     """
     i = pair >> 1
     q = int_in(contacts.target, i, pair & 1)
@@ -503,12 +528,14 @@ def limits_of_pair(pair: int, touch: Touch, dt: float, mesh: Mesh, balloons: Bal
         ),
     )
     crowd = wp.max(CROWD * float(int_at(contacts.hit_count, q)), 1.0)
+    balloon = int_at(mesh.vertex_balloon, i)
+    offset = float_at(balloons.contact_offset, balloon)
+    most_pressure = wp.max(touch.pressure, FIRM * pressure_behind(i, q, mesh, segment_pressure))
     stiffness = wp.min(
-        touch.pressure * float_at(contacts.area, i) / touch.offset, STABLE * lightest / (dt * dt * crowd)
+        most_pressure * float_at(contacts.area, i) / offset, STABLE * lightest / (dt * dt * crowd)
     )
     damping = NORMAL_DAMPING * lightest / (dt * crowd)
-    beside = 2.0 * SIDE_SLIP * wp.sqrt(wp.length(vec3_at(contacts.quad_area, q)))
-    return c, wp.vec4(stiffness, damping, float_at(balloons.friction, int_at(mesh.vertex_balloon, i)), beside)
+    return c, wp.vec4(stiffness, damping, float_at(balloons.friction, balloon), offset)
 
 
 @wp.func
@@ -516,7 +543,6 @@ def press_wall(
     pair: int,
     c: wp.vec4i,
     limits: wp.vec4,
-    offset: float,
     dt: float,
     shared: int,
     contacts: Contacts,
@@ -547,12 +573,15 @@ def press_wall(
     place = nearer_on_patch(x0, x1, x2, x3, p, vec2_at(contacts.contact_place, pair))
     s = patch_shares(place)
     gap = p - (s[0] * x0 + s[1] * x1 + s[2] * x2 + s[3] * x3)
-    face = wp.normalize(wp.cross(x2 - x0, x3 - x1))
+    area = 0.5 * wp.cross(x2 - x0, x3 - x1)
+    size = wp.length(area)
+    face = area / wp.max(size, 1.0e-12)
     height = wp.dot(gap, face)
+    offset = limits[3]
     overlap = offset - height
     f = wp.vec3(0.0)
     deflection = wp.vec3(0.0)
-    if overlap > 0.0 and wp.length(gap - height * face) < limits[3]:
+    if overlap > 0.0 and wp.length(gap - height * face) < 2.0 * SIDE_SLIP * wp.sqrt(size):
         stiffness = limits[0]
         going = velocity - (s[0] * v0 + s[1] * v1 + s[2] * v2 + s[3] * v3)
         approach = wp.dot(going, face)

@@ -48,13 +48,16 @@ def prepare_contacts(
     touch: Touch,
     mesh: Mesh,
     balloons: Balloons,
+    chambers: Chambers,
     contacts: Contacts,
     forces: Forces,
 ):
     """Write what stays constant for every contact until the next search."""
     # No barrier follows: `press_contacts` gives each contact to the same thread.
     for at in range(own.pair_begin + threads.threads - 1 - threads.thread, own.pair_end, threads.threads):
-        touched, limits = limits_of_pair(int_at(contacts.pairs, at), touch, dt, mesh, balloons, contacts)
+        touched, limits = limits_of_pair(
+            int_at(contacts.pairs, at), touch, dt, mesh, balloons, contacts, chambers.pressure
+        )
         forces.pair_corners[at] = touched
         forces.pair_limits[at] = limits
 
@@ -120,7 +123,6 @@ def press_contacts(
     threads: Threads,
     own: Ranges,
     dt: float,
-    touch: Touch,
     contacts: Contacts,
     forces: Forces,
     state: State,
@@ -131,7 +133,6 @@ def press_contacts(
             int_at(contacts.pairs, at),
             vec4i_at(forces.pair_corners, at),
             vec4_at(forces.pair_limits, at),
-            touch.offset,
             dt,
             threads.shared,
             contacts,

@@ -101,7 +101,7 @@ def substep_kernel(
         own = ranges_of(w, launch, threads, sculptures, welds, cores, contacts)
         dt = launch.dt
         if launch.walls == 1:
-            prepare_contacts(threads, own, dt, touch, mesh, balloons, contacts, global_forces)
+            prepare_contacts(threads, own, dt, touch, mesh, balloons, chambers, contacts, global_forces)
         state = global_state
         forces = global_forces
         if wp.static(resident_bytes > 0):
@@ -120,7 +120,7 @@ def substep_kernel(
             stretch_walls(threads, own, mesh, rubber, chambers, forces, state)
             measure_open_rings(threads, own, joints, hands, state)
             if launch.walls == 1:
-                press_contacts(threads, own, dt, touch, contacts, forces, state)
+                press_contacts(threads, own, dt, contacts, forces, state)
             if wp.static(packing):
                 press_cores(threads, own, dt, mesh, cores, contacts, state)
             goal += blocks
