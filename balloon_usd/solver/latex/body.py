@@ -64,8 +64,8 @@ TIP_THICKENING = 0.5
 TIP_LENGTH = 1.0
 """Length over which that thickening fades, in R0."""
 CONTACT_OFFSET = 0.45
-"""Distance at which walls begin to press, in R0, 2 mm for a 260: twice the height of a bubble's arc over a face
-in `draft`, so that edges of pressed bubbles do not cross.
+"""Distance at which walls begin to press, in R0, 2 mm for a 260: twice the height of a bubble's arc over a
+face in `draft`, so that edges of pressed bubbles do not cross.
 """
 START_TAPER = 1.6
 """Slope at which the flat tube widens beside the knot at the start (m per m)."""
