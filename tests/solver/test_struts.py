@@ -2,9 +2,17 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from itertools import chain
+from pathlib import Path
+
 import numpy as np
 import pytest
 
+from balloon_usd.operations.moves import LetGo, Pinch, Weld
+from balloon_usd.plan import plan
+from balloon_usd.recipe import Recipe
+from balloon_usd.solver.simulation import simulate_many
 from tests.solver.test_motions import Room
 
 
@@ -41,3 +49,20 @@ def test_a_loosened_strut_holds_nothing_until_it_is_asked_for_at_a_new_length(ro
     assert put(room, pair, 0.3) == (pytest.approx(0.3), stiffness)
     assert put(room, other, 0.4) == before
     assert np.count_nonzero(scene.strut_stiffness.numpy()) == 2
+
+
+def test_a_net_has_room_for_all_the_struts_that_its_welds_come_to_need():
+    path = Path(__file__).parents[2] / "recipes/book/icosahedron_centre.yaml"
+    model = simulate_many([plan(Recipe.load(path))], device="cpu").model
+    sculpture, hands = model.performers[0].sculpture, model.hands
+    middle = np.zeros((len(hands.mode), 3), dtype=np.float32)
+    for move in sculpture.plan.choreography.moves:
+        if isinstance(move, Pinch):
+            hands.radius_goal[sculpture.joints[move.ring]] = 0.001
+        elif isinstance(move, Weld):
+            hands.weld(tuple(sculpture.joints[ring] for ring in move.rings))
+        elif isinstance(move, LetGo):
+            sculpture.struts.hold(sculpture.friction.pairs(hands))
+            sculpture.struts.put(middle)
+    ends = Counter(chain.from_iterable(sculpture.struts.pairs))
+    assert max(ends.values()) == model.scene.joint_struts.shape[1] == 35
