@@ -12,6 +12,7 @@ import pytest
 from balloon_usd.operations.moves import LetGo, Pinch, Weld
 from balloon_usd.plan import plan
 from balloon_usd.recipe import Recipe
+from balloon_usd.solver.latex.struts import CROWD
 from balloon_usd.solver.simulation import simulate_many
 from tests.solver.test_motions import Room
 
@@ -49,6 +50,15 @@ def test_a_loosened_strut_holds_nothing_until_it_is_asked_for_at_a_new_length(ro
     assert put(room, pair, 0.3) == (pytest.approx(0.3), stiffness)
     assert put(room, other, 0.4) == before
     assert np.count_nonzero(scene.strut_stiffness.numpy()) == 2
+
+
+def test_struts_that_crowd_at_one_joint_share_what_it_bears(room):
+    pair = room.joint("nose.end"), room.joint("right.end")
+    alone = put(room, pair, 0.1)[1]
+    crowded = Room()
+    for _ in range(2 * CROWD):
+        crowded.sculpture.struts.expect({pair})
+    assert put(crowded, pair, 0.1)[1] == pytest.approx(0.5 * alone)
 
 
 def test_a_net_has_room_for_all_the_struts_that_its_welds_come_to_need():
