@@ -183,15 +183,24 @@ def test_a_joint_is_brought_to_that_of_another_balloon_and_all_else_follows_by_i
 
 
 @pytest.mark.parametrize("model", ["latex", "kosaka"])
-def test_a_balloon_that_is_carried_to_a_net_comes_along_and_the_net_stays(model):
+def test_a_balloon_that_is_carried_far_to_a_net_comes_along_and_the_net_stays(model):
     room = Room(model)
     room.weld("nose.end", "hand.end")
+    for name in ("blue.knot", "arm.end", "blue_rest.0", "blue_rest.1"):
+        room.middle[room.joint(name)] += 0.0, 2.0, 0.0
     room.bring("blue.knot", "nose.end", carried=True).advance(0.6)
     assert np.linalg.norm(room.moved("blue.knot")) > 0.02
     for name in ("arm.end", "blue_rest.0", "blue_rest.1"):
         assert room.moved(name) == pytest.approx(room.moved("blue.knot"), abs=1e-6)
     for name in ("nose.end", "red.knot", "hand.end", "green_rest.1"):
         assert room.moved(name) == pytest.approx(np.zeros(3), abs=1e-6)
+
+
+def test_a_balloon_that_is_brought_over_a_short_way_follows_by_itself():
+    room = Room()
+    room.bring("blue.knot", "red.knot", carried=True).advance(0.6)
+    assert np.linalg.norm(room.moved("blue.knot")) > 0.02
+    assert not room.hands.mode[[room.joint(name) for name in ("arm.end", "blue_rest.1", "nose.end")]].any()
 
 
 @pytest.mark.parametrize(("model", "motions"), [("latex", LATEX_MOTIONS), ("kosaka", KOSAKA_MOTIONS)])
