@@ -94,6 +94,8 @@ class Bring(Move):
 
     ring: int = 0
     to: int = 0
+    carried: bool = False
+    """Whether hands lead what hangs on the ring along if it goes far; else it follows by its own rubber."""
 
 
 @dataclass(frozen=True)

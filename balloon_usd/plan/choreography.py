@@ -60,7 +60,8 @@ def choreograph(recipe: Recipe, strips: Mapping[str, Strip], table: RingTable) -
         step.perform(score, index)
         if isinstance(step, Timed) and step.seconds is not None and not step.keeps_time:
             score.retime(first, begin, step.seconds)
-    set_nets(score, nets_of(recipe.piece, strips, table), table, len(recipe.steps))
+    timed = {k for k, each in enumerate(recipe.steps) if getattr(each, "seconds", None) is not None}
+    set_nets(score, nets_of(recipe.piece, strips, table), table, len(recipe.steps), timed)
     score.add(LetGo(score.now, 0.0, len(recipe.steps), "let go", for_good=True))
     score.add(Hold(score.now, recipe.physics.hold, len(recipe.steps), "hold"))
     if recipe.pose != "as made":

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from itertools import pairwise
 from typing import TYPE_CHECKING
@@ -11,7 +12,7 @@ from balloon_usd.operations.moves import Bring, Gather, Move, Pinch, SetNet, Wel
 from balloon_usd.operations.score import SETTLE_SECONDS
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Container, Iterable, Sequence
 
     from balloon_usd.operations.moves import Vector
     from balloon_usd.operations.score import Score
@@ -20,32 +21,66 @@ if TYPE_CHECKING:
 
 SETTING_SECONDS = 1.5
 """Leading all joints of a finished net to their places, s."""
+SETTING_SPEED = 0.35
+"""Reach of a net from its held joint over the least time in which it is set, m/s: turned by half a turn on
+the way, its far side goes at 2 m/s at most.
+"""
 
 
-def set_nets(score: Score, nets: Sequence[Net], table: RingTable, step: int) -> None:
+def set_nets(
+    score: Score, nets: Sequence[Net], table: RingTable, step: int, timed: Container[int] = ()
+) -> None:
     """Let hands set nets where these would gather a chain that is part of one, and when all is made.
 
-    `step`: number of steps of the recipe.
+    `step`: number of steps of the recipe; `timed`: steps whose time the recipe gives.
     """
     if not nets:
         return
-    score.moves[:] = _in_place_of_closing(score.moves, nets, table)
+    moves = _in_place_of_closing(score.moves, nets, table)
+    score.moves[:] = _with_time(moves, SETTING_SPEED * score.pace.leading, timed)
+    score.now += score.moves[-1].start - moves[-1].start
     for net in nets:
-        rings = tuple(sorted(net.places))
-        score.add(_setting(net, rings, Move(score.now, SETTING_SECONDS, step, "set the net")))
+        setting = _setting(net, tuple(sorted(net.places)), Move(score.now, 0.0, step, "set the net"))
+        score.add(replace(setting, seconds=max(SETTING_SECONDS, _reach(setting) / SETTING_SPEED)))
         score.add(Move(score.now, SETTLE_SECONDS, step, "set the net"))
+
+
+def _with_time(moves: Iterable[Move], speed: float, timed: Container[int]) -> list[Move]:
+    """Return the moves with the time that setting wide nets takes; what follows begins later.
+
+    `speed`: reach of a net over the least time in which it is set, m/s.
+    """
+    found: list[Move] = []
+    later = 0.0
+    for move in moves:
+        longer = 0.0
+        if isinstance(move, SetNet) and move.step not in timed:
+            longer = max(_reach(move) / speed - move.seconds, 0.0)
+        found.append(replace(move, start=move.start + later, seconds=move.seconds + longer))
+        later += longer
+    return found
+
+
+def _reach(setting: SetNet) -> float:
+    """Return how far the joints of a net lie from the one that is held, at most, m."""
+    return max(math.dist(place, setting.places[-1]) for place in setting.places)
 
 
 def _in_place_of_closing(moves: Iterable[Move], nets: Sequence[Net], table: RingTable) -> list[Move]:
     """Return the moves with a setting of the net in place of each that closes one of its rings, but for the
     first ring of a balloon, a free chain: on a circle, joints that are one would be led apart, and brought
-    straight to each other, they would make a lump.
+    straight to each other, they would make a lump. What is brought to a net is carried as a whole.
     """
     made = _Made(table)
     found: list[Move] = []
     for move in moves:
         made.see(move)
-        found.append(move if (ends := made.closing(move)) is None else _closing(move, ends, nets, made))
+        if (ends := made.closing(move)) is not None:
+            found.append(_closing(move, ends, nets, made))
+        elif isinstance(move, Bring) and _net_with((move.ring, move.to), nets) is not None:
+            found.append(replace(move, carried=True))
+        else:
+            found.append(move)
     return found
 
 
@@ -54,14 +89,18 @@ def _closing(move: Move, ends: tuple[int, int], nets: Sequence[Net], made: _Made
 
     `ends`: the moving ring and the held one.
     """
-    net = next((net for net in nets if net.places.keys() >= set(ends)), None)
-    if net is None:
+    if (net := _net_with(ends, nets)) is None:
         return move
     moving, held = ends
     if (end := made.open_end(held)) is None:
         return replace(_setting(net, made.with_held(held, net), move), moving=moving)
     onward = made.onward(end, net) or net.places[end]
     return replace(_setting(net, made.with_held(end, net), move), moving=moving, onward=onward)
+
+
+def _net_with(rings: Iterable[int], nets: Iterable[Net]) -> Net | None:
+    """Return the net that has some rings, if one has them all."""
+    return next((net for net in nets if net.places.keys() >= set(rings)), None)
 
 
 def _setting(net: Net, rings: tuple[int, ...], move: Move) -> SetNet:

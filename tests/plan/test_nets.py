@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from itertools import combinations
+from itertools import combinations, pairwise
 from pathlib import Path
 
 import networkx as nx
@@ -12,6 +12,7 @@ import pytest
 from balloon_usd.operations.moves import Bring, Gather, LetGo, SetNet, Weld
 from balloon_usd.plan import plan
 from balloon_usd.plan.nets import embed, nets_of
+from balloon_usd.plan.setting_nets import SETTING_SPEED
 from balloon_usd.recipe import Recipe
 
 RECIPES = Path(__file__).parents[2] / "recipes"
@@ -102,3 +103,31 @@ def test_a_net_is_set_once_more_before_the_hands_let_go_for_good():
     assert isinstance(let_go, LetGo)
     assert let_go.for_good
     assert let_go.start == pytest.approx(settling.end)
+
+
+def test_what_is_brought_to_a_net_is_carried_as_a_whole():
+    made = planned("book/dodecahedron_3.yaml").choreography.moves
+    assert [move.carried for move in made if isinstance(move, Bring)] == [True, True]
+    alone = planned("book/scissors_bt.yaml").choreography.moves
+    assert [move.carried for move in alone if isinstance(move, Bring)] == [False]
+
+
+def test_a_wide_net_is_set_in_more_time_and_what_follows_waits():
+    made = planned("book/dodecahedron_10.yaml").choreography
+    settings = [move for move in made.moves if isinstance(move, SetNet)]
+    for move in settings:
+        reach = max(np.linalg.norm(np.subtract(place, move.places[-1])) for place in move.places)
+        assert move.seconds == pytest.approx(reach / SETTING_SPEED)
+    assert len(settings) > 10
+    for move, following in pairwise(made.moves[10:]):
+        assert following.start == pytest.approx(move.end)
+    assert made.seconds == pytest.approx(made.moves[-1].end)
+
+
+def test_a_net_is_set_in_the_time_that_the_recipe_gives():
+    text = (RECIPES / "book/dodecahedron_10.yaml").read_text()
+    lock = "  - lock: {joints: [edge_6_10.end, edge_8_10.end]}\n"
+    timed = plan(Recipe.parse(text.replace(lock, lock + "    seconds: 3\n")))
+    first = next(move for move in timed.choreography.moves if isinstance(move, SetNet))
+    step = [move for move in timed.choreography.moves if move.step == first.step]
+    assert step[-1].end - step[0].start == pytest.approx(3.0)

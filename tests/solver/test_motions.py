@@ -96,8 +96,9 @@ class Room:
         corners = tuple(self.ring(f"{name}.end") for name in ("nose", "left", "right"))
         return Gather(moves.Gather(**DONE, corners=corners), self.sculpture)
 
-    def bring(self, name, to):
-        return Bring(moves.Bring(**DONE, ring=self.ring(name), to=self.ring(to)), self.sculpture)
+    def bring(self, name, to, *, carried=False):
+        move = moves.Bring(**DONE, ring=self.ring(name), to=self.ring(to), carried=carried)
+        return Bring(move, self.sculpture)
 
 
 def kinds_of_moves():
@@ -179,6 +180,27 @@ def test_a_joint_is_brought_to_that_of_another_balloon_and_all_else_follows_by_i
     assert all(room.hands.mode[room.joint(name)] == GRIP_MODE for name in ("arm.end", "nose.end"))
     others = ("blue.knot", "blue_rest.0", "blue_rest.1", "red.knot", "left.end", "red_rest.1")
     assert not room.hands.mode[[room.joint(name) for name in others]].any()
+
+
+@pytest.mark.parametrize("model", ["latex", "kosaka"])
+def test_a_balloon_that_is_carried_far_to_a_net_comes_along_and_the_net_stays(model):
+    room = Room(model)
+    room.weld("nose.end", "hand.end")
+    for name in ("blue.knot", "arm.end", "blue_rest.0", "blue_rest.1"):
+        room.middle[room.joint(name)] += 0.0, 2.0, 0.0
+    room.bring("blue.knot", "nose.end", carried=True).advance(0.6)
+    assert np.linalg.norm(room.moved("blue.knot")) > 0.02
+    for name in ("arm.end", "blue_rest.0", "blue_rest.1"):
+        assert room.moved(name) == pytest.approx(room.moved("blue.knot"), abs=1e-6)
+    for name in ("nose.end", "red.knot", "hand.end", "green_rest.1"):
+        assert room.moved(name) == pytest.approx(np.zeros(3), abs=1e-6)
+
+
+def test_a_balloon_that_is_brought_over_a_short_way_follows_by_itself():
+    room = Room()
+    room.bring("blue.knot", "red.knot", carried=True).advance(0.6)
+    assert np.linalg.norm(room.moved("blue.knot")) > 0.02
+    assert not room.hands.mode[[room.joint(name) for name in ("arm.end", "blue_rest.1", "nose.end")]].any()
 
 
 @pytest.mark.parametrize(("model", "motions"), [("latex", LATEX_MOTIONS), ("kosaka", KOSAKA_MOTIONS)])

@@ -2,9 +2,20 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from itertools import chain
+from pathlib import Path
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
+from balloon_usd.operations.moves import LetGo, Pinch, Weld
+from balloon_usd.plan import plan
+from balloon_usd.plan.nets import nets_of
+from balloon_usd.recipe import Recipe
+from balloon_usd.solver.latex.struts import CROWD
+from balloon_usd.solver.simulation import simulate_many
 from tests.solver.test_motions import Room
 
 
@@ -41,3 +52,55 @@ def test_a_loosened_strut_holds_nothing_until_it_is_asked_for_at_a_new_length(ro
     assert put(room, pair, 0.3) == (pytest.approx(0.3), stiffness)
     assert put(room, other, 0.4) == before
     assert np.count_nonzero(scene.strut_stiffness.numpy()) == 2
+
+
+def test_struts_that_crowd_at_one_joint_share_what_it_bears(room):
+    pair = room.joint("nose.end"), room.joint("right.end")
+    alone = put(room, pair, 0.1)[1]
+    crowded = Room()
+    for _ in range(2 * CROWD):
+        crowded.sculpture.struts.expect({pair})
+    assert put(crowded, pair, 0.1)[1] == pytest.approx(0.5 * alone)
+
+
+@pytest.fixture(scope="module")
+def icosahedron():
+    """A finished icosahedron of three balloons with a centre, in which nothing is simulated: its struts."""
+    path = Path(__file__).parents[2] / "recipes/book/icosahedron_centre.yaml"
+    made = plan(Recipe.load(path))
+    model = simulate_many([made], device="cpu").model
+    sculpture, hands = model.performers[0].sculpture, model.hands
+    (net,) = nets_of(made.recipe.piece, made.strips, made.table)
+    middle = np.zeros((len(hands.mode), 3), dtype=np.float32)
+    for ring, place in net.places.items():
+        middle[sculpture.joints[ring]] = place
+    for move in made.choreography.moves:
+        if isinstance(move, Pinch):
+            hands.radius_goal[sculpture.joints[move.ring]] = 0.001
+        elif isinstance(move, Weld):
+            hands.weld(tuple(sculpture.joints[ring] for ring in move.rings))
+        elif isinstance(move, LetGo):
+            sculpture.struts.hold(sculpture.friction.pairs(hands))
+            sculpture.struts.put(middle)
+    return SimpleNamespace(scene=model.scene, pairs=sculpture.struts.pairs, middle=middle.astype(float))
+
+
+def test_a_net_has_room_for_all_the_struts_that_its_welds_come_to_need(icosahedron):
+    ends = Counter(chain.from_iterable(icosahedron.pairs))
+    assert max(ends.values()) == icosahedron.scene.joint_struts.shape[1] == 35
+
+
+def test_the_struts_of_a_crowded_net_are_no_stiffer_than_explicit_steps_bear(icosahedron):
+    scene, dt = icosahedron.scene, icosahedron.scene.settings.dt
+    mass, stiffness, damping = (
+        array.numpy() for array in (scene.joint_mass, scene.strut_stiffness, scene.strut_damping)
+    )
+    total = np.zeros((3 * len(mass), 3 * len(mass)))
+    for (a, b), k in icosahedron.pairs.items():
+        far = icosahedron.middle[b] - icosahedron.middle[a]
+        along = far / max(float(np.linalg.norm(far)), 1e-9)
+        pull = np.zeros((len(mass), 3))
+        pull[a], pull[b] = along / np.sqrt(mass[a]), -along / np.sqrt(mass[b])
+        total += (stiffness[k] * dt**2 + 2.0 * damping[k] * dt) * np.outer(pull, pull)
+    # 4 is the limit of struts alone; walls, welds and hands take their part of it.
+    assert np.linalg.eigvalsh(total)[-1] < 3.0

@@ -6,10 +6,11 @@ from functools import cached_property
 from itertools import combinations
 from typing import TYPE_CHECKING, NamedTuple
 
+from balloon_usd.operations.moves import Weld
 from balloon_usd.operations.table import BY_KIND
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
     from balloon_usd.plan import Plan
     from balloon_usd.solver.hands import Hands
@@ -58,9 +59,27 @@ class Friction:
 
     def pairs(self, hands: Hands) -> set[tuple[int, int]]:
         """Return the pairs of joints (of the scene) whose distance the friction of a weld keeps."""
-        welds = [set(group) for group in hands.welds_of(self._rings)]
+        return self._pairs(hands.welds_of(self._rings), lambda ring: hands.radius_goal[ring] > 0.0)
+
+    def most_pairs(self) -> set[tuple[int, int]]:
+        """Return all pairs that `pairs` may return while the plan is made: every joint counts as closed."""
+        found: set[tuple[int, int]] = set()
+        moves = [move for move in self._plan.choreography.moves if isinstance(move, Weld)]
+        holding = [move for move in moves if move.step not in self._plan.slipping]
+        for some in (moves, holding) if len(holding) < len(moves) else (moves,):
+            welds: list[tuple[int, ...]] = []
+            for move in some:
+                one = {self._rings[ring] for ring in move.rings}
+                beside = [weld for weld in welds if not one.isdisjoint(weld)]
+                welds = [weld for weld in welds if weld not in beside] + [tuple(sorted(one.union(*beside)))]
+                found |= self._pairs(welds, lambda _: True)
+        return found
+
+    def _pairs(self, groups: Iterable[Sequence[int]], closed: Callable[[int], bool]) -> set[tuple[int, int]]:
+        """Return the pairs of joints that welds keep apart; `closed`: whether a joint is closed by now."""
+        welds = [set(group) for group in groups]
         meeting = [self._meeting(weld) for weld in welds]
-        ends = [_neighbours(met, hands) for met in meeting]
+        ends = [_neighbours(met, closed) for met in meeting]
         pairs = set()
         for met, near in zip(meeting, ends, strict=True):
             pairs |= set(combinations(sorted(near | _cheeks(met, near)), 2)) | _halves(met)
@@ -79,11 +98,11 @@ class Friction:
         return found
 
 
-def _neighbours(meeting: Sequence[_Met], hands: Hands) -> set[int]:
+def _neighbours(meeting: Sequence[_Met], closed: Callable[[int], bool]) -> set[int]:
     """Joints at the far ends of the bubbles that meet in a weld; of a loop or an open end, a ring inside."""
     found: set[int] = set()
     for (_, guides, _), inside, outside in meeting:
-        if outside is not None and hands.radius_goal[outside] > 0.0:
+        if outside is not None and closed(outside):
             found.add(outside)
         elif guides and inside == 2:
             found.add(guides[len(guides) // 2])

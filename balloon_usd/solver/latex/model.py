@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
+from itertools import chain
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,9 +15,10 @@ from balloon_usd.plan.meshing import joint_places
 from balloon_usd.solver.body import body_ranges, places_beside
 from balloon_usd.solver.checks import crowded, stretch_limits
 from balloon_usd.solver.frame_arrays import FrameArrays
-from balloon_usd.solver.kernels.arrays.rows import HITS
+from balloon_usd.solver.kernels.arrays.rows import HITS, STRUT_SLOTS
 from balloon_usd.solver.latex.body import LatexBody, tube_body
 from balloon_usd.solver.latex.controls import LatexControls
+from balloon_usd.solver.latex.friction import Friction
 from balloon_usd.solver.latex.leak import Leak
 from balloon_usd.solver.latex.motions.table import LATEX_MOTIONS
 from balloon_usd.solver.latex.scene import build_scene
@@ -41,7 +44,7 @@ if TYPE_CHECKING:
 SEALED_KNOT = 0.7
 """Pressure in the knot bead, in Maxwell pressures of its balloon."""
 STRUTS_PER_JOINT = 12
-"""Capacity for struts, per joint of the scene."""
+"""Least capacity for struts, per joint of the scene."""
 SHORT_OF_GAS = 0.98
 """Share of the wanted gas below which inflating counts as failed."""
 READ_BACK = (
@@ -80,7 +83,10 @@ class LatexModel(Model):
             scale_mass=physics.mass_scaling == "selective",
         )
         rings = sum(len(b.rings) for b in bodies)
-        self.scene = build_scene(bodies, worlds, settings, device, rings, STRUTS_PER_JOINT * rings)
+        struts, slots = _room_for_struts(plans)
+        self.scene = build_scene(
+            bodies, worlds, settings, device, rings, max(struts, STRUTS_PER_JOINT * rings), slots
+        )
         self.scene.stretch_limit.assign(stretch_limits(plans, runs))
         self.stepper = Stepper(self.scene, substeps)
         self.hands = LatexControls(self.scene)
@@ -157,6 +163,16 @@ class LatexModel(Model):
             for move in sculpture.plan.choreography.moves
             if isinstance(move, Inflate) and sculpture.body[move.balloon] == balloon
         )
+
+
+def _room_for_struts(plans: Sequence[Plan]) -> tuple[int, int]:
+    """Return how many struts some plans have at most, all together and at one joint."""
+    struts, slots = 0, STRUT_SLOTS
+    for plan in plans:
+        pairs = Friction(plan, range(len(plan.table.rings))).most_pairs()
+        ends = Counter(chain.from_iterable(pairs))
+        struts, slots = struts + len(pairs), max(slots, max(ends.values(), default=0))
+    return struts, slots
 
 
 def short_of_gas(move: Inflate, share: float) -> str:

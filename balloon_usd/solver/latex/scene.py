@@ -10,7 +10,7 @@ import warp as wp
 
 from balloon_usd.balloon.air import AIR_DENSITY, GAS_CONSTANT, ROOM_TEMPERATURE
 from balloon_usd.solver.kernels.arrays.latex import Chambers, Cores, Forces, Rubber, Struts
-from balloon_usd.solver.kernels.arrays.rows import Air, Law
+from balloon_usd.solver.kernels.arrays.rows import STRUT_SLOTS, Air, Law
 from balloon_usd.solver.latex.cores import core_arrays
 from balloon_usd.solver.latex.device_law import device_laws
 from balloon_usd.solver.latex.membrane_data import membrane_data
@@ -44,11 +44,12 @@ def build_scene(
     device: str,
     weld_count: int,
     strut_count: int,
+    strut_slots: int = STRUT_SLOTS,
 ) -> LatexScene:
     """Put bodies on a device.
 
     `worlds`: sculpture of every body; bodies of different sculptures never touch. `weld_count`,
-    `strut_count`: capacity for welds and struts.
+    `strut_count`: capacity for welds and struts; `strut_slots`: for struts that end at one joint.
     """
     scene = LatexScene.of(bodies, worlds, settings, device)
     data = [
@@ -70,6 +71,7 @@ def build_scene(
     _law_arrays(scene)
     scene.arrays.fill("softening_rate", 1.0)
     scene.arrays.set_size("struts", max(1, strut_count))
+    scene.arrays.set_size("slots for struts", strut_slots)
     scene.arrays.fill("strut_joint", wp.vec2i(-1, -1))
     packs = any(b.packs for b in scene.bodies)
     scene.arrays.set_size("packed vertices", int(scene.vertex_start[-1]) if packs else 1)

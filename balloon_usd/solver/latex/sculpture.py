@@ -31,6 +31,7 @@ class LatexSculpture(Sculpture):
         super().__init__(plan, scene, hands, first_body)
         self.struts = struts
         self.friction = Friction(plan, self.joints)
+        struts.expect(self.friction.most_pairs())
         self.torsion = Torsion(plan, scene, hands, self.joints, self.body, self.friction)
         self.inflated_at: dict[int, float] = {}
         """Time at which each body had its gas, s."""

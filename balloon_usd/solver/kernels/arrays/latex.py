@@ -5,7 +5,7 @@ Vectors of `corner_force` and `volume_gradient` lie as `device.soa` says.
 
 import warp as wp
 
-from balloon_usd.solver.kernels.arrays.rows import STRUT_SLOTS, CurveSegment, Law
+from balloon_usd.solver.kernels.arrays.rows import CurveSegment, Law
 from balloon_usd.solver.kernels.arrays.table import array, array_struct
 
 
@@ -74,7 +74,7 @@ class Struts:
     """Friction between joints of a figure: springs that yield."""
 
     joint_struts: wp.array2d[int] = array(
-        "joints", STRUT_SLOTS, meaning="its struts + 1, negative at their second ends; 0 for none"
+        "joints", "slots for struts", meaning="its struts + 1, negative at their second ends; 0 for none"
     )
     strut_joint: wp.array[wp.vec2i] = array("struts", meaning="joints at its ends; -1 for an unused one")
     strut_stiffness: wp.array[float] = array("struts", unit="N/m", meaning="its stiffness")

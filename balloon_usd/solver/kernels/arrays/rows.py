@@ -7,7 +7,7 @@ TARGETS = 2
 HITS = 48
 """Vertices that may press on one quad at a time."""
 STRUT_SLOTS = 24
-"""Most struts that may end at one joint."""
+"""Struts that may end at one joint of any scene; nets of many bubbles have more."""
 SPINS = 8
 """Sets of vertices that may turn at a time, for each sculpture of a scene."""
 

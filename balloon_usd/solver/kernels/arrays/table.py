@@ -31,6 +31,7 @@ Size = Literal[
     "slots for faces",
     "slots for neighbours",
     "slots for particles",
+    "slots for struts",
     "spins",
     "struts",
     "triangles",
