@@ -89,6 +89,16 @@ class Gather(Move):
 
 
 @dataclass(frozen=True)
+class LeadIn(Move):
+    """Lead a balloon in from where it lay, with all that is joined to it, until a ring of it is beside a ring
+    of the figure, which is held still.
+    """
+
+    ring: int = 0
+    to: int = 0
+
+
+@dataclass(frozen=True)
 class Bring(Move):
     """Bring a ring of one balloon to a ring of another, which is held."""
 

@@ -6,12 +6,14 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, NoReturn, Protocol
 
 from balloon_usd.language.problem import RecipeError
+from balloon_usd.operations.disjoint_sets import DisjointSets
 from balloon_usd.operations.moves import (
     ACROSS,
     POINTS,
     Bring,
     Gather,
     Inflate,
+    LeadIn,
     LetGo,
     Move,
     Pinch,
@@ -44,6 +46,10 @@ LEAST_TURNED = 0.8
 """Length of the shortest bubble of a fold that hands turn, in widths of its tube; of a fold of one, twice."""
 BRING_SECONDS = 1.5
 """Bringing a joint to one of another balloon, s."""
+LEADING_IN_SPEED = 0.3
+"""Mean speed of a hand that leads a balloon in, m/s: nothing is bent on the way."""
+LEAD_IN_LEAST = 1.0
+"""Shortest leading in, s."""
 
 
 class Ring(Protocol):
@@ -98,6 +104,12 @@ class Layout(Protocol):
     def bubble(self, name: str) -> PlacedBubble:
         """Return a bubble."""
 
+    def parked(self, balloon: str) -> float:
+        """Return how far to the side a balloon lies until it is joined, m."""
+
+    def apart(self, ring: int, other: int) -> float:
+        """Return how far two rings are apart until their balloons are joined, m."""
+
     def joint(self, end: Joint) -> int | None:
         """Return the ring of a bubble's end, None for the tip, which has none."""
 
@@ -123,6 +135,8 @@ class Score:
     pace: Pace = PACES["calm"]
     now: float = 0.0
     moves: list[Move] = field(default_factory=list)
+    pieces: DisjointSets[str] = field(default_factory=DisjointSets)
+    """Balloons that are joined so far; the root is the one that was not led in."""
 
     def add(self, move: Move) -> None:
         """Write a move behind those that are there."""
@@ -162,8 +176,24 @@ class Score:
         """Bring two joints together: along their balloon if it is the same, else straight."""
         if self.layout.ring(first).balloon == self.layout.ring(last).balloon:
             self.gather(first, last, point, text, index)
-        else:
-            self.add(Bring(self.now, BRING_SECONDS / self.pace.leading, index, text, ring=last, to=first))
+            return
+        ring, to = self._lead_in(first, last, index)
+        self.add(Bring(self.now, BRING_SECONDS / self.pace.leading, index, text, ring=ring, to=to))
+
+    def _lead_in(self, first: int, last: int, index: int) -> tuple[int, int]:
+        """Lead in what lies aside with one of two rings of different balloons, unless they hang together;
+        return the ring that moves and the one that is held.
+        """
+        homes = [(self.pieces.root(self.layout.ring(ring).balloon), ring) for ring in (first, last)]
+        (figure, to), (guest, ring) = sorted(homes, key=lambda each: abs(self.layout.parked(each[0])))
+        if figure == guest:
+            return last, first
+        self.pieces.merge((figure, guest))
+        speed = CARRYING_SPEED if self.blown_up else LEADING_IN_SPEED
+        seconds = max(LEAD_IN_LEAST, self.layout.apart(ring, to) / speed) / self.pace.leading
+        text = f"lead in: {self.layout.ring(ring).balloon}"
+        self.add(LeadIn(self.now, seconds, index, text, ring=ring, to=to))
+        return ring, to
 
     def gather(
         self,

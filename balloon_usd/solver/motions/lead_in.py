@@ -1,0 +1,67 @@
+"""Leading a balloon in from where it lay to the figure."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from balloon_usd.solver.motions.motion import Motion
+from balloon_usd.solver.motions.smooth import smooth
+from balloon_usd.solver.motions.way_in import way_in
+
+if TYPE_CHECKING:
+    from balloon_usd.operations import moves
+    from balloon_usd.solver.sculpture import Sculpture
+
+Floats = NDArray[np.float64]
+
+BETWEEN = (0.0, 1.0 / 3.0, 2.0 / 3.0)
+"""Places from one ring to the next that are looked at, as shares."""
+
+
+class LeadIn(Motion):
+    """A balloon on its way in, led by its joints with all that is joined to it; the figure is held still."""
+
+    def __init__(self, move: moves.LeadIn, sculpture: Sculpture) -> None:
+        """Take hold of the figure, and find a clear way."""
+        self._hands = hands = sculpture.hands
+        self._sculpture, self._ring = sculpture, move.ring
+        self._joint, middle = sculpture.joints[move.ring], sculpture.frame.middle
+        held = sculpture.joints[move.to]
+        hands.touch(sculpture.bodies)
+        hands.grip(held, middle)
+        ends = move.ring, move.to
+        for joint in sculpture.hanging_on(ends)[1]:
+            hands.lead(joint, middle)
+        self._coming = {move.ring, *sculpture.rings_hanging_on(ends)[0]}
+        """Rings of the plan that come in."""
+        others = set(range(len(sculpture.joints))) - self._coming
+        points = (_along(sculpture, rings) for rings in (self._coming, others))
+        self._way = way_in(*middle[[self._joint, held]].astype(np.float64), *points)
+        self._take()
+
+    def _take(self) -> None:
+        """Take hold of what comes in."""
+        joints = [self._joint, *self._sculpture.hanging_on((self._ring,))[0]]
+        for joint in joints:
+            self._hands.lead(joint, self._sculpture.frame.middle)
+        self._led = np.array(joints, dtype=np.int64)
+        self._began = self._sculpture.frame.middle[self._led].astype(np.float64)
+
+    def advance(self, share: float) -> None:
+        """Lead it a share of its way."""
+        self._hands.goal[self._led] = self._way.pose(smooth(share), self._began)
+
+
+def _along(sculpture: Sculpture, rings: set[int]) -> Floats:
+    """Return points along the bubbles between some rings of the plan, (N, 3), m."""
+    middle = sculpture.frame.middle[sculpture.all_joints].astype(np.float64)
+    chosen = sorted(rings)
+    points = [middle[chosen]]
+    for one, other in pairwise(chosen):
+        if sculpture.balloons[one] == sculpture.balloons[other]:
+            points += [middle[one] + share * (middle[other] - middle[one]) for share in BETWEEN[1:]]
+    return np.vstack(points)

@@ -1,0 +1,89 @@
+"""The way on which a balloon comes in from where it lay, clear of all else that is there."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from balloon_usd.solver.placement import turn_about, turn_between
+from balloon_usd.solver.sculpture import ALONG
+
+Floats = NDArray[np.float64]
+
+BESIDE = 0.12
+"""How far beside the held ring the way ends, m: from there the joint is brought to it."""
+CLEAR = 0.08
+"""Distance of the middles of two tubes that pass each other, m."""
+LIFTS = (0.0, 0.25, -0.25)
+"""Heights over which the way may lead, m."""
+SIDES = tuple(math.radians(angle) for angle in (0.0, 40.0, -40.0, 80.0, -80.0))
+"""Angles about the balloon, from the side on which it lay, at which it may come to lie, rad."""
+TILT = math.radians(20.0)
+"""Angle by which a balloon is turned on its way, rad: its joint comes first, what hangs on it stays off."""
+LOOKED_AT = np.array([0.2, 0.4, 0.6, 0.8, 0.9, 1.0])
+"""Shares of the way at which it is looked at."""
+
+
+@dataclass(frozen=True)
+class WayIn:
+    """A way of a ring, and the turn of all that goes with it."""
+
+    begin: Floats
+    """Where the ring is, (3,), m."""
+    end: Floats
+    """Where it comes to, (3,), m."""
+    lift: float
+    """How far it is raised half way, m."""
+    axis: Floats
+    """Unit axis of the turn, (3,)."""
+    angle: float
+    """By how much all is turned in the end, rad."""
+
+    def place(self, progress: float) -> Floats:
+        """Return where the ring is at a progress of 0 to 1, (3,), m."""
+        raised = 4.0 * progress * (1.0 - progress) * self.lift
+        return np.asarray(self.begin + progress * (self.end - self.begin) + np.array([0.0, 0.0, raised]))
+
+    def pose(self, progress: float, points: Floats) -> Floats:
+        """Return where points (N, 3) that go with the ring are at a progress of 0 to 1, (N, 3), m."""
+        turn = turn_about(self.axis, progress * self.angle)
+        return np.asarray(self.place(progress) + (points - self.begin) @ turn.T)
+
+    def clearance(self, coming: Floats, others: Floats) -> float:
+        """Return the smallest distance on the way of points that come, (N, 3), from others, (M, 3), m."""
+        places = np.concatenate([self.pose(progress, coming) for progress in LOOKED_AT])
+        square = (places**2).sum(axis=1)[:, None] + (others**2).sum(axis=1) - 2.0 * places @ others.T
+        return math.sqrt(max(float(square.min()), 0.0))
+
+
+def way_in(begin: Floats, held: Floats, coming: Floats, others: Floats) -> WayIn:
+    """Return the way of a ring to a place beside another: the first that is clear, or the clearest.
+
+    Args:
+        begin: where the ring is, (3,), m.
+        held: where the other is, (3,), m.
+        coming: points of all that goes with the ring, (N, 3), m.
+        others: points of all else, (M, 3), m.
+    """
+    side = (begin - held) * (1.0 - ALONG)
+    side /= max(float(np.linalg.norm(side)), 1e-9)
+    sides = [turn_about(ALONG, angle) @ side for angle in SIDES]
+    ways = [_way(begin, held, coming, side, lift) for lift in LIFTS for side in sides]
+    best, most = ways[0], 0.0
+    for way in ways:
+        clear = way.clearance(coming, others)
+        if clear >= CLEAR:
+            return way
+        if clear > most:
+            best, most = way, clear
+    return best
+
+
+def _way(begin: Floats, held: Floats, coming: Floats, side: Floats, lift: float) -> WayIn:
+    """Return the way to a place on a side (3,) of a ring, on which what hangs on the joint is turned off."""
+    hanging = coming.mean(axis=0) - begin
+    axis, angle = turn_between(hanging / max(float(np.linalg.norm(hanging)), 1e-9), side)
+    return WayIn(begin, held + BESIDE * side, lift, axis, min(angle, TILT))
