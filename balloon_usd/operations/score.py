@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, NoReturn, Protocol
 
@@ -107,8 +108,8 @@ class Layout(Protocol):
     def parked(self, balloon: str) -> float:
         """Return how far to the side a balloon lies until it is joined, m."""
 
-    def apart(self, ring: int, other: int) -> float:
-        """Return how far two rings are apart until their balloons are joined, m."""
+    def place(self, ring: int) -> tuple[float, float]:
+        """Return where a ring lies on its straight balloon, along it and to the side, m."""
 
     def joint(self, end: Joint) -> int | None:
         """Return the ring of a bubble's end, None for the tip, which has none."""
@@ -174,7 +175,7 @@ class Score:
 
     def together(self, first: int, last: int, point: Point | None, text: str, index: int) -> None:
         """Bring two joints together: along their balloon if it is the same, else straight."""
-        if self.layout.ring(first).balloon == self.layout.ring(last).balloon:
+        if self._same_balloon(first, last):
             self.gather(first, last, point, text, index)
             return
         ring, to = self._lead_in(first, last, index)
@@ -190,10 +191,21 @@ class Score:
             return last, first
         self.pieces.merge((figure, guest))
         speed = CARRYING_SPEED if self.blown_up else LEADING_IN_SPEED
-        seconds = max(LEAD_IN_LEAST, self.layout.apart(ring, to) / speed) / self.pace.leading
+        (here, aside), (there, middle) = map(self.layout.place, (ring, to))
+        far = math.hypot(here + self._gathered(ring) - there - self._gathered(to), aside - middle)
+        seconds = max(LEAD_IN_LEAST, far / speed) / self.pace.leading
         text = f"lead in: {self.layout.ring(ring).balloon}"
         self.add(LeadIn(self.now, seconds, index, text, ring=ring, to=to))
         return ring, to
+
+    def _gathered(self, ring: int) -> float:
+        """Return how far a ring has come along its balloon as chains behind it were closed, m."""
+        chains = (move.corners for move in self.moves if isinstance(move, Gather))
+        behind = (c for c in chains if ring <= c[0] and self._same_balloon(ring, c[0]))
+        return sum(bubble.length for c in behind for bubble in self._between(c[0], c[-1]))
+
+    def _same_balloon(self, ring: int, other: int) -> bool:
+        return self.layout.ring(ring).balloon == self.layout.ring(other).balloon
 
     def gather(
         self,
@@ -244,7 +256,7 @@ class Score:
         """Tell whether joints of one balloon come together, with a fold between them that is long enough to
         be turned: the wall of a short one would fold over at its ends.
         """
-        if len(rings) != 2 or self.layout.ring(rings[0]).balloon != self.layout.ring(rings[1]).balloon:
+        if len(rings) != 2 or not self._same_balloon(*rings):
             return False
         bubbles = self._between(*sorted(rings))
         shortest = LEAST_TURNED if len(bubbles) > 1 else 2.0 * LEAST_TURNED

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -69,13 +68,8 @@ class LaidOut:
         """Return how far to the side a balloon lies until it is joined, m."""
         return self._parked[balloon]
 
-    def apart(self, ring: int, other: int) -> float:
-        """Return how far two rings are apart until their balloons are joined, m."""
-        along, aside = zip(*(self._place(each) for each in (ring, other)), strict=True)
-        return math.hypot(along[0] - along[1], aside[0] - aside[1])
-
-    def _place(self, ring: int) -> tuple[float, float]:
-        """Return where a ring lies on its inflated balloon and how far that lies to the side, m."""
+    def place(self, ring: int) -> tuple[float, float]:
+        """Return where a ring lies on its straight balloon, along it and to the side, m."""
         at = self._table.rings[ring]
         bubble = self._bubbles[at.bubble].planned
         return bubble.start if at.along == 0.0 else bubble.end, self._parked[at.balloon]

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from balloon_usd.operations import moves
 from balloon_usd.solver.motions.motion import Motion
 from balloon_usd.solver.motions.smooth import smooth
 from balloon_usd.solver.motions.way_in import way_in
 
 if TYPE_CHECKING:
-    from balloon_usd.operations import moves
     from balloon_usd.solver.sculpture import Sculpture
 
 Floats = NDArray[np.float64]
@@ -40,8 +40,17 @@ class LeadIn(Motion):
         """Rings of the plan that come in."""
         others = set(range(len(sculpture.joints))) - self._coming
         points = (_along(sculpture, rings) for rings in (self._coming, others))
-        self._way = way_in(*middle[[self._joint, held]].astype(np.float64), *points)
+        places = middle[[self._joint, held]].astype(np.float64)
+        self._way = way_in(*places, *points, done=not self._worked_on(move.end))
         self._take()
+
+    def _worked_on(self, since: float) -> bool:
+        """Whether more is twisted off what comes in, from a time on (s)."""
+        later = self._sculpture.plan.choreography.moves
+        return any(
+            isinstance(move, moves.Pinch) and move.ring in self._coming and move.start >= since
+            for move in later
+        )
 
     def _take(self) -> None:
         """Take hold of what comes in."""

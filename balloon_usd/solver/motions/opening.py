@@ -1,7 +1,7 @@
 """How a net opens: the way of its joints from where they are to their places, as hands turn it and shape it.
 
-The last joint stays where it is. The net is turned as a whole, along the shortest way; while it is, every
-joint goes straight to its place in it, and its sides keep their lengths.
+The middle of its joints stays where it is. The net is turned as a whole, along the shortest way; while it is,
+every joint goes straight to its place in it, and its sides keep their lengths.
 """
 
 from __future__ import annotations
@@ -29,6 +29,8 @@ DIRECTIONS = 400
 """Directions tried for what is left of the balloon."""
 ONWARD = 0.3
 """Weight of the way on beside that of the gap, as cosines."""
+UNTURNED = 0.6
+"""Weight of the way along which nothing need be turned, as cosines."""
 MIRRORED = np.array([1.0, 1.0, -1.0])
 
 
@@ -59,7 +61,8 @@ def opening_path(
         straight = here + share * (shape - here)
         off = _with_sides(straight, pairs, before + share * (after - before))
         path.append(off @ rotation(share * turn).T)
-    return np.asarray(began[-1] + np.array(path))
+    poses = np.array(path)
+    return np.asarray(began.mean(axis=0) + poses - poses.mean(axis=1, keepdims=True))
 
 
 def fit(shape: Floats, here: Floats) -> tuple[Floats, float]:
@@ -89,8 +92,8 @@ def _aim(shape: Floats, ahead: Floats, here: Floats) -> Floats:
     ways = np.stack([width * np.cos(turned), width * np.sin(turned), height], axis=1)
     far = np.linalg.norm(shape, axis=1)
     others = shape[far > 1e-6] / far[far > 1e-6, None]
-    near = (ways @ others.T).max(axis=1) - ONWARD * (ways @ ahead) / max(float(np.linalg.norm(ahead)), 1e-9)
-    way = ways[np.argmin(near)]
+    onward = ONWARD * (ways @ ahead) / max(float(np.linalg.norm(ahead)), 1e-9)
+    way = ways[np.argmin((ways @ others.T).max(axis=1) - onward - UNTURNED * ways[:, 0])]
     forward = _turning(way, np.array([1.0, 0.0, 0.0]))
     _, y, z = (shape @ forward.T).T
     spin = math.atan2(float(y @ here[:, 2] - z @ here[:, 1]), float(y @ here[:, 1] + z @ here[:, 2]))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +24,10 @@ SIDES = tuple(math.radians(angle) for angle in (0.0, 40.0, -40.0, 80.0, -80.0))
 """Angles about the balloon, from the side on which it lay, at which it may come to lie, rad."""
 TILT = math.radians(20.0)
 """Angle by which a balloon is turned on its way, rad: its joint comes first, what hangs on it stays off."""
+MORE_TILTS = tuple(math.radians(angle) for angle in (50.0, 90.0))
+"""Angles by which one may be turned of which nothing more is made, rad."""
+NEAR = 0.1
+"""Distance from a joint within which bubbles that meet there touch, m."""
 LOOKED_AT = np.array([0.2, 0.4, 0.6, 0.8, 0.9, 1.0])
 """Shares of the way at which it is looked at."""
 
@@ -52,14 +57,19 @@ class WayIn:
         turn = turn_about(self.axis, progress * self.angle)
         return np.asarray(self.place(progress) + (points - self.begin) @ turn.T)
 
-    def clearance(self, coming: Floats, others: Floats) -> float:
-        """Return the smallest distance on the way of points that come, (N, 3), from others, (M, 3), m."""
+    def clearance(self, coming: Floats, others: Floats, held: Floats | None) -> float:
+        """Return the smallest distance of points that come, (N, 3), from others, (M, 3), on the way, and when
+        the ring is at the held one, (3,), if that counts, m.
+        """
         places = np.concatenate([self.pose(progress, coming) for progress in LOOKED_AT])
-        square = (places**2).sum(axis=1)[:, None] + (others**2).sum(axis=1) - 2.0 * places @ others.T
-        return math.sqrt(max(float(square.min()), 0.0))
+        if held is not None:
+            joined = self.pose(1.0, coming) + held - self.end
+            far = np.linalg.norm(joined - held, axis=1) > NEAR
+            places = np.concatenate([places, joined[far]])
+        return _apart(places, others)
 
 
-def way_in(begin: Floats, held: Floats, coming: Floats, others: Floats) -> WayIn:
+def way_in(begin: Floats, held: Floats, coming: Floats, others: Floats, *, done: bool = False) -> WayIn:
     """Return the way of a ring to a place beside another: the first that is clear, or the clearest.
 
     Args:
@@ -67,23 +77,35 @@ def way_in(begin: Floats, held: Floats, coming: Floats, others: Floats) -> WayIn
         held: where the other is, (3,), m.
         coming: points of all that goes with the ring, (N, 3), m.
         others: points of all else, (M, 3), m.
+        done: whether nothing more is made of what comes; the rest of a balloon that is worked on must lie
+            along x.
     """
     side = (begin - held) * (1.0 - ALONG)
     side /= max(float(np.linalg.norm(side)), 1e-9)
-    sides = [turn_about(ALONG, angle) @ side for angle in SIDES]
-    ways = [_way(begin, held, coming, side, lift) for lift in LIFTS for side in sides]
-    best, most = ways[0], 0.0
+    tilts = (TILT, *MORE_TILTS) if done else (TILT,)
+    ways = (
+        _way(begin, held, coming, turn_about(ALONG, angle) @ side, lift, tilt)
+        for tilt, lift, angle in product(tilts, LIFTS, SIDES)
+    )
+    best, most = None, -1.0
     for way in ways:
-        clear = way.clearance(coming, others)
+        clear = way.clearance(coming, others, held if done else None)
         if clear >= CLEAR:
             return way
         if clear > most:
             best, most = way, clear
+    assert best is not None, "there is a way"
     return best
 
 
-def _way(begin: Floats, held: Floats, coming: Floats, side: Floats, lift: float) -> WayIn:
-    """Return the way to a place on a side (3,) of a ring, on which what hangs on the joint is turned off."""
+def _way(begin: Floats, held: Floats, coming: Floats, side: Floats, lift: float, tilt: float) -> WayIn:
+    """Return the way to a place on a side (3,) of a ring, to which what hangs on the joint is turned."""
     hanging = coming.mean(axis=0) - begin
     axis, angle = turn_between(hanging / max(float(np.linalg.norm(hanging)), 1e-9), side)
-    return WayIn(begin, held + BESIDE * side, lift, axis, min(angle, TILT))
+    return WayIn(begin, held + BESIDE * side, lift, axis, min(angle, tilt))
+
+
+def _apart(points: Floats, others: Floats) -> float:
+    """Return the smallest distance between points (N, 3) and others (M, 3), m."""
+    square = (points**2).sum(axis=1)[:, None] + (others**2).sum(axis=1) - 2.0 * points @ others.T
+    return math.sqrt(max(float(square.min()), 0.0))
