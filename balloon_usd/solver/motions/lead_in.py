@@ -34,7 +34,9 @@ class LeadIn(Motion):
         hands.touch(sculpture.bodies)
         hands.grip(held, middle)
         ends = move.ring, move.to
-        for joint in sculpture.hanging_on(ends)[1]:
+        self._still = np.array(sculpture.hanging_on(ends)[1], dtype=np.int64)
+        """Joints of the figure by which hands hold it still."""
+        for joint in self._still.tolist():
             hands.lead(joint, middle)
         self._coming = {move.ring, *sculpture.rings_hanging_on(ends)[0]}
         """Rings of the plan that come in."""
@@ -46,11 +48,9 @@ class LeadIn(Motion):
 
     def _worked_on(self, since: float) -> bool:
         """Whether more is twisted off what comes in, from a time on (s)."""
-        later = self._sculpture.plan.choreography.moves
-        return any(
-            isinstance(move, moves.Pinch) and move.ring in self._coming and move.start >= since
-            for move in later
-        )
+        made = self._sculpture.plan.choreography.moves
+        later = [move for move in made if isinstance(move, moves.Pinch) and move.start >= since]
+        return not self._coming.isdisjoint(move.ring for move in later)
 
     def _take(self) -> None:
         """Take hold of what comes in."""
@@ -60,9 +60,20 @@ class LeadIn(Motion):
         self._led = np.array(joints, dtype=np.int64)
         self._began = self._sculpture.frame.middle[self._led].astype(np.float64)
 
+    def _lead(self, progress: float) -> None:
+        """Lead it a share of its way in the coming frame."""
+        self._hands.goal[self._led] = self._way.pose(progress, self._began)
+
+    def _leave(self) -> None:
+        """Take the hands from all of it but its joint, which follows that as it is brought to the figure."""
+        self._hands.let_go(self._led[1:])
+
     def advance(self, share: float) -> None:
-        """Lead it a share of its way."""
-        self._hands.goal[self._led] = self._way.pose(smooth(share), self._began)
+        """Lead it a share of its way, and let all but the two joints give way in the end."""
+        self._lead(smooth(share))
+        if share >= 1.0:
+            self._hands.let_go(self._still)
+            self._leave()
 
 
 def _along(sculpture: Sculpture, rings: set[int]) -> Floats:

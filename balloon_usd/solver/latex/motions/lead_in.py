@@ -8,7 +8,6 @@ import numpy as np
 
 from balloon_usd.solver.latex.spins import VertexSet
 from balloon_usd.solver.motions.lead_in import LeadIn
-from balloon_usd.solver.motions.smooth import smooth
 
 if TYPE_CHECKING:
     from balloon_usd.solver.latex.controls import LatexControls
@@ -29,10 +28,12 @@ class LatexLeadIn(LeadIn):
         self._vertices = VertexSet.of(np.concatenate(runs))
         self._turned = 0.0
 
-    def advance(self, share: float) -> None:
-        """Lead it a share of its way."""
+    def _leave(self) -> None:
+        pass
+
+    def _lead(self, progress: float) -> None:
         begin, end, middle = self._sculpture.frame
-        here, progress = middle[self._joint], smooth(share)
+        here = middle[self._joint]
         rate = self._way.angle * (progress - self._turned) / (end - begin)
         self._turned = progress
         drift = (self._way.place(progress) - here) / (end - begin)
