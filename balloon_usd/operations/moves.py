@@ -96,6 +96,12 @@ class LeadIn(Move):
 
     ring: int = 0
     to: int = 0
+    rings: tuple[int, ...] = ()
+    """Rings of the net that the figure is part of, so far as it is made; none where it is no net."""
+    places: tuple[Vector, ...] = ()
+    """Where they lie in the net, m."""
+    toward: Vector = (0.0, 0.0, 0.0)
+    """Where in the net, from the held ring, what comes in will lie, m."""
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from balloon_usd.operations.disjoint_sets import DisjointSets
-from balloon_usd.operations.moves import Bring, Gather, Move, Pinch, SetNet, Weld
+from balloon_usd.operations.moves import Bring, Gather, LeadIn, Move, Pinch, SetNet, Weld
 from balloon_usd.operations.score import SETTLE_SECONDS
 
 if TYPE_CHECKING:
@@ -45,6 +45,9 @@ def _in_place_of_closing(moves: Iterable[Move], nets: Sequence[Net], table: Ring
     found: list[Move] = []
     for move in moves:
         made.see(move)
+        if isinstance(move, LeadIn):
+            found.append(_into_net(move, nets, made))
+            continue
         found.append(move if (ends := made.closing(move)) is None else _closing(move, ends, nets, made))
     return found
 
@@ -62,6 +65,20 @@ def _closing(move: Move, ends: tuple[int, int], nets: Sequence[Net], made: _Made
         return replace(_setting(net, made.with_held(held, net), move), moving=moving)
     onward = made.onward(end, net) or net.places[end]
     return replace(_setting(net, made.with_held(end, net), move), moving=moving, onward=onward)
+
+
+def _into_net(move: LeadIn, nets: Sequence[Net], made: _Made) -> LeadIn:
+    """Return the leading in of a balloon with where it will lie in the net that it becomes part of."""
+    net = next((net for net in nets if net.places.keys() >= {move.ring, move.to}), None)
+    if net is None:
+        return move
+    rings = made.with_held(move.to, net)
+    coming = [net.places[ring] for ring in made.with_held(move.ring, net)[:-1]]
+    if (onward := made.onward(move.ring, net)) is not None:
+        coming.append(onward)
+    far = [[place - at for place, at in zip(each, net.places[move.to], strict=True)] for each in coming]
+    x, y, z = (sum(values) for values in zip(*far, strict=True)) if far else (0.0, 0.0, 0.0)
+    return replace(move, rings=rings, places=tuple(net.places[ring] for ring in rings), toward=(x, y, z))
 
 
 def _setting(net: Net, rings: tuple[int, ...], move: Move) -> SetNet:

@@ -20,7 +20,7 @@ FIGURE = tube((-0.4, 0.0, 0.0), (0.5, 0.0, 0.0))
 
 
 def test_a_balloon_comes_straight_from_its_side_and_ends_beside_the_joint_with_its_rest_turned_off():
-    way = way_in(RING, HELD, COMING, FIGURE)
+    way = way_in(RING, HELD, COMING, FIGURE, None)
     assert way.lift == 0.0
     assert way.place(0.0) == pytest.approx(RING)
     assert way.place(1.0) == pytest.approx((0.0, BESIDE, 0.0))
@@ -29,7 +29,7 @@ def test_a_balloon_comes_straight_from_its_side_and_ends_beside_the_joint_with_i
 
 
 def test_it_keeps_its_shape_on_the_way():
-    way = way_in(RING, HELD, COMING, FIGURE)
+    way = way_in(RING, HELD, COMING, FIGURE, None)
     for share in (0.0, 0.3, 1.0):
         apart = np.diff(way.pose(share, COMING), axis=0)
         assert np.linalg.norm(apart, axis=1) == pytest.approx(np.full(19, 0.8 / 19))
@@ -37,21 +37,27 @@ def test_it_keeps_its_shape_on_the_way():
 
 def test_it_goes_over_what_lies_between():
     between = tube((-0.4, 0.35, 0.0), (1.2, 0.35, 0.0), 60)
-    way = way_in(RING, HELD, COMING, np.concatenate([FIGURE, between]))
+    way = way_in(RING, HELD, COMING, np.concatenate([FIGURE, between]), None)
     assert way.lift != 0.0
     assert way.clearance(COMING, between, None) >= CLEAR
 
 
 def test_it_comes_to_another_side_where_something_sticks_out():
     spike = tube((0.2, 0.05, 0.0), (0.2, 0.3, 0.0))
-    way = way_in(RING, HELD, COMING, np.concatenate([FIGURE, spike]))
+    way = way_in(RING, HELD, COMING, np.concatenate([FIGURE, spike]), None)
     assert way.end[2] != 0.0
     assert way.clearance(COMING, spike, None) >= CLEAR
 
 
 def test_one_of_which_nothing_more_is_made_stands_off_the_figure():
-    way = way_in(RING, HELD, COMING, FIGURE, done=True)
+    way = way_in(RING, HELD, COMING, FIGURE, None, done=True)
     assert way.angle > TILT
     joined = way.pose(1.0, COMING) - way.end
     far = joined[np.linalg.norm(joined, axis=1) > 0.1]
     assert np.linalg.norm(far[:, None] - FIGURE, axis=2).min() >= CLEAR
+
+
+def test_it_comes_to_the_side_where_it_will_lie_in_a_net():
+    way = way_in(RING, HELD, COMING, FIGURE, np.array([0.3, -0.1, -0.9]))
+    assert way.end == pytest.approx((0.0, 0.0, -BESIDE))
+    assert way.clearance(COMING, FIGURE, None) >= CLEAR

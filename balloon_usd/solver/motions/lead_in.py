@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from balloon_usd.operations import moves
 from balloon_usd.solver.motions.motion import Motion
+from balloon_usd.solver.motions.opening import MIRRORED, fit
 from balloon_usd.solver.motions.smooth import smooth
 from balloon_usd.solver.motions.way_in import way_in
 
@@ -20,6 +21,12 @@ Floats = NDArray[np.float64]
 
 BETWEEN = (0.0, 1.0 / 3.0, 2.0 / 3.0)
 """Places from one ring to the next that are looked at, as shares."""
+
+
+STIFF = 4
+"""Fewest joints that tell how a net lies in space."""
+NEAR = 0.04
+"""Mean distance of joints from their places in a net within which it has its shape, m."""
 
 
 class LeadIn(Motion):
@@ -41,9 +48,10 @@ class LeadIn(Motion):
         self._coming = {move.ring, *sculpture.rings_hanging_on(ends)[0]}
         """Rings of the plan that come in."""
         others = set(range(len(sculpture.joints))) - self._coming
-        points = (_along(sculpture, rings) for rings in (self._coming, others))
-        places = middle[[self._joint, held]].astype(np.float64)
-        self._way = way_in(*places, *points, done=not self._worked_on(move.end))
+        coming, lying = (_along(sculpture, rings) for rings in (self._coming, others))
+        begin, end = middle[[self._joint, held]].astype(np.float64)
+        toward, done = _toward(move, sculpture), not self._worked_on(move.end)
+        self._way = way_in(begin, end, coming, lying, toward, done=done)
         self._take()
 
     def _worked_on(self, since: float) -> bool:
@@ -74,6 +82,19 @@ class LeadIn(Motion):
         if share >= 1.0:
             self._hands.let_go(self._still)
             self._leave()
+
+
+def _toward(move: moves.LeadIn, sculpture: Sculpture) -> Floats | None:
+    """Return where from the held ring what comes in will lie in the net, (3,), m; None where that is not told
+    by what is made of the net.
+    """
+    if len(move.rings) < STIFF:
+        return None
+    here = sculpture.frame.middle[[sculpture.joints[ring] for ring in move.rings]].astype(np.float64)
+    places = np.array(move.places)
+    fits = [(mirror, *fit(places * mirror, here)) for mirror in (np.ones(3), MIRRORED)]
+    mirror, turned, far = min(fits, key=lambda each: each[2])
+    return np.asarray(np.array(move.toward) * mirror @ turned.T) if far < NEAR * len(here) else None
 
 
 def _along(sculpture: Sculpture, rings: set[int]) -> Floats:

@@ -22,6 +22,8 @@ LIFTS = (0.0, 0.25, -0.25)
 """Heights over which the way may lead, m."""
 SIDES = tuple(math.radians(angle) for angle in (0.0, 40.0, -40.0, 80.0, -80.0))
 """Angles about the balloon, from the side on which it lay, at which it may come to lie, rad."""
+ALL_SIDES = tuple(math.radians(angle) for angle in range(0, 360, 30))
+"""The same where it shall lie to a certain side, rad."""
 TILT = math.radians(20.0)
 """Angle by which a balloon is turned on its way, rad: its joint comes first, what hangs on it stays off."""
 MORE_TILTS = tuple(math.radians(angle) for angle in (50.0, 90.0))
@@ -69,7 +71,9 @@ class WayIn:
         return _apart(places, others)
 
 
-def way_in(begin: Floats, held: Floats, coming: Floats, others: Floats, *, done: bool = False) -> WayIn:
+def way_in(
+    begin: Floats, held: Floats, coming: Floats, others: Floats, toward: Floats | None, *, done: bool = False
+) -> WayIn:
     """Return the way of a ring to a place beside another: the first that is clear, or the clearest.
 
     Args:
@@ -77,16 +81,18 @@ def way_in(begin: Floats, held: Floats, coming: Floats, others: Floats, *, done:
         held: where the other is, (3,), m.
         coming: points of all that goes with the ring, (N, 3), m.
         others: points of all else, (M, 3), m.
+        toward: direction from the held ring in which what comes shall lie, (3,); None for any.
         done: whether nothing more is made of what comes; the rest of a balloon that is worked on must lie
             along x.
     """
     side = (begin - held) * (1.0 - ALONG)
     side /= max(float(np.linalg.norm(side)), 1e-9)
     tilts = (TILT, *MORE_TILTS) if done else (TILT,)
-    ways = (
-        _way(begin, held, coming, turn_about(ALONG, angle) @ side, lift, tilt)
-        for tilt, lift, angle in product(tilts, LIFTS, SIDES)
-    )
+    sides = [turn_about(ALONG, angle) @ side for angle in SIDES]
+    if toward is not None:
+        sides = [turn_about(ALONG, angle) @ side for angle in ALL_SIDES]
+        sides.sort(key=lambda each: -float(each @ toward))
+    ways = (_way(begin, held, coming, side, lift, tilt) for tilt, side, lift in product(tilts, sides, LIFTS))
     best, most = None, -1.0
     for way in ways:
         clear = way.clearance(coming, others, held if done else None)
