@@ -8,6 +8,7 @@ from balloon_usd.operations.moves import Bring, LeadIn
 from balloon_usd.operations.score import LEADING_IN_SPEED
 from balloon_usd.plan import plan as plan_of
 from balloon_usd.plan.parking import parked
+from balloon_usd.plan.report import plan_json, plan_text
 from balloon_usd.recipe import Recipe
 
 THREE = """
@@ -70,6 +71,14 @@ def test_balloons_that_hang_together_already_are_not_led_in_again():
 def test_a_lock_of_three_balloons_leads_in_two():
     names, _ = led_in(three("[nose.start, arm.end, leg.start]"))
     assert names == [("arm.end", "red.knot"), ("green.knot", "arm.end")]
+
+
+def test_the_plan_tells_which_step_leads_in_what_from_where():
+    plan = three()
+    text, data = plan_text(plan), plan_json(plan)["balloons"]
+    assert "step 4 leads in blue from the right" in text
+    assert "step 5 leads in green from the left" in text
+    assert [(each["aside"], each["led_in"]) for each in data] == [(0.0, None), (0.5, 3), (-0.5, 4)]
 
 
 def test_leading_in_takes_the_time_of_its_way_at_the_tempo():
