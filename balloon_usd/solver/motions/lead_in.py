@@ -62,15 +62,18 @@ class LeadIn(Motion):
 
     def _take(self) -> None:
         """Take hold of what comes in."""
-        joints = [self._joint, *self._sculpture.hanging_on((self._ring,))[0]]
-        for joint in joints:
-            self._hands.lead(joint, self._sculpture.frame.middle)
-        self._led = np.array(joints, dtype=np.int64)
-        self._began = self._sculpture.frame.middle[self._led].astype(np.float64)
+        hands, middle = self._hands, self._sculpture.frame.middle
+        hands.grip(self._joint, middle)
+        hanging = self._sculpture.hanging_on((self._ring,))[0]
+        closed = [joint for joint in hanging if hands.radius_goal[joint] > 0.0]
+        for joint in closed:
+            hands.lead(joint, middle)
+        self._led = np.array([self._joint, *closed], dtype=np.int64)
+        self._began = middle[self._led].astype(np.float64)
 
     def _lead(self, progress: float) -> None:
-        """Lead it a share of its way in the coming frame."""
-        self._hands.goal[self._led] = self._way.pose(progress, self._began)
+        """Lead it a share of its way in the coming frame: not turned, for a bubble goes as its joints do."""
+        self._hands.goal[self._led] = self._began + self._way.place(progress) - self._way.begin
 
     def _leave(self) -> None:
         """Take the hands from all of it but its joint, which follows that as it is brought to the figure."""
