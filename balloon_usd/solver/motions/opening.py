@@ -27,7 +27,7 @@ NEAR = 0.01
 """Distance below which a joint is where it belongs, m."""
 DIRECTIONS = 400
 """Directions tried for what is left of the balloon."""
-ONWARD = 0.3
+ONWARD = 0.6
 """Weight of the way on beside that of the gap, as cosines."""
 UNTURNED = 0.4
 """Weight of the way along which nothing need be turned, as cosines."""
