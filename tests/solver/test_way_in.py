@@ -28,6 +28,11 @@ def test_a_balloon_comes_straight_from_its_side_and_ends_beside_the_joint_with_i
     assert tip == pytest.approx((0.8 * np.cos(TILT), 0.8 * np.sin(TILT), 0.0))
 
 
+def test_one_that_hangs_on_both_sides_of_its_joint_is_not_turned():
+    coming = tube(RING - (0.3, 0.0, 0.0), RING + (0.8, 0.0, 0.0))
+    assert way_in(RING, HELD, coming, FIGURE, None).angle == 0.0
+
+
 def test_it_keeps_its_shape_on_the_way():
     way = way_in(RING, HELD, COMING, FIGURE, None)
     for share in (0.0, 0.3, 1.0):

@@ -105,9 +105,14 @@ def way_in(
 
 
 def _way(begin: Floats, held: Floats, coming: Floats, side: Floats, lift: float, tilt: float) -> WayIn:
-    """Return the way to a place on a side (3,) of a ring, to which what hangs on the joint is turned."""
+    """Return the way to a place on a side (3,) of a ring, to which what hangs on the joint is turned, unless
+    it hangs there on both sides.
+    """
     hanging = coming.mean(axis=0) - begin
-    axis, angle = turn_between(hanging / max(float(np.linalg.norm(hanging)), 1e-9), side)
+    hanging /= max(float(np.linalg.norm(hanging)), 1e-9)
+    axis, angle = turn_between(hanging, side)
+    if float(((coming - begin) @ hanging).min()) < -NEAR:
+        angle = 0.0
     return WayIn(begin, held + BESIDE * side, lift, axis, min(angle, tilt))
 
 
