@@ -89,6 +89,22 @@ class Gather(Move):
 
 
 @dataclass(frozen=True)
+class LeadIn(Move):
+    """Lead a balloon in from where it lay, with all that is joined to it, until a ring of it is beside a ring
+    of the figure, which is held still.
+    """
+
+    ring: int = 0
+    to: int = 0
+    rings: tuple[int, ...] = ()
+    """Rings of the net that the figure is part of, so far as it is made; none where it is no net."""
+    places: tuple[Vector, ...] = ()
+    """Where they lie in the net, m."""
+    toward: Vector = (0.0, 0.0, 0.0)
+    """Where in the net, from the held ring, what comes in will lie, m."""
+
+
+@dataclass(frozen=True)
 class Bring(Move):
     """Bring a ring of one balloon to a ring of another, which is held."""
 

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, NoReturn, Protocol
 
 from balloon_usd.language.problem import RecipeError
+from balloon_usd.operations.disjoint_sets import DisjointSets
 from balloon_usd.operations.moves import (
     ACROSS,
     POINTS,
     Bring,
     Gather,
     Inflate,
+    LeadIn,
     LetGo,
     Move,
     Pinch,
@@ -44,6 +47,10 @@ LEAST_TURNED = 0.8
 """Length of the shortest bubble of a fold that hands turn, in widths of its tube; of a fold of one, twice."""
 BRING_SECONDS = 1.5
 """Bringing a joint to one of another balloon, s."""
+LEADING_IN_SPEED = 0.3
+"""Mean speed of a hand that leads a balloon in, m/s: nothing is bent on the way."""
+LEAD_IN_LEAST = 1.0
+"""Shortest leading in, s."""
 
 
 class Ring(Protocol):
@@ -98,6 +105,12 @@ class Layout(Protocol):
     def bubble(self, name: str) -> PlacedBubble:
         """Return a bubble."""
 
+    def parked(self, balloon: str) -> float:
+        """Return how far to the side a balloon lies until it is joined, m."""
+
+    def place(self, ring: int) -> tuple[float, float]:
+        """Return where a ring lies on its straight balloon, along it and to the side, m."""
+
     def joint(self, end: Joint) -> int | None:
         """Return the ring of a bubble's end, None for the tip, which has none."""
 
@@ -123,6 +136,8 @@ class Score:
     pace: Pace = PACES["calm"]
     now: float = 0.0
     moves: list[Move] = field(default_factory=list)
+    pieces: DisjointSets[str] = field(default_factory=DisjointSets)
+    """Balloons that are joined so far; the root is the one that was not led in."""
 
     def add(self, move: Move) -> None:
         """Write a move behind those that are there."""
@@ -160,10 +175,37 @@ class Score:
 
     def together(self, first: int, last: int, point: Point | None, text: str, index: int) -> None:
         """Bring two joints together: along their balloon if it is the same, else straight."""
-        if self.layout.ring(first).balloon == self.layout.ring(last).balloon:
+        if self._same_balloon(first, last):
             self.gather(first, last, point, text, index)
-        else:
-            self.add(Bring(self.now, BRING_SECONDS / self.pace.leading, index, text, ring=last, to=first))
+            return
+        ring, to = self._lead_in(first, last, index)
+        self.add(Bring(self.now, BRING_SECONDS / self.pace.leading, index, text, ring=ring, to=to))
+
+    def _lead_in(self, first: int, last: int, index: int) -> tuple[int, int]:
+        """Lead in what lies aside with one of two rings of different balloons, unless they hang together;
+        return the ring that moves and the one that is held.
+        """
+        homes = [(self.pieces.root(self.layout.ring(ring).balloon), ring) for ring in (first, last)]
+        (figure, to), (guest, ring) = sorted(homes, key=lambda each: abs(self.layout.parked(each[0])))
+        if figure == guest:
+            return last, first
+        self.pieces.merge((figure, guest))
+        speed = CARRYING_SPEED if self.blown_up else LEADING_IN_SPEED
+        (here, aside), (there, middle) = map(self.layout.place, (ring, to))
+        far = math.hypot(here + self._gathered(ring) - there - self._gathered(to), aside - middle)
+        seconds = max(LEAD_IN_LEAST, far / speed) / self.pace.leading
+        text = f"lead in: {self.layout.ring(ring).balloon}"
+        self.add(LeadIn(self.now, seconds, index, text, ring=ring, to=to))
+        return ring, to
+
+    def _gathered(self, ring: int) -> float:
+        """Return how far a ring has come along its balloon as chains behind it were closed, m."""
+        chains = (move.corners for move in self.moves if isinstance(move, Gather))
+        behind = (c for c in chains if ring <= c[0] and self._same_balloon(ring, c[0]))
+        return sum(bubble.length for c in behind for bubble in self._between(c[0], c[-1]))
+
+    def _same_balloon(self, ring: int, other: int) -> bool:
+        return self.layout.ring(ring).balloon == self.layout.ring(other).balloon
 
     def gather(
         self,
@@ -214,7 +256,7 @@ class Score:
         """Tell whether joints of one balloon come together, with a fold between them that is long enough to
         be turned: the wall of a short one would fold over at its ends.
         """
-        if len(rings) != 2 or self.layout.ring(rings[0]).balloon != self.layout.ring(rings[1]).balloon:
+        if len(rings) != 2 or not self._same_balloon(*rings):
             return False
         bubbles = self._between(*sorted(rings))
         shortest = LEAST_TURNED if len(bubbles) > 1 else 2.0 * LEAST_TURNED

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from balloon_usd.plan.parking import parked
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
@@ -51,6 +53,7 @@ class LaidOut:
 
     def __init__(self, strips: Mapping[str, Strip], table: RingTable) -> None:
         self._table, self._strips = table, strips
+        self._parked = parked(strips)
         self._bubbles = {b.name: _Placed(strip, b) for strip in strips.values() for b in strip.bubbles}
 
     def ring(self, index: int) -> PlannedRing:
@@ -60,6 +63,16 @@ class LaidOut:
     def bubble(self, name: str) -> _Placed:
         """Return a bubble."""
         return self._bubbles[name]
+
+    def parked(self, balloon: str) -> float:
+        """Return how far to the side a balloon lies until it is joined, m."""
+        return self._parked[balloon]
+
+    def place(self, ring: int) -> tuple[float, float]:
+        """Return where a ring lies on its straight balloon, along it and to the side, m."""
+        at = self._table.rings[ring]
+        bubble = self._bubbles[at.bubble].planned
+        return bubble.start if at.along == 0.0 else bubble.end, self._parked[at.balloon]
 
     def joint(self, end: Joint) -> int | None:
         """Return the ring of a bubble's end, None for the tip, which has none."""

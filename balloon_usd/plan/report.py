@@ -6,7 +6,9 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from balloon_usd.language.lengths import at_least, at_most, cm
+from balloon_usd.operations.moves import LeadIn
 from balloon_usd.operations.workpiece import Joined
+from balloon_usd.plan.parking import parked
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -115,11 +117,23 @@ def _graph_lines(plan: Plan) -> Iterator[str]:
     graph = plan.graph
     strokes = "one balloon" if graph.one_stroke else f"{graph.fewest_balloons} balloons"
     yield f"{ring_line(graph)}; {strokes} could make it"
+    led_in = _led_in(plan)
     for event in plan.recipe.piece.history:
+        if isinstance(event, Joined):
+            for balloon in (name for name, step in led_in.items() if step == event.step):
+                side = "right" if parked(plan.strips)[balloon] > 0.0 else "left"
+                yield f"  step {event.step + 1} leads in {balloon} from the {side}"
         if isinstance(event, Joined) and not plan.recipe.steps[event.step].closes:
             what = f"{plan.recipe.steps[event.step].word}s {', '.join(map(str, event.ends))}"
             yield f"  step {event.step + 1} {what} (joint {graph.joint_of(event.ends[0]).index})"
     yield from joint_lines(graph)
+
+
+def _led_in(plan: Plan) -> dict[str, int]:
+    """Return the steps at which balloons are led in to the figure, by balloon."""
+    rings = plan.table.rings
+    moves = (move for move in plan.choreography.moves if isinstance(move, LeadIn))
+    return {rings[move.ring].balloon: move.step for move in moves}
 
 
 def ring_line(graph: SculptureGraph) -> str:
@@ -153,9 +167,17 @@ def caution_lines(cautions: tuple[Caution, ...]) -> Iterator[str]:
 
 def plan_json(plan: Plan) -> dict[str, Any]:
     """Return the plan as plain data, ready for JSON: SI units, step indices from 0."""
+    aside, led_in = parked(plan.strips), _led_in(plan)
     return {
         **head_json(plan),
-        "balloons": [_balloon_json(strip, plan.budgets.get(name)) for name, strip in plan.strips.items()],
+        "balloons": [
+            {
+                **_balloon_json(strip, plan.budgets.get(name)),
+                "aside": aside.get(name, 0.0),
+                "led_in": led_in.get(name),
+            }
+            for name, strip in plan.strips.items()
+        ],
         "graph": graph_json(plan.graph, winds=plan.recipe.physics.traits.winds),
         "cautions": [asdict(caution) for caution in plan.cautions],
         "notices": [asdict(notice) for notice in plan.recipe.notices],

@@ -8,7 +8,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from balloon_usd.operations.disjoint_sets import DisjointSets
-from balloon_usd.operations.moves import Bring, Gather, Move, Pinch, SetNet, Weld
+from balloon_usd.operations.moves import Bring, Gather, LeadIn, Move, Pinch, SetNet, Weld
 from balloon_usd.operations.score import SETTLE_SECONDS
 
 if TYPE_CHECKING:
@@ -75,7 +75,9 @@ def _in_place_of_closing(moves: Iterable[Move], nets: Sequence[Net], table: Ring
     found: list[Move] = []
     for move in moves:
         made.see(move)
-        if (ends := made.closing(move)) is not None:
+        if isinstance(move, LeadIn):
+            found.append(_into_net(move, nets, made))
+        elif (ends := made.closing(move)) is not None:
             found.append(_closing(move, ends, nets, made))
         elif isinstance(move, Bring) and _net_with((move.ring, move.to), nets) is not None:
             found.append(replace(move, carried=True))
@@ -101,6 +103,20 @@ def _closing(move: Move, ends: tuple[int, int], nets: Sequence[Net], made: _Made
 def _net_with(rings: Iterable[int], nets: Iterable[Net]) -> Net | None:
     """Return the net that has some rings, if one has them all."""
     return next((net for net in nets if net.places.keys() >= set(rings)), None)
+
+
+def _into_net(move: LeadIn, nets: Sequence[Net], made: _Made) -> LeadIn:
+    """Return the leading in of a balloon with where it will lie in the net that it becomes part of."""
+    net = _net_with((move.ring, move.to), nets)
+    if net is None:
+        return move
+    rings = made.with_held(move.to, net)
+    coming = [net.places[ring] for ring in made.with_held(move.ring, net)[:-1]]
+    if (onward := made.onward(move.ring, net)) is not None:
+        coming.append(onward)
+    far = [[place - at for place, at in zip(each, net.places[move.to], strict=True)] for each in coming]
+    x, y, z = (sum(values) for values in zip(*far, strict=True)) if far else (0.0, 0.0, 0.0)
+    return replace(move, rings=rings, places=tuple(net.places[ring] for ring in rings), toward=(x, y, z))
 
 
 def _setting(net: Net, rings: tuple[int, ...], move: Move) -> SetNet:

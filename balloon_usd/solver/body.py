@@ -71,15 +71,6 @@ class Body:
         return np.stack([self.along, 0.0 * self.along, 0.0 * self.along], axis=1)
 
 
-SPREAD = 0.14
-"""Distance between two balloons of one sculpture before they are joined, m."""
-
-
-def places_beside(count: int) -> NDArray[np.float32]:
-    """Return how far to the side each of several balloons lies at the start, (count,) float32, m."""
-    return (np.arange(count, dtype=np.float32) - np.float32(0.5 * (count - 1))) * np.float32(SPREAD)
-
-
 def body_ranges(counts: Sequence[int]) -> tuple[range, ...]:
     """Return the bodies of every sculpture, given how many each has."""
     ends = np.concatenate([[0], np.cumsum(counts)])

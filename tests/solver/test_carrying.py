@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from balloon_usd.operations.moves import Bring, Gather
+from balloon_usd.operations.moves import Bring, Gather, LeadIn, Pinch
 from balloon_usd.plan import plan as plan_of
 from balloon_usd.recipe import Recipe
 from balloon_usd.solver.simulation import Simulation, simulate_many
@@ -52,10 +52,14 @@ class Performed:
 
     def moved(self, kind, name):
         """How far a ring goes while the first move of a kind is performed, m."""
+        first, last = self.during(kind)
+        return self.place(last, name) - self.place(first, name)
+
+    def during(self, kind):
+        """Frames in which the first move of a kind begins and ends."""
         plan = self.simulation.plans[0]
         move = next(move for move in plan.choreography.moves if isinstance(move, kind))
-        first, last = (round(time * plan.recipe.fps) for time in (move.start, move.end))
-        return self.place(last, name) - self.place(first, name)
+        return tuple(round(time * plan.recipe.fps) for time in (move.start, move.end))
 
     def place(self, frame, name):
         plan, meshes = self.simulation.plans[0], self.simulation.meshes[0]
@@ -87,8 +91,18 @@ def test_a_balloon_on_the_moving_end_of_a_chain_goes_along(hanging, name):
 @pytest.mark.parametrize("name", ["blue.knot", "blue_rest.0"])
 def test_a_balloon_follows_its_joint_that_is_brought_to_another(hanging, name):
     joint, moved = hanging.moved(Bring, "arm.end"), hanging.moved(Bring, name)
-    assert joint[1] < -0.12
+    assert joint[1] < -0.1
     assert moved[1] < 0.5 * joint[1]
+
+
+def test_a_balloon_keeps_still_until_it_is_led_in_and_the_figure_while_it_comes(hanging):
+    first, last = hanging.during(Pinch)[1], hanging.during(LeadIn)[0]
+    for name in ("blue.knot", "blue_rest.1"):
+        aside = hanging.place(last, name)[1:]
+        assert aside == pytest.approx(hanging.place(first, name)[1:], abs=1e-3)
+    assert hanging.moved(LeadIn, "arm.end")[1] == pytest.approx(-0.24, abs=0.01)
+    for name in ("red.knot", "nose.end", "red_rest.1"):
+        assert hanging.moved(LeadIn, name) == pytest.approx(np.zeros(3), abs=2e-3)
 
 
 def test_balloons_of_different_lengths_are_blown_up_each_in_its_own_time():

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from balloon_usd.balloon.tube_theory import maxwell_state
-from balloon_usd.solver.body import body_ranges, places_beside
+from balloon_usd.plan.parking import parked
+from balloon_usd.solver.body import body_ranges
 from balloon_usd.solver.checks import stretch_limits
 from balloon_usd.solver.frame_arrays import FrameArrays
 from balloon_usd.solver.hands import Hands
@@ -206,15 +207,14 @@ def _hands(scene: KosakaScene) -> Hands:
 
 
 def _bodies(plan: Plan, meshes: Sequence[BalloonMesh], dt: float) -> list[KosakaBody]:
-    """Return the balloons of a plan, side by side."""
-    bodies = []
-    places = places_beside(len(meshes))
-    for strip, mesh, place in zip(plan.strips.values(), meshes, places, strict=True):
+    """Return the balloons of a plan, where they lie at the start."""
+    bodies, places = [], parked(plan.strips)
+    for strip, mesh in zip(plan.strips.values(), meshes, strict=True):
         scale = strip.size.thickness / strip.size.radius
         pressure = maxwell_state(strip.rubber).p_star * scale
         body = kosaka_body(strip, plan.table, mesh, plan.recipe.physics.kosaka, pressure, dt)
-        body.points[:, 1] += place
-        body.air[:, 1] += place
+        body.points[:, 1] += places[strip.balloon]
+        body.air[:, 1] += places[strip.balloon]
         bodies.append(body)
     return bodies
 

@@ -12,7 +12,8 @@ import numpy as np
 from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.operations.moves import Inflate
 from balloon_usd.plan.meshing import joint_places
-from balloon_usd.solver.body import body_ranges, places_beside
+from balloon_usd.plan.parking import parked
+from balloon_usd.solver.body import body_ranges
 from balloon_usd.solver.checks import crowded, stretch_limits
 from balloon_usd.solver.frame_arrays import FrameArrays
 from balloon_usd.solver.kernels.arrays.rows import HITS, STRUT_SLOTS
@@ -183,12 +184,12 @@ def short_of_gas(move: Inflate, share: float) -> str:
 
 
 def _bodies(plan: Plan, meshes: Sequence[BalloonMesh]) -> list[LatexBody]:
-    """Return the balloons of a plan, side by side."""
-    bodies = [_body(plan, strip, mesh) for strip, mesh in zip(plan.strips.values(), meshes, strict=True)]
-    # A mesh lies where its file and the recipe say.
-    beside = [body for body in bodies if body.rings]
-    for body, place in zip(beside, places_beside(len(beside)), strict=True):
-        body.points[:, 1] += place
+    """Return the balloons of a plan, where they lie at the start."""
+    bodies, places = [], parked(plan.strips)
+    for strip, mesh in zip(plan.strips.values(), meshes, strict=True):
+        body = _body(plan, strip, mesh)
+        body.points[:, 1] += places.get(strip.balloon, 0.0)
+        bodies.append(body)
     return bodies
 
 

@@ -1,7 +1,7 @@
 """How a net opens: the way of its joints from where they are to their places, as hands turn it and shape it.
 
-The last joint stays where it is. The net is turned as a whole, along the shortest way; while it is, every
-joint goes straight to its place in it, and its sides keep their lengths.
+The middle of its joints stays where it is. The net is turned as a whole, along the shortest way; while it is,
+every joint goes straight to its place in it, and its sides keep their lengths.
 """
 
 from __future__ import annotations
@@ -27,8 +27,10 @@ NEAR = 0.01
 """Distance below which a joint is where it belongs, m."""
 DIRECTIONS = 400
 """Directions tried for what is left of the balloon."""
-ONWARD = 0.3
+ONWARD = 0.6
 """Weight of the way on beside that of the gap, as cosines."""
+UNTURNED = 0.4
+"""Weight of the way along which nothing need be turned, as cosines."""
 MIRRORED = np.array([1.0, 1.0, -1.0])
 
 
@@ -51,15 +53,16 @@ def opening_path(
     fits = [(mirror, *fit(shape * mirror, here)) for mirror in (np.ones(3), MIRRORED)]
     mirror, turned, _ = min(fits, key=lambda each: each[2])
     shape, ahead = shape * mirror @ turned.T, ahead * mirror @ turned.T
-    turn = np.zeros(3) if onward is None else rotation_vector(_aim(shape, ahead, here))
     pairs = np.array(sides, dtype=np.int64).reshape(-1, 2)
+    turn = np.zeros(3) if onward is None else rotation_vector(_aim(shape, ahead, here, pairs))
     before, after = _lengths(here, pairs), _lengths(shape, pairs)
     path, off = [here], here
     for share in np.linspace(0.0, 1.0, WAYPOINTS)[1:]:
         straight = here + share * (shape - here)
         off = _with_sides(straight, pairs, before + share * (after - before))
         path.append(off @ rotation(share * turn).T)
-    return np.asarray(began[-1] + np.array(path))
+    poses = np.array(path)
+    return np.asarray(began.mean(axis=0) + poses - poses.mean(axis=1, keepdims=True))
 
 
 def fit(shape: Floats, here: Floats) -> tuple[Floats, float]:
@@ -79,7 +82,7 @@ def fit(shape: Floats, here: Floats) -> tuple[Floats, float]:
     return turned, float(far.sum())
 
 
-def _aim(shape: Floats, ahead: Floats, here: Floats) -> Floats:
+def _aim(shape: Floats, ahead: Floats, here: Floats, pairs: NDArray[np.int64]) -> Floats:
     """Return the rotation after which the x axis leaves the last joint through a wide gap of the net, and not
     against where it goes on.
     """
@@ -87,10 +90,13 @@ def _aim(shape: Floats, ahead: Floats, here: Floats) -> Floats:
     height = 1.0 - (2.0 * k + 1.0) / DIRECTIONS
     turned, width = math.pi * (3.0 - math.sqrt(5.0)) * k, np.sqrt(1.0 - height**2)
     ways = np.stack([width * np.cos(turned), width * np.sin(turned), height], axis=1)
-    far = np.linalg.norm(shape, axis=1)
-    others = shape[far > 1e-6] / far[far > 1e-6, None]
-    near = (ways @ others.T).max(axis=1) - ONWARD * (ways @ ahead) / max(float(np.linalg.norm(ahead)), 1e-9)
-    way = ways[np.argmin(near)]
+    net = np.concatenate([shape, 0.5 * (shape[pairs[:, 0]] + shape[pairs[:, 1]])])
+    far = np.linalg.norm(net, axis=1)
+    others = net[far > 1e-6] / far[far > 1e-6, None]
+    onward = ONWARD * (ways @ ahead) / max(float(np.linalg.norm(ahead)), 1e-9)
+    # What is more than a quarter of a turn off is out of the way.
+    near = np.maximum((ways @ others.T).max(axis=1), 0.0)
+    way = ways[np.argmin(near - onward - UNTURNED * ways[:, 0])]
     forward = _turning(way, np.array([1.0, 0.0, 0.0]))
     _, y, z = (shape @ forward.T).T
     spin = math.atan2(float(y @ here[:, 2] - z @ here[:, 1]), float(y @ here[:, 1] + z @ here[:, 2]))

@@ -20,7 +20,7 @@ Floats = NDArray[np.float64]
 
 
 class SetNet(Motion):
-    """A net whose joints are led to their places, with what hangs on them; its last ring stays."""
+    """A net whose joints are led to their places about their middle, with what hangs on them."""
 
     def __init__(self, move: moves.SetNet, sculpture: Sculpture) -> None:
         """Take hold of its joints, and find their way."""
@@ -60,7 +60,8 @@ class SetNet(Motion):
         goal = self._path[k] + (at - k) * (self._path[k + 1] - self._path[k])
         self._hands.goal[self._joints] = goal
         self._hands.goal[self._carried.joints] = self._carried.goals(goal - self._path[0])
-        self._hands.goal[self._rest] = self._bent + progress * (self._straight - self._bent)
+        carried = goal[-1] - self._path[0][-1]
+        self._hands.goal[self._rest] = self._bent + progress * (self._straight - self._bent) + carried
 
 
 def _straight_rest(held: int, sculpture: Sculpture) -> tuple[NDArray[np.int64], Floats]:

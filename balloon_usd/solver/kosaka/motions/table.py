@@ -10,6 +10,7 @@ from balloon_usd.solver.kosaka.motions.draw import Draw
 from balloon_usd.solver.kosaka.motions.weld import KosakaWeld
 from balloon_usd.solver.motions.bring import Bring
 from balloon_usd.solver.motions.gather import Gather
+from balloon_usd.solver.motions.lead_in import LeadIn
 from balloon_usd.solver.motions.let_go import LetGo
 from balloon_usd.solver.motions.press import Press
 from balloon_usd.solver.motions.set_down import SetDown
@@ -27,6 +28,7 @@ KOSAKA_MOTIONS: Motions = {
     moves.TurnFold: Wait,
     moves.Pinch: Draw,
     moves.Gather: Gather,
+    moves.LeadIn: LeadIn,
     moves.Bring: Bring,
     moves.SetNet: SetNet,
     moves.Bend: KosakaBend,

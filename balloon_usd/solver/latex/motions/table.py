@@ -8,6 +8,7 @@ from balloon_usd.operations import moves
 from balloon_usd.solver.latex.motions.bend import LatexBend
 from balloon_usd.solver.latex.motions.hold import Hold
 from balloon_usd.solver.latex.motions.inflate import Inflate
+from balloon_usd.solver.latex.motions.lead_in import LatexLeadIn
 from balloon_usd.solver.latex.motions.let_go import LatexLetGo
 from balloon_usd.solver.latex.motions.pinch import Pinch
 from balloon_usd.solver.latex.motions.set_net import LatexSetNet
@@ -29,6 +30,7 @@ LATEX_MOTIONS: Motions = {
     moves.Pinch: Pinch,
     moves.Spin: Spin,
     moves.Gather: Gather,
+    moves.LeadIn: LatexLeadIn,
     moves.Bring: Bring,
     moves.SetNet: LatexSetNet,
     moves.Bend: LatexBend,

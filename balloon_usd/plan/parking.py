@@ -1,0 +1,31 @@
+"""Where balloons lie until a step joins them: the first before the maker, the others aside."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from balloon_usd.plan.strip import Strip
+
+ELBOW = 0.3
+"""Room to either side of the first balloon for the hands, beyond its longest bubble, m."""
+APART = 0.14
+"""Distance between two balloons that lie on the same side, m."""
+
+
+def parked(strips: Mapping[str, Strip]) -> dict[str, float]:
+    """Return how far to the side (+y) each balloon lies until it is joined, by its name, m.
+
+    The first lies at 0, the others to its right and left in turn, beyond what is folded there. Balloons from
+    meshes lie where their files say, and are not among them.
+    """
+    tubes = [strip for strip in strips.values() if strip.shape is None]
+    longest = max((bubble.length for strip in tubes for bubble in strip.bubbles[:-1]), default=0.0)
+    places = {}
+    for k, strip in enumerate(tubes):
+        row, left = divmod(k - 1, 2)
+        aside = ELBOW + longest + APART * row
+        places[strip.balloon] = 0.0 if k == 0 else -aside if left else aside
+    return places
