@@ -36,6 +36,11 @@ def unit_circle(around: int) -> Reals:
     return np.stack([np.cos(theta), np.sin(theta)], axis=1)
 
 
+def polygon_share(around: int) -> float:
+    """Return the area of a regular polygon drawn about a circle, in areas of the circle."""
+    return around * math.tan(math.pi / around) / math.pi
+
+
 def cap_points(around: int, radius: float) -> Reals:
     """Return the inner points of a flat cap, ((around/4 - 1)^2, 2), m: a Coons patch of its circle."""
     grid = _cap_grid(around, 0, around)

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Any
 
+from balloon_usd.balloon.ringed_faces import polygon_share
 from balloon_usd.quality.crossing_counter import CrossingCounter
 from balloon_usd.quality.crossing_history import CrossingHistory
 from balloon_usd.quality.joints import lost_joints
@@ -100,13 +100,13 @@ def counted_over_time(plan: Plan, codes: range) -> list[int]:
 
 def _gas(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame) -> dict[str, float]:
     """Return by which share of it the volume of each bubble differs from the plan."""
-    round_share = {}
-    for (name, strip), mesh in zip(plan.strips.items(), meshes, strict=True):
-        # A polygon drawn about a circle holds more than that; the plan counts round tubes.
-        corner = math.pi / mesh.around if strip.has_tail else 0.0
-        round_share[name] = corner / math.tan(corner) if corner else 1.0
+    # The plan counts round tubes.
+    polygon = {
+        name: polygon_share(mesh.around) if strip.has_tail else 1.0
+        for (name, strip), mesh in zip(plan.strips.items(), meshes, strict=True)
+    }
     return {
-        bubble.name: round_share[bubble.balloon] * float(volume) / bubble.volume - 1.0
+        bubble.name: float(volume) / (polygon[bubble.balloon] * bubble.volume) - 1.0
         for bubble, volume in zip(plan.bubbles, frame.volume, strict=True)
         if bubble.volume > 0.0
     }

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from balloon_usd.balloon.ringed_faces import polygon_share
 from balloon_usd.operations.moves import Pinch
 from balloon_usd.plan.open_tube import OpenTube, softened
 
@@ -116,8 +117,7 @@ def unfilled_rubber(strip: Strip, around: int, start: float, volume: float) -> f
         volume: of that part (m3).
     """
     length = strip.size.length - start
-    round_volume = volume * np.pi / (around * np.tan(np.pi / around))
-    tube = OpenTube(strip.size, softened(strip.rubber), length, float(round_volume))
+    tube = OpenTube(strip.size, softened(strip.rubber), length, volume / polygon_share(around))
     return min(tube.tail, length) if tube.blown_up else length
 
 
@@ -133,7 +133,7 @@ def thin_rubber(mesh: BalloonMesh, points: NDArray[np.float32], start: float, ra
     rings = mesh.ring_start[:, None] + np.arange(mesh.around)
     corners = points[rings].astype(np.float64)
     girth = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).sum(axis=1)
-    unstressed = 2.0 * mesh.around * np.tan(np.pi / mesh.around) * radius
+    unstressed = 2.0 * np.pi * polygon_share(mesh.around) * radius
     flat = (girth / unstressed < FLAT_BELOW) & (mesh.ring_along > start)
     last = len(flat) - 1
     while last >= 0 and flat[last]:

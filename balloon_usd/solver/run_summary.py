@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from balloon_usd.balloon.air import ATMOSPHERE
+from balloon_usd.balloon.ringed_faces import polygon_share
 from balloon_usd.solver.bursting import NEAR, NO_LOAD, Bursting, WallLoad
 from balloon_usd.solver.flat_tails import FlatTails
 
@@ -99,8 +99,7 @@ class RunSummary:
         for mesh, strip in zip(self._meshes, plan.strips.values(), strict=True):
             if not strip.has_tail:
                 continue
-            # The polygon holds more than the circle that it is drawn about.
-            polygon = mesh.around * math.tan(math.pi / mesh.around) / math.pi
+            polygon = polygon_share(mesh.around)
             for bubble in _closed(strip, last.undone):
                 k = number[bubble.name]
                 has = (ATMOSPHERE + float(last.pressure[k])) * float(last.volume[k]) / polygon

@@ -5,11 +5,11 @@ Open to the tube, and with its first neck free to slide, so short a bubble runs 
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from balloon_usd.balloon.ringed_faces import polygon_share
 from balloon_usd.solver.motions.smooth import smooth
 
 if TYPE_CHECKING:
@@ -67,6 +67,5 @@ def _amount(sculpture: LatexSculpture, bubble: PlannedBubble) -> float:
     """Return the gas (mol) that a bubble has to keep."""
     scene = sculpture.scene
     n = int(scene.bodies[sculpture.body[bubble.balloon]].rings[0].around)
-    # The polygon holds more than the circle that it is drawn about.
-    volume = bubble.volume * n * math.tan(math.pi / n) / math.pi
+    volume = bubble.volume * polygon_share(n)
     return (scene.settings.atmosphere + (bubble.pressure or 0.0)) * volume / float(scene.air.molar_energy)

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
+from balloon_usd.balloon.ringed_faces import polygon_share
 from balloon_usd.balloon.tube_theory import pressure_maximum
 from balloon_usd.plan.budget import blown_in
 from balloon_usd.solver.latex.motions.tail import Tail
@@ -47,8 +47,7 @@ class Inflate(Motion):
         strip = self._sculpture.plan.strips[balloon]
         scale = strip.size.thickness / strip.size.radius
         n = scene.bodies[b].rings[0].around
-        # The polygon holds more than the circle that it is drawn about.
-        hands.pump_goal[b] = blown_in(strip) * n * math.tan(math.pi / n) / math.pi
+        hands.pump_goal[b] = blown_in(strip) * polygon_share(n)
         hands.pump_limit[b] = PUMP_RESERVE * pressure_maximum(strip.rubber).p_star * scale
         hands.grip(int(scene.joint_start[b]) + 1, self._sculpture.frame.middle)
         hands.set_drag(b, 0.0)
