@@ -32,7 +32,7 @@ class ModelTraits:
 
 MODELS: dict[ModelName, ModelTraits] = {
     "latex": ModelTraits(
-        version="latex 2",
+        version="latex 3",
         title="hyperelastic rubber and gas",
         winds=True,
         starts_blown_up=False,
@@ -41,7 +41,7 @@ MODELS: dict[ModelName, ModelTraits] = {
         burst_stretch=BURST_STRETCH,
     ),
     "kosaka": ModelTraits(
-        version="kosaka 2",
+        version="kosaka 3",
         title="springs and air particles",
         winds=False,
         starts_blown_up=True,
