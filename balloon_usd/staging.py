@@ -9,8 +9,9 @@ from balloon_usd.balloon.detail import detail_named
 from balloon_usd.origin import origin_of
 from balloon_usd.plan.meshing import mesh_of
 from balloon_usd.plan.particles import experiment_spacing, start_particles
-from balloon_usd.stage import AirDescription, MeshDescription, StageDescription
-from balloon_usd.stage import write_stage as write_described_stage
+from balloon_usd.quality.crossing_counter import CrossingCounter
+from balloon_usd.quality.walls import walls_of
+from balloon_usd.stage import AirDescription, MeshDescription, StageDescription, StageWriter
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -55,16 +56,20 @@ def write_stage(
     """
     level = detail_named(getattr(frames, "detail", "draft") if detail is None else detail)
     meshes = [mesh_of(strip, level) for strip in plan.strips.values()]
-    return write_described_stage(
-        describe_stage(plan, meshes),
-        frames,
-        folder,
-        detail=level.name,
-        flat=flat,
-        usdz=usdz,
-        look=look,
-        shot=shot,
-    )
+    description, last = describe_stage(plan, meshes), None
+    with StageWriter(
+        description, folder, detail=level.name, flat=flat, usdz=usdz, look=look, shot=shot
+    ) as writer:
+        for last in frames:
+            writer.write(last)
+        return writer.finish(facts=_facts(plan, meshes, last))
+
+
+def _facts(plan: Plan, meshes: Sequence[BalloonMesh], last: StageFrame | None) -> dict[str, int]:
+    """Return what a stage says of its last frame: the same as that of a run."""
+    if last is None or last.time_code != plan.frame_count:
+        return {}
+    return {"crossings": CrossingCounter(walls_of(plan, meshes), 1).count(last.points).count}
 
 
 def describe_stage(plan: Plan, meshes: Sequence[BalloonMesh]) -> StageDescription:
