@@ -349,8 +349,6 @@ def weld_joint_to_others(
     lane: int,
     lanes: int,
     dt: float,
-    mesh: Mesh,
-    balloons: Balloons,
     joints: Joints,
     welds: Welds,
     hands: Hands,
@@ -378,7 +376,6 @@ def weld_joint_to_others(
             here, vec3_at(joints.ring_middle, other), wp.where(other == j, 0.0, share), gap, reach
         )
     shift = warp_sum3(shift, lanes) / wp.max(float(size - 1), 1.0)
-    shift -= sticking(shift / dt, int_at(balloons.touching, int_at(mesh.vertex_balloon, first))) * dt
     if free:
         for m in range(lane, n, lanes):
             put_vec3(state.x, first + m, vec3_at(state.x, first + m) + shift)
