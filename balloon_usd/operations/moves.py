@@ -14,6 +14,19 @@ Vector = tuple[float, float, float]
 Pose = Literal["as made", "stand", "hang", "hold"]
 """How a finished figure is shown: where it was made, on the ground, on a thread, or held upright as it is."""
 
+Front = Literal["forward", "back", "left", "right", "up", "down"]
+"""Which side of a figure, as it was made, is its front."""
+
+FRONTS: dict[Front, Vector] = {
+    "forward": (-1.0, 0.0, 0.0),
+    "back": (1.0, 0.0, 0.0),
+    "left": (0.0, -1.0, 0.0),
+    "right": (0.0, 1.0, 0.0),
+    "up": (0.0, 0.0, 1.0),
+    "down": (0.0, 0.0, -1.0),
+}
+"""Directions of these sides. Figures are shown with their front to -x, where what is made first lies."""
+
 POINTS: dict[str, Vector] = {
     "up": (0.0, 0.0, 1.0),
     "down": (0.0, 0.0, -1.0),
@@ -199,6 +212,8 @@ class SetDown(Move):
     """Carry the finished figure as it is to where it stays."""
 
     pose: Pose = "stand"
+    front: Front = "forward"
+    """The side that is turned to face -x."""
 
 
 @dataclass(frozen=True)

@@ -29,7 +29,10 @@ POSE_SECONDS = 2.0
 """Carrying the finished figure to where it stays, s."""
 POSED_SECONDS = 1.0
 """How long it is shown there, s."""
+TURN_SECONDS = 4.0
+"""The same if its front is turned: the ends of a figure a metre long stay below 1.5 m/s."""
 POSING: dict[str, tuple[str, str]] = {
+    "as made": ("turn", "turned"),
     "stand": ("set down", "stand"),
     "hang": ("hang up", "hang"),
     "hold": ("hold up", "held"),
@@ -64,10 +67,11 @@ def choreograph(recipe: Recipe, strips: Mapping[str, Strip], table: RingTable) -
     set_nets(score, nets_of(recipe.piece, strips, table), table, len(recipe.steps), timed)
     score.add(LetGo(score.now, 0.0, len(recipe.steps), "let go", for_good=True))
     score.add(Hold(score.now, recipe.physics.hold, len(recipe.steps), "hold"))
-    if recipe.pose != "as made":
+    if (recipe.pose, recipe.front) != ("as made", "forward"):
         doing, done = POSING[recipe.pose]
-        score.add(SetDown(score.now, POSE_SECONDS, len(recipe.steps), doing, pose=recipe.pose))
-        score.add(Move(score.now, POSED_SECONDS, len(recipe.steps), done))
+        seconds, last = POSE_SECONDS if recipe.front == "forward" else TURN_SECONDS, len(recipe.steps)
+        score.add(SetDown(score.now, seconds, last, doing, pose=recipe.pose, front=recipe.front))
+        score.add(Move(score.now, POSED_SECONDS, last, done))
     return Choreography(tuple(score.moves), score.now)
 
 

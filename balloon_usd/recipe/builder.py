@@ -17,7 +17,7 @@ from .writer import Entries, recipe_text, step_entries
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
-    from balloon_usd.operations.moves import Pose
+    from balloon_usd.operations.moves import Front, Pose
     from balloon_usd.operations.tempo import Tempo
 
 BUILDER_FILE = "<builder>"
@@ -41,6 +41,7 @@ class RecipeBuilder:
         fps: float | None = None,
         tempo: Tempo | None = None,
         pose: Pose | None = None,
+        front: Front | None = None,
     ) -> None:
         self._units = units
         head = {"title": title or None, "source": source or None, "units": units, "fps": fps, "tempo": tempo}
@@ -48,7 +49,7 @@ class RecipeBuilder:
         self._name = name
         self._balloons: dict[str, Entries] = {}
         self._steps: list[Entries] = []
-        self._end = _given({"pose": pose})
+        self._end = _given({"pose": pose, "front": front})
         self._physics: Entries = {}
 
     def balloon(

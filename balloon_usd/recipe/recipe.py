@@ -20,7 +20,7 @@ from balloon_usd.language.problem import Complaint, Notice, Path, Problem, Recip
 from balloon_usd.language.quantities import METRES, Between, Reading, Units
 from balloon_usd.language.yaml_reader import Document, read_yaml
 from balloon_usd.operations.modifiers import Entries
-from balloon_usd.operations.moves import Pose
+from balloon_usd.operations.moves import Front, Pose
 from balloon_usd.operations.table import Step
 from balloon_usd.operations.tempo import Tempo
 from balloon_usd.operations.workpiece import Workpiece
@@ -77,6 +77,8 @@ class Recipe(Entries):
     pose: Pose = "as made"
     """How the finished figure is shown: where it was made, or put so that it stands on the ground at the
     origin, hangs from a thread, or is held with its middle at the origin."""
+    front: Front = "forward"
+    """Which side of the figure, as it is made, is its front: in the end it is turned to face -x."""
     physics: Physics = Physics()
     """How it is simulated."""
 

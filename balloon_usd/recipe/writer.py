@@ -25,6 +25,8 @@ Entries = dict[str, object]
 
 HEAD = ("name", "title", "source", "units", "fps", "tempo")
 """Keys between the format and the balloons, in this order."""
+END = ("pose", "front")
+"""Keys behind the steps, in this order."""
 
 _PLAIN_WORD = re.compile(r"[A-Za-z_][A-Za-z0-9_.+ -]*", re.ASCII)
 
@@ -47,8 +49,7 @@ def recipe_entries(
         "balloons": {name: _balloon_entries(entry, units) for name, entry in balloons.items()},
         "steps": [step_entries(step, units) for step in steps],
     }
-    if "pose" in written:
-        entries["pose"] = written["pose"]
+    entries |= {key: written[key] for key in END if key in written}
     physics = written.get("physics")
     if isinstance(physics, dict):
         entries["physics"] = _physics_entries(physics, units)

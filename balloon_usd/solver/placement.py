@@ -35,6 +35,13 @@ def turn_between(one: Floats, other: Floats) -> tuple[Floats, float]:
     return axis / size, float(np.arctan2(size, one @ other))
 
 
+def axis_and_angle(turn: Floats) -> tuple[Floats, float]:
+    """Return the unit axis (3,) and the angle (rad) of a rotation matrix (3, 3), a half turn included."""
+    axis: Floats = np.linalg.eigh(turn + turn.T)[1][:, -1]
+    skew = 0.5 * np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
+    return axis, float(np.arctan2(axis @ skew, 0.5 * (np.trace(turn) - 1.0)))
+
+
 def turn_about(axis: Floats, angle: float) -> Floats:
     """Return the rotation matrix (3, 3) about a unit axis (3,) by an angle (rad)."""
     x, y, z = axis

@@ -78,6 +78,25 @@ def test_a_figure_hangs_below_the_thread_at_the_origin():
     assert centre[2] < -5e-3
 
 
+@pytest.mark.parametrize(
+    ("front", "sign", "axis"), [("back", -1, 0), ("left", 1, 1), ("right", -1, 1), ("up", -1, 2)]
+)
+def test_a_figure_is_turned_so_that_its_front_faces_where_others_begin(front, sign, axis):
+    points, doing, _ = made(f"hold\nfront: {front}")
+    assert doing == "held"
+    before, after = (points[k] - points[k].mean(axis=0) for k in (0, -1))
+    assert after[:, 0] == pytest.approx(sign * before[:, axis], abs=4e-3)
+    if axis < 2:
+        assert after[:, 2] == pytest.approx(before[:, 2], abs=4e-3)
+
+
+def test_a_figure_that_stays_where_it_was_made_turns_about_its_middle():
+    points, doing, sculpture = made("as made\nfront: back")
+    assert doing == "turned"
+    assert sculpture.centre(points[-1]) == pytest.approx(sculpture.centre(points[0]), abs=3e-3)
+    assert np.linalg.norm(np.diff(points, axis=0), axis=2).max() * 24.0 < 1.5
+
+
 def test_a_figure_is_held_as_it_is_with_its_middle_at_the_origin():
     points, doing, _ = made("hold")
     assert doing == "held"

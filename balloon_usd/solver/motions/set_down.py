@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from balloon_usd.operations.moves import FRONTS
 from balloon_usd.solver.motions.motion import Motion
 from balloon_usd.solver.motions.smooth import smooth
-from balloon_usd.solver.placement import Placement, turn_about, turn_between
+from balloon_usd.solver.placement import Placement, axis_and_angle, turn_about, turn_between
 from balloon_usd.solver.resting import standing_direction
 
 if TYPE_CHECKING:
@@ -29,16 +30,19 @@ class SetDown(Motion):
         self._sculpture = sculpture
         points = sculpture.walls()
         self._centre = sculpture.centre(points)
-        thread = _thread(points, self._centre, sculpture)
+        facing = turn_about(*turn_between(np.array(FRONTS[move.front]), np.array(FRONTS["forward"])))
+        arms = (points - self._centre) @ facing.T
+        thread = _thread(arms, facing, self._centre, sculpture)
         down = DOWN
         if move.pose == "stand":
-            down = standing_direction(points, self._centre, DOWN)
+            down = standing_direction(arms, np.zeros(3), DOWN)
         elif move.pose == "hang":
             down = _unit(-thread)
-        self._axis, self._angle = turn_between(down, DOWN)
-        turn = turn_about(self._axis, self._angle)
-        turned = (points - self._centre) @ turn.T
-        self._way = -(self._centre + _pivot(move.pose, turned, turn @ thread))
+        tipping = turn_about(*turn_between(down, DOWN))
+        self._axis, self._angle = axis_and_angle(tipping @ facing)
+        self._way = np.zeros(3)
+        if move.pose != "as made":
+            self._way = -(self._centre + _pivot(move.pose, arms @ tipping.T, tipping @ thread))
 
     def advance(self, share: float) -> None:
         """Carry it a share of the way."""
@@ -48,10 +52,14 @@ class SetDown(Motion):
         self._sculpture.placement = Placement(turn.astype(np.float32), shift.astype(np.float32))
 
 
-def _thread(points: Floats, centre: Floats, sculpture: Sculpture) -> Floats:
-    """Return where a thread is tied, from the centre, (3,), m: where the figure stays most upright."""
+def _thread(arms: Floats, facing: Floats, centre: Floats, sculpture: Sculpture) -> Floats:
+    """Return where a thread is tied, from the centre, (3,), m: where the figure stays most upright.
+
+    `arms`: its points from its centre, (N, 3), m, turned by `facing`, (3, 3).
+    """
     joints = sculpture.frame.middle[sculpture.all_joints].astype(np.float64)
-    arms = (joints if len(joints) else points) - centre
+    if len(joints):
+        arms = (joints - centre) @ facing.T
     lengths = np.maximum(np.linalg.norm(arms, axis=1), 1e-9)
     found: Floats = arms[int(np.argmax(arms[:, 2] / lengths))]
     return found
