@@ -21,7 +21,7 @@ from balloon_usd.solver.kernels.device.barrier import warp_barrier
 from balloon_usd.solver.kernels.device.coherent_load import coherent_float, coherent_vec3
 from balloon_usd.solver.kernels.device.warp_reduce import warp_ballot, warp_sum3, warp_sum8
 from balloon_usd.solver.kernels.physics.gas import fan_gradient
-from balloon_usd.solver.kernels.physics.motion import force_on_vertex, step_of_vertex, sticking
+from balloon_usd.solver.kernels.physics.motion import LYING, force_on_vertex, step_of_vertex, sticking
 
 GRIP_MODE = 1
 LEAD_MODE = 2
@@ -202,6 +202,7 @@ def move_joint(
     stiffness = float_at(hands.hand_stiffness, j)
     free = vec3_at(hands.hand_free, j)
     touching = int_at(balloons.touching, int_at(mesh.vertex_balloon, first))
+    lies = closed > 0.0 and touching == LYING and held(mode) == 0
     # The sine of the angle between two corners.
     sine = vec2_at(mesh.ring_cos_sin, first + 1)[1]
     # Prefetch: issued early to hide its latency.
@@ -262,7 +263,7 @@ def move_joint(
     turn = wp.vec3(0.0)
     # A ring that parts nothing is never closed: hands only need its middle.
     if parts == 1:
-        if mode != CLASP:
+        if mode != CLASP and not lies:
             axes = nearest_axes(sums[3], sums[4])
             if closed > 0.0:
                 own = sums[7] - float(n) * wp.cross(c, w)
@@ -278,7 +279,10 @@ def move_joint(
             s = vec3_at(state.v, i)
         d = p - old_middle
         s += kick
-        if closed > 0.0:
+        if lies:
+            s = wp.vec3(0.0)
+            d = axes * (closed * vec2_at(mesh.ring_cos_sin, i)) - shift
+        elif closed > 0.0:
             arm = axes * (closed * vec2_at(mesh.ring_cos_sin, i))
             s += (c + arm - d) / dt - wp.cross(turn, arm)
             d = c + arm
@@ -289,8 +293,9 @@ def move_joint(
         put_vec3(state.x, i, old_middle + (d + shift))
         put_vec3(state.v, i, s)
     if lane == 0 and not idle:
-        put_vec3(joints.ring_middle, j, old_middle + (c + shift))
-        put_vec3(joints.ring_velocity, j, w + kick)
+        if not lies:
+            put_vec3(joints.ring_middle, j, old_middle + (c + shift))
+        put_vec3(joints.ring_velocity, j, wp.where(lies, wp.vec3(0.0), w + kick))
         put_vec3(hands.hand_load, j, load)
         joints.ring_axes[j] = axes
         put_vec3(joints.ring_area, j, area)
@@ -349,20 +354,24 @@ def weld_joint_to_others(
     lane: int,
     lanes: int,
     dt: float,
+    mesh: Mesh,
+    balloons: Balloons,
     joints: Joints,
     welds: Welds,
     hands: Hands,
     state: State,
 ):
     """Keep the neck of a joint beside the others of its weld, each pair at least its gap (m) and at most its
-    reach (m) apart; write how far it moves (m). `idle`: take part in the shuffles of the warp, write nothing.
+    reach (m) apart, unless it lies; write how far it moves (m). `idle`: take part in the shuffles of the warp,
+    write nothing.
     """
     g = int_at(welds.joint_weld, j) - 1
     first = int_at(joints.joint_first, j)
     n = int_at(joints.joint_around, j)
     mine = float_at(joints.joint_mass, j)
     here = vec3_at(joints.ring_middle, j)
-    free = g >= 0 and held(int_at(hands.hand, j)) == 0 and not idle
+    lies = int_at(balloons.touching, int_at(mesh.vertex_balloon, first)) == LYING
+    free = g >= 0 and held(int_at(hands.hand, j)) == 0 and not lies and not idle
     g = wp.max(g, 0)
     size = wp.where(free, int_at(welds.weld_size, g), 0)
     gap = float_at(welds.weld_gap, g)

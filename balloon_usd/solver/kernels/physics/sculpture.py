@@ -142,7 +142,7 @@ def substep_kernel(
             )  # fmt: skip
             move_vertices(threads, own, dt, mesh, balloons, rubber, chambers, hands, contacts, forces, state)
             if own.welds > 0:
-                weld_joints(launch, threads, own, joints, welds, hands, state)
+                weld_joints(launch, threads, own, mesh, balloons, joints, welds, hands, state)
             goal += blocks
             sculpture_barrier(sculptures.barrier_counts, w, blocks, goal, lane)
         if wp.static(resident_bytes > 0):
