@@ -362,8 +362,8 @@ def weld_joint_to_others(
     state: State,
 ):
     """Keep the neck of a joint beside the others of its weld, each pair at least its gap (m) and at most its
-    reach (m) apart, unless it lies; write how far it moves (m). `idle`: take part in the shuffles of the warp,
-    write nothing.
+    reach (m) apart, unless it lies; write how far it moves (m). `idle`: take part in the shuffles of the
+    warp, write nothing.
     """
     g = int_at(welds.joint_weld, j) - 1
     first = int_at(joints.joint_first, j)
