@@ -140,13 +140,17 @@ class Hands:
         """Let the walls of these balloons touch from now on."""
         self.touching[list(balloons)] = 1
 
+    def stop_touching(self, balloons: Iterable[int]) -> None:
+        """Let the walls of these balloons touch nothing from now on."""
+        self.touching[list(balloons)] = 0
+
     def lay(self, balloons: list[int]) -> None:
         """Let the walls of these balloons go on touching what they touch, and nothing else."""
         self.touching[balloons] = np.where(self.touching[balloons] > 0, LYING_MODE, 0)
 
     def give_up(self, balloons: Iterable[int]) -> None:
         """Leave balloons alone whose run has failed."""
-        self.touching[list(balloons)] = 0
+        self.stop_touching(balloons)
 
     def set_finger(self, balloon: int, share: Floats, **finger: Any) -> None:
         """Put a finger on a balloon for the coming frame.

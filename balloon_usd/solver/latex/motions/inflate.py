@@ -21,6 +21,10 @@ PUMP_TIME = 0.985
 """Share of the time given to inflating in which the pump has done its work."""
 PUMP_RAMP = 0.2
 """Share of that time in which the pump starts, and stops."""
+BIRTH = 0.1
+"""Share of that time in which the first bulge grows: it leans over the knot, and its walls may touch, which
+costs 30 % of the speed of a run; the hand keeps the tail taut.
+"""
 SOFTENING_SECONDS = 0.1
 """Time in which stretched rubber softens, s: longer than the waves that hands send through a heavy mesh."""
 
@@ -36,6 +40,8 @@ class Inflate(Motion):
         sculpture.hands.set_softening(self._body, 0.0)
         shape = sculpture.plan.strips[move.balloon].shape
         self._tail: Tail | None = None
+        self._touches = False
+        """Whether its walls touch for this only."""
         if shape is None:
             self._hold_tube(move.balloon)
             self._tail = Tail(sculpture, move.balloon)
@@ -51,6 +57,9 @@ class Inflate(Motion):
         hands.pump_limit[b] = PUMP_RESERVE * pressure_maximum(strip.rubber).p_star * scale
         hands.grip(int(scene.joint_start[b]) + 1, self._sculpture.frame.middle)
         hands.set_drag(b, 0.0)
+        if not hands.touching[b]:
+            self._touches = True
+            hands.touch([b])
 
     def _pump_shape(self, shape: Shaped) -> None:
         scene, hands, b = self._sculpture.scene, self._sculpture.hands, self._body
@@ -68,7 +77,11 @@ class Inflate(Motion):
         flow = hands.pump_goal[b] / (PUMP_TIME * (1.0 - PUMP_RAMP) * self._seconds)
         hands.pump_flow[b] = flow * max(gentle, 0.0)
         if self._tail is not None:
-            self._tail.lead(float(hands.pump_flow[b]))
+            taut = min(max((PUMP_RAMP - share) / (PUMP_RAMP - BIRTH), 0.0), 1.0)
+            self._tail.lead(float(hands.pump_flow[b]), taut)
+        if self._touches and share >= BIRTH:
+            self._touches = False
+            hands.stop_touching([b])
         if share >= 1.0:
             self._take_pump_off()
 
