@@ -138,6 +138,8 @@ class Score:
     moves: list[Move] = field(default_factory=list)
     pieces: DisjointSets[str] = field(default_factory=DisjointSets)
     """Balloons that are joined so far; the root is the one that was not led in."""
+    joints: DisjointSets[int] = field(default_factory=DisjointSets)
+    """Rings that have become one joint so far."""
 
     def add(self, move: Move) -> None:
         """Write a move behind those that are there."""
@@ -244,8 +246,10 @@ class Score:
 
     def weld(self, rings: tuple[int, ...], turns: float, text: str, index: int) -> None:
         """Twist joints that lie together into one."""
+        free = not self.blown_up and self._can_turn(rings)
+        self.joints.merge(rings)
         self.add(Weld(self.now, 0.0, index, text, rings=rings, turns=turns))
-        if not self.blown_up and self._can_turn(rings):
+        if free:
             first, last = sorted(rings)
             seconds = self.pace.turning_seconds(turns, self._reach(first, last))
             self.add(TurnFold(self.now, seconds, index, text, rings=(first, last), turns=turns))
@@ -254,13 +258,23 @@ class Score:
 
     def _can_turn(self, rings: tuple[int, ...]) -> bool:
         """Tell whether joints of one balloon come together, with a fold between them that is long enough to
-        be turned: the wall of a short one would fold over at its ends.
+        be turned: the wall of a short one would fold over at its ends. A loop would go through what is folded
+        where it hangs.
         """
         if len(rings) != 2 or not self._same_balloon(*rings):
             return False
         bubbles = self._between(*sorted(rings))
+        if len(bubbles) == 1 and self._folded_at(rings):
+            return False
         shortest = LEAST_TURNED if len(bubbles) > 1 else 2.0 * LEAST_TURNED
         return min(bubble.length / bubble.width for bubble in bubbles) >= shortest
+
+    def _folded_at(self, rings: tuple[int, ...]) -> bool:
+        """Tell whether a fold hangs already where one of the rings is."""
+        here = {self.joints.root(ring) for ring in rings}
+        welds = (move.rings for move in self.moves if isinstance(move, Weld))
+        folds = (weld for weld in welds if len(weld) == 2 and self._same_balloon(*weld))
+        return any(self.joints.root(fold[0]) in here for fold in folds)
 
     def _reach(self, first: int, last: int) -> float:
         """Return about how far what is folded between two rings reaches from the axis of its turn, m:

@@ -19,6 +19,16 @@ steps:
   - lock: [left_ear, right_ear]{seconds}
 physics: {{model: {model}}}
 """
+LOOPS = """
+format: 1
+name: loops
+units: cm
+balloons: {main: {size: 260, tail: 10}}
+steps:
+  - bubbles: {heart: 5}
+  - loop: {left: 22}
+  - loop: {right: 22}
+"""
 
 
 def head(tempo="", turns="", seconds="", model="latex"):
@@ -57,6 +67,11 @@ def test_no_frame_sees_more_of_a_turn_than_the_tempo_allows(tempo, turns):
 
 def test_three_turns_take_as_long_as_by_hand():
     assert [move.seconds for move in turning(head())] == pytest.approx([1.5] * 4)
+
+
+def test_a_loop_does_not_turn_through_another_that_hangs_at_its_joint():
+    moves = plan(Recipe.parse(LOOPS)).choreography.moves
+    assert [move.text for move in moves if isinstance(move, TurnFold)] == ["loop twist: left"]
 
 
 def test_hands_go_slower_at_show_and_faster_when_brisk():

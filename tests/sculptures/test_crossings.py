@@ -36,6 +36,17 @@ steps:
   - lock: {joints: [handle.end, first_loop.end, second_loop.end, third_loop.end]}
   - rest: blade
 """
+TUBE = """format: 1
+name: tube
+units: cm
+balloons:
+  main: {size: 260, length: 24, tail: 6}
+steps:
+  - bubbles: {front: 10}
+  - rest: tail
+"""
+FIRST_BULGE_FRAMES = 36
+"""Frames at 24 a second in which the first bulge of that tube grows."""
 
 
 def crossings_at_the_end(text: str, folder: Path) -> Crossings:
@@ -55,3 +66,12 @@ def test_bubbles_that_are_pressed_together_harder_than_20_kpa_do_not_cross(tmp_p
 def test_the_crease_of_a_sharp_fold_does_not_cross_itself(tmp_path):
     found = crossings_at_the_end(FOLDED, tmp_path)
     assert found.count == 0, found.pairs
+
+
+def test_the_first_bulge_of_a_balloon_crosses_neither_the_knot_nor_the_flat_tail():
+    planned = plan(Recipe.parse(TUBE))
+    simulation = simulate_many([planned], device="cpu")
+    counter = CrossingCounter(walls_of(planned, simulation.meshes[0]), FIRST_BULGE_FRAMES)
+    for frame, _ in zip(simulation.frames(), range(FIRST_BULGE_FRAMES), strict=False):
+        found = counter.count(frame[0].points)
+        assert found.count == 0, found.pairs
