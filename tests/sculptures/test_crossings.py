@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections import deque
 from pathlib import Path
 
+import pytest
+
 from balloon_usd.plan import plan
 from balloon_usd.quality.crossing_counter import CrossingCounter
 from balloon_usd.quality.pierced_walls import Crossings
@@ -40,9 +42,9 @@ TUBE = """format: 1
 name: tube
 units: cm
 balloons:
-  main: {size: 260, length: 24, tail: 6}
+  main: {{size: 260, {blown}}}
 steps:
-  - bubbles: {front: 10}
+  - bubbles: {{front: 10}}
   - rest: tail
 """
 FIRST_BULGE_FRAMES = 36
@@ -68,8 +70,9 @@ def test_the_crease_of_a_sharp_fold_does_not_cross_itself(tmp_path):
     assert found.count == 0, found.pairs
 
 
-def test_the_first_bulge_of_a_balloon_crosses_neither_the_knot_nor_the_flat_tail():
-    planned = plan(Recipe.parse(TUBE))
+@pytest.mark.parametrize("blown", ["length: 24, tail: 6", "inflated: 22"])
+def test_the_first_bulge_of_a_balloon_crosses_neither_the_knot_nor_the_flat_tail(blown):
+    planned = plan(Recipe.parse(TUBE.format(blown=blown)))
     simulation = simulate_many([planned], device="cpu")
     counter = CrossingCounter(walls_of(planned, simulation.meshes[0]), FIRST_BULGE_FRAMES)
     for frame, _ in zip(simulation.frames(), range(FIRST_BULGE_FRAMES), strict=False):

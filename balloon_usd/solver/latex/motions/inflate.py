@@ -21,8 +21,10 @@ PUMP_TIME = 0.985
 """Share of the time given to inflating in which the pump has done its work."""
 PUMP_RAMP = 0.2
 """Share of that time in which the pump starts, and stops."""
-BIRTH = 0.1
-"""Share of that time in which the first bulge grows: it leans over the knot, and its walls may touch, which
+RAMP_SECONDS = 0.7
+"""Time that it takes for that at least, s, if there is as much: the first bulge jumps out of a tube."""
+BIRTH = 0.5
+"""Share of the start in which the first bulge grows: it leans over the knot, and its walls may touch, which
 costs 30 % of the speed of a run; the hand keeps the tail taut.
 """
 SOFTENING_SECONDS = 0.1
@@ -35,6 +37,8 @@ class Inflate(Motion):
     def __init__(self, move: moves.Inflate, sculpture: LatexSculpture) -> None:
         """Put the pump on."""
         self._sculpture, self._seconds = sculpture, move.seconds
+        self._ramp = min(max(PUMP_RAMP, RAMP_SECONDS / move.seconds), 0.5)
+        """Share of its time in which the pump starts, and stops."""
         self._body = sculpture.body[move.balloon]
         # What the mesh's artificial inertia adds to the stretch behind the front must not soften it.
         sculpture.hands.set_softening(self._body, 0.0)
@@ -73,13 +77,13 @@ class Inflate(Motion):
     def advance(self, share: float) -> None:
         """Pump: it starts and stops gently, as a tube is pushed along by its own front."""
         hands, b = self._sculpture.hands, self._body
-        gentle = min(1.0, share / PUMP_RAMP, (1.0 - share) / PUMP_RAMP)
-        flow = hands.pump_goal[b] / (PUMP_TIME * (1.0 - PUMP_RAMP) * self._seconds)
+        gentle = min(1.0, share / self._ramp, (1.0 - share) / self._ramp)
+        flow = hands.pump_goal[b] / (PUMP_TIME * (1.0 - self._ramp) * self._seconds)
         hands.pump_flow[b] = flow * max(gentle, 0.0)
         if self._tail is not None:
-            taut = min(max((PUMP_RAMP - share) / (PUMP_RAMP - BIRTH), 0.0), 1.0)
+            taut = min(max((1.0 - share / self._ramp) / (1.0 - BIRTH), 0.0), 1.0)
             self._tail.lead(float(hands.pump_flow[b]), taut)
-        if self._touches and share >= BIRTH:
+        if self._touches and share >= BIRTH * self._ramp:
             self._touches = False
             hands.stop_touching([b])
         if share >= 1.0:
