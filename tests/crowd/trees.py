@@ -69,7 +69,7 @@ class Tree:
 
 def tree(seed: int) -> str:
     """Return a recipe of one to three balloons, the same for the same seed."""
-    growing = Tree(Random(seed))  # noqa: S311
+    growing = Tree(Random(seed))
     names = ["red", "yellow", "blue"][: growing.random.choices((1, 2, 3), (6, 3, 1))[0]]
     blown = {name: growing.balloon(name) for name in names}
     balloons = "\n".join(

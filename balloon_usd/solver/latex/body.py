@@ -63,9 +63,11 @@ TIP_THICKENING = 0.5
 """Wall is thicker by this share at the tip, where the former was dipped deepest."""
 TIP_LENGTH = 1.0
 """Length over which that thickening fades, in R0."""
-CONTACT_OFFSET = 0.45
-"""Distance at which walls begin to press, in R0, 2 mm for a 260: twice the height of a bubble's arc over a
-face in `draft`, so that edges of pressed bubbles do not cross.
+CONTACT_OFFSET = 0.4
+"""Distance at which walls begin to press, in R0, 2 mm for a 260."""
+ARC_OFFSET = 1.75
+"""Distance besides, in heights of a bubble's arc over its edges: edges of two pressed bubbles would cross in
+a coarse mesh (2.9 mm together for a 260 in `draft`, 2.2 mm in `preview`).
 """
 START_TAPER = 1.6
 """Slope at which the flat tube widens beside the knot at the start (m per m)."""
@@ -109,6 +111,7 @@ def tube_body(
     wall[: borders[0]] *= LIP_THICKNESS
     neck = NECK_RADIUS * radius
     bulged = maxwell_state(rubber).bulged
+    arc = bulged.b * (1.0 - math.cos(math.pi / n))
     place = _without_necks(mesh, rubber, radius, joints, neck * math.cos(math.pi / n), short or {})
     ring_of = _nearest(mesh.ring_along, mesh.along)
     return LatexBody(
@@ -119,7 +122,7 @@ def tube_body(
         rubber=rubber,
         worked=seed * float(rubber.energy(bulged.a, bulged.b)),
         radius=radius,
-        contact_offset=CONTACT_OFFSET * radius,
+        contact_offset=(CONTACT_OFFSET + ARC_OFFSET * arc) * radius,
         along=mesh.along,
         mesh_rings=tuple((int(f), n) for f in mesh.ring_start),
         vertex_ring=ring_of,
