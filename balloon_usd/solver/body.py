@@ -62,6 +62,8 @@ class Body:
     """Segments before the first bubble."""
     contact_offset: float | None = None
     """Distance at which its walls begin to press, m; None for that of the scene."""
+    contact_arc: float = 0.0
+    """What that distance grows by with the area of the face that is touched, 1/m."""
     place: NDArray[np.float32] | None = None
     """Unstressed place of every vertex, (V, 3) float32, m, where it is not told by `along`."""
 

@@ -38,6 +38,7 @@ def mesh_arrays(scene: FlatBodies, host: Arrays) -> None:
     host["contact_offset"] = np.array(
         [offset if b.contact_offset is None else b.contact_offset for b in bodies], dtype=np.float32
     )
+    host["contact_arc"] = np.array([b.contact_arc for b in bodies], dtype=np.float32)
     host["balloon_radius"] = np.array([b.radius for b in bodies], dtype=np.float32)
     for name, value in (
         ("gravity", scene.settings.gravity),

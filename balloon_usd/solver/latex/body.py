@@ -65,9 +65,10 @@ TIP_LENGTH = 1.0
 """Length over which that thickening fades, in R0."""
 CONTACT_OFFSET = 0.4
 """Distance at which walls begin to press, in R0, 2 mm for a 260."""
-ARC_OFFSET = 1.75
-"""Distance besides, in heights of a bubble's arc over its edges: edges of two pressed bubbles would cross in
-a coarse mesh (2.9 mm together for a 260 in `draft`, 2.2 mm in `preview`).
+ARC_OFFSET = 1.35
+"""Distance besides, in heights of a bubble's arc over the edges of the face that is touched: edges of two
+pressed bubbles would cross in a coarse mesh (2.8 mm together for a 260 in `draft`, 2.1 mm in `preview`). By
+the face, because a small one, as in a neck, cannot bear the couple of a force that acts from afar.
 """
 START_TAPER = 1.6
 """Slope at which the flat tube widens beside the knot at the start (m per m)."""
@@ -111,7 +112,6 @@ def tube_body(
     wall[: borders[0]] *= LIP_THICKNESS
     neck = NECK_RADIUS * radius
     bulged = maxwell_state(rubber).bulged
-    arc = bulged.b * (1.0 - math.cos(math.pi / n))
     place = _without_necks(mesh, rubber, radius, joints, neck * math.cos(math.pi / n), short or {})
     ring_of = _nearest(mesh.ring_along, mesh.along)
     return LatexBody(
@@ -122,7 +122,8 @@ def tube_body(
         rubber=rubber,
         worked=seed * float(rubber.energy(bulged.a, bulged.b)),
         radius=radius,
-        contact_offset=(CONTACT_OFFSET + ARC_OFFSET * arc) * radius,
+        contact_offset=CONTACT_OFFSET * radius,
+        contact_arc=ARC_OFFSET / (8.0 * bulged.b * radius),
         along=mesh.along,
         mesh_rings=tuple((int(f), n) for f in mesh.ring_start),
         vertex_ring=ring_of,

@@ -72,6 +72,9 @@ class Balloons:
     contact_offset: wp.array[float] = array(
         "balloons", unit="m", meaning="distance at which its walls begin to press"
     )
+    contact_arc: wp.array[float] = array(
+        "balloons", unit="1/m", meaning="growth of that distance with the area of the face that is touched"
+    )
     touching: wp.array[int] = array("balloons", meaning="1: its walls may touch anything; 2: what they touch")
 
 

@@ -210,7 +210,9 @@ class Seeker:
     depth: float
     """Deepest overlap taken for a contact on its side, m."""
     offset: float
-    """Distance at which walls begin to press on it, m."""
+    """Distance at which the smallest faces begin to press on it, m."""
+    arc: float
+    """Growth of that distance with the area of a face, 1/m."""
     reach: float
     """Distance within which it looks at the middles of quads, m."""
 
@@ -224,6 +226,7 @@ def seeker_of(i: int, touch: Touch, mesh: Mesh, balloons: Balloons):
     seeker.place = mesh.vertex_place[i]
     seeker.apart = touch.apart * balloons.balloon_radius[seeker.balloon]
     seeker.offset = balloons.contact_offset[seeker.balloon]
+    seeker.arc = balloons.contact_arc[seeker.balloon]
     return seeker
 
 
@@ -269,7 +272,7 @@ def distance_of_wall(
         face = a / wp.max(size, 1.0e-12)
         height = wp.dot(d, face)
         limit = wp.min(seeker.depth, DEPTH_LIMIT * float_at(contacts.ring_radius, int_at(mesh.quad_ring, q)))
-        near = height > -limit and height < seeker.offset + touch.margin
+        near = height > -limit and height < seeker.offset + seeker.arc * size + touch.margin
         if wp.dot(face, seeker.normal) < FACING and near:
             beside = SIDE_SLIP * wp.sqrt(size)
             distance = distance_beside(q, face, beside, seeker.position, mesh.quads, state.x)
@@ -405,7 +408,7 @@ def find_walls(
     seeker.position = state.x[i]
     seeker.normal = wp.normalize(outward)
     seeker.depth = DEPTH_LIMIT * contacts.ring_radius[mesh.vertex_ring[i]]
-    seeker.reach = REACH * wp.sqrt(size) + seeker.offset + touch.margin
+    seeker.reach = REACH * wp.sqrt(size) + seeker.offset + seeker.arc * size + touch.margin
     contacts.normal[i] = seeker.normal
     contacts.area[i] = size
     own = contacts.vertex_own[i]
@@ -529,7 +532,8 @@ def limits_of_pair(
     )
     crowd = wp.max(CROWD * float(int_at(contacts.hit_count, q)), 1.0)
     balloon = int_at(mesh.vertex_balloon, i)
-    offset = float_at(balloons.contact_offset, balloon)
+    face = wp.length(vec3_at(contacts.quad_area, q))
+    offset = float_at(balloons.contact_offset, balloon) + float_at(balloons.contact_arc, balloon) * face
     most_pressure = wp.max(touch.pressure, FIRM * pressure_behind(i, q, mesh, segment_pressure))
     stiffness = wp.min(
         most_pressure * float_at(contacts.area, i) / offset, STABLE * lightest / (dt * dt * crowd)
