@@ -37,7 +37,7 @@ class Inflate(Motion):
     def __init__(self, move: moves.Inflate, sculpture: LatexSculpture) -> None:
         """Put the pump on."""
         self._sculpture, self._seconds = sculpture, move.seconds
-        self._ramp = min(max(PUMP_RAMP, RAMP_SECONDS / move.seconds), 0.5)
+        self._ramp = PUMP_RAMP
         """Share of its time in which the pump starts, and stops."""
         self._body = sculpture.body[move.balloon]
         # What the mesh's artificial inertia adds to the stretch behind the front must not soften it.
@@ -47,6 +47,7 @@ class Inflate(Motion):
         self._touches = False
         """Whether its walls touch for this only."""
         if shape is None:
+            self._ramp = min(max(PUMP_RAMP, RAMP_SECONDS / move.seconds), 0.5)
             self._hold_tube(move.balloon)
             self._tail = Tail(sculpture, move.balloon)
         else:
