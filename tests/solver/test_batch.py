@@ -6,9 +6,7 @@ import numpy as np
 import pytest
 
 from balloon_usd.balloon.detail import detail_named
-from balloon_usd.plan import plan as plan_of
 from balloon_usd.plan.meshing import mesh_of
-from balloon_usd.recipe import Recipe
 from balloon_usd.solver.batch import Batch, snapshots_of
 from balloon_usd.solver.errors import SimulationFailed
 from balloon_usd.solver.frame import Frame
@@ -16,33 +14,9 @@ from balloon_usd.solver.readback import Readback
 from balloon_usd.solver.simulation import model_named, simulate_many
 from balloon_usd.solver.snapshot import frames_of
 from tests.solver.bits import bits
+from tests.solver.small_plan import small
 
-RECIPE = """
-format: 1
-name: small
-units: cm
-fps: 12
-balloons:
-  main: {{size: 260, length: {length}, tail: {tail}, color: red}}
-steps:
-  - {kind}: {{head: {head}}}
-    seconds: {seconds:g}
-  - rest: tail
-physics: {{hold: 0.2, {physics}}}
-"""
 SUBSTEPS = {"latex": 100, "kosaka": 12}
-
-
-def small(head=6.0, kind="bubbles", physics="model: latex", seconds=1.0, length=9, tail=3):
-    words = {
-        "head": head,
-        "kind": kind,
-        "physics": physics,
-        "seconds": seconds,
-        "length": length,
-        "tail": tail,
-    }
-    return plan_of(Recipe.parse(RECIPE.format(**words)))
 
 
 def failing():

@@ -7,37 +7,10 @@ from itertools import cycle
 import numpy as np
 import pytest
 
-from balloon_usd.plan import plan
-from balloon_usd.recipe import Recipe
 from balloon_usd.solver.frame import Frame
 from balloon_usd.solver.simulation import simulate_many
 from tests.solver.bits import bits
-
-RECIPE = """
-format: 1
-name: small
-units: cm
-fps: 12
-balloons:
-  main: {{size: 260, length: {length}, tail: {tail}, color: red}}
-steps:
-  - {kind}: {{head: {head}}}
-    seconds: {seconds}
-  - rest: tail
-physics: {{hold: 0.2, {physics}}}
-"""
-
-
-def small(head=6, kind="bubbles", physics="model: latex", seconds=1.0, length=9, tail=3):
-    words = {
-        "head": head,
-        "kind": kind,
-        "physics": physics,
-        "seconds": seconds,
-        "length": length,
-        "tail": tail,
-    }
-    return plan(Recipe.parse(RECIPE.format(**words)))
+from tests.solver.small_plan import small
 
 
 def three():
