@@ -64,6 +64,8 @@ class Hands:
         self.radius_goal = self.radius.copy()
         self.touching = np.zeros(len(scene.bodies), dtype=np.int32)
         """Balloons whose walls may touch something: those that have been folded."""
+        self.contact = self._touched = False
+        """Whether walls are searched in the frame that was uploaded, and whether any could touch in it."""
         self.fingers = scene.fingers.numpy().copy()
         self.drag = scene.drag.numpy().copy()
         """Air drag of every balloon, 1/s."""
@@ -220,6 +222,9 @@ class Hands:
             ValueError: more welds than the capacity.
         """
         self.settle()
+        # Once more after the last wall could touch: the search takes away what it touched.
+        before, self._touched = self._touched, bool(self.touching.any())
+        self.contact = self._touched or before
         if self._welded:
             self._upload_welds()
             self._welded = False

@@ -127,7 +127,7 @@ class KosakaModel(Model):
         handled = self.hands.pressing or bool(self.hands.mode.any())
         self._frames += 1
         self.stepper.advance(
-            contact=bool(self.hands.touching.any()),
+            contact=self.hands.contact,
             fingers=self.hands.pressing,
             searches=self._searches(end - begin, handled=handled),
             rings=self.clusters.closed or bool(self.hands.mode.any() or self.hands.radius_goal.any()),

@@ -99,8 +99,6 @@ class LatexModel(Model):
         self._leak = Leak(plans, self.scene, self.hands, runs)
         self._reached = 0.0
         """End of the latest frame, s."""
-        self._contact = self._touching = False
-        """Whether walls could touch in the latest frame, and whether they are still to."""
         self._inflated: list[int] = []
         """Balloons that had just got their gas when the state was read back."""
         performers = [Performer(sculpture, LATEX_MOTIONS) for sculpture in self._sculptures]
@@ -118,16 +116,13 @@ class LatexModel(Model):
         self._leak.advance(begin, end, self._state)
         self._struts.put(middle)
         self.hands.upload()
-        # Once more after the last wall may touch: the search takes away what it touched.
-        before, self._touching = self._touching, bool(self.hands.touching.any())
-        self._contact = self._touching or before
-        self.stepper.advance(contact=self._contact, fingers=self.hands.pressing)
+        self.stepper.advance(contact=self.hands.contact, fingers=self.hands.pressing)
         self.hands.arrived()
         self._start_readback()
 
     def _start_readback(self) -> None:
         """Start reading back the present state, from which frames are made."""
-        self.stepper.start_readback(self._readback, contact=self._contact)
+        self.stepper.start_readback(self._readback, contact=self.hands.contact)
 
     def read_back(self) -> None:
         """Wait for the read-back of the latest state: what follows is of that state, until the next

@@ -17,8 +17,6 @@ if TYPE_CHECKING:
 
 TAIL_STIFFNESS = 200.0
 """Stiffness of the hand that leads the flat tail while the balloon is blown up, N/m: soft, it only steers."""
-
-
 TAUT = 1.5
 """Pull of that hand over the thrust of the gas on the end of the flat tube: when the first bulge grows it
 drives the tube ahead of it faster than the flow says, and without the pull the tube telescopes (4.8 mm deep
