@@ -35,6 +35,7 @@ class Stepper:
         values: dict[str, Any] = {"dt": dt, "frame_seconds": dt * substeps, "air": scene.air}
         values["travel_limit"] = travel_limit(dt * substeps)
         self._search_every = max(1, round(SEARCH_SECONDS / dt))
+        scene.touch.ahead = self._search_every * dt
         self._launcher = Launcher(scene, values)
         self._launch = self._launcher.launch
         self._search = WallSearch(self._launcher)

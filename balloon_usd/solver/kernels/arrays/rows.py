@@ -160,6 +160,8 @@ class Touch:
     """Least contact pressure where the distance at which walls press is used up, Pa."""
     margin: float
     """Further distance within which walls are watched between two searches, m."""
+    ahead: float
+    """Time for which a wall that moves is watched farther, s: that between two searches."""
     apart: float
     """Unstressed distance within one bubble, in R0, within which its wall never meets itself."""
 

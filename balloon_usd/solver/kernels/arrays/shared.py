@@ -140,10 +140,13 @@ class Contacts:
     area: wp.array[float] = array("vertices", unit="m2", meaning="share of the wall's area")
     quad_middle: wp.array[wp.vec3] = array("quads", unit="m", meaning="its middle")
     quad_area: wp.array[wp.vec3] = array("quads", unit="m2", meaning="its vector area, outward")
-    chunk_low: wp.array[wp.vec3] = array(
-        "chunks", unit="m", meaning="lowest coordinates of its quads' middles"
+    quad_reach: wp.array[float] = array(
+        "quads", unit="m", meaning="distance from its middle within which it may touch a vertex"
     )
-    chunk_high: wp.array[wp.vec3] = array("chunks", unit="m", meaning="highest coordinates of them")
+    chunk_low: wp.array[wp.vec3] = array(
+        "chunks", unit="m", meaning="lowest coordinates of what its quads reach"
+    )
+    chunk_high: wp.array[wp.vec3] = array("chunks", unit="m", meaning="highest coordinates of that")
     ring_radius: wp.array[float] = array("rings", unit="m", meaning="girth over 2 pi")
     vertex_own: wp.array[wp.vec2i] = array("vertices", meaning="run of quads about it that it never touches")
     target: wp.array2d[int] = array("vertices", TARGETS, meaning="quads that it may touch; -1 for none")

@@ -34,8 +34,6 @@ DEPTH_LIMIT = wp.constant(0.6)
 """Deepest overlap taken for a contact, in local tube radii: beyond it the other wall is the tube's far
 side.
 """
-REACH = wp.constant(0.85)
-"""Search reach in lengths of a quad's side: more than half its diagonal."""
 SIDE_SLIP = wp.constant(0.25)
 """How far beside a quad, in lengths of its side, its plane still holds a vertex."""
 STICK = wp.constant(0.5)
@@ -63,35 +61,44 @@ NORMAL_DAMPING = wp.constant(0.3)
 
 
 @wp.kernel
-def chunk_surface(
-    quads: wp.array[wp.vec4i],
-    chunk_quad: wp.array[int],
-    x: wp.array[wp.vec3],
-    quad_middle: wp.array[wp.vec3],
-    quad_area: wp.array[wp.vec3],
-    chunk_low: wp.array[wp.vec3],
-    chunk_high: wp.array[wp.vec3],
-    hit_count: wp.array[int],
-):
-    """Write the middle (m) and the vector area (m2) of every quad, and the lowest and the highest coordinates
-    (m) of the middles of a chunk of quads; nothing touches them yet. A warp of lanes each on a GPU.
+def chunk_surface(touch: Touch, mesh: Mesh, balloons: Balloons, contacts: Contacts, state: State):
+    """Write the middle (m), the vector area (m2) and the reach (m) of every quad, and the lowest and the
+    highest coordinates (m) of what the quads of a chunk reach; nothing touches them yet. A warp of lanes each
+    on a GPU.
     """
     chunk, lane = wp.tid()
     high = wp.vec3(-FAR)
     low = wp.vec3(FAR)
-    for q in range(chunk_quad[chunk] + lane, chunk_quad[chunk + 1], wp.block_dim()):
-        c = quads[q]
-        middle = 0.25 * (x[c[0]] + x[c[1]] + x[c[2]] + x[c[3]])
-        quad_middle[q] = middle
-        quad_area[q] = 0.5 * wp.cross(x[c[2]] - x[c[0]], x[c[3]] - x[c[1]])
-        hit_count[q] = 0
-        high = wp.max(high, middle)
-        low = wp.min(low, middle)
+    for q in range(mesh.chunk_quad[chunk] + lane, mesh.chunk_quad[chunk + 1], wp.block_dim()):
+        c = mesh.quads[q]
+        x0 = state.x[c[0]]
+        x1 = state.x[c[1]]
+        x2 = state.x[c[2]]
+        x3 = state.x[c[3]]
+        middle = 0.25 * (x0 + x1 + x2 + x3)
+        area = 0.5 * wp.cross(x2 - x0, x3 - x1)
+        size = wp.length(area)
+        going = 0.25 * (state.v[c[0]] + state.v[c[1]] + state.v[c[2]] + state.v[c[3]])
+        around = (
+            SIDE_SLIP * wp.sqrt(size)
+            + balloons.contact_arc[mesh.quad_balloon[q]] * size
+            + touch.ahead * wp.length(going)
+        )
+        corner = wp.max(
+            wp.max(wp.length(x0 - middle), wp.length(x1 - middle)),
+            wp.max(wp.length(x2 - middle), wp.length(x3 - middle)),
+        )
+        contacts.quad_middle[q] = middle
+        contacts.quad_area[q] = area
+        contacts.quad_reach[q] = corner + around
+        contacts.hit_count[q] = 0
+        high = wp.max(high, wp.max(wp.max(x0, x1), wp.max(x2, x3)) + wp.vec3(around))
+        low = wp.min(low, wp.min(wp.min(x0, x1), wp.min(x2, x3)) - wp.vec3(around))
     high = warp_max3(high)
     low = -warp_max3(-low)
     if lane == 0:
-        chunk_low[chunk] = low
-        chunk_high[chunk] = high
+        contacts.chunk_low[chunk] = low
+        contacts.chunk_high[chunk] = high
 
 
 @wp.func
@@ -205,6 +212,8 @@ class Seeker:
     """Unstressed distance within which the wall of its bubble never meets it, m."""
     position: wp.vec3
     """m"""
+    velocity: wp.vec3
+    """m/s"""
     normal: wp.vec3
     """Its outward unit normal."""
     depth: float
@@ -214,7 +223,7 @@ class Seeker:
     arc: float
     """Growth of that distance with the area of a face, 1/m."""
     reach: float
-    """Distance within which it looks at the middles of quads, m."""
+    """Distance within which it looks at what quads reach, m."""
 
 
 @wp.func
@@ -258,6 +267,13 @@ def find_own_walls(touch: Touch, mesh: Mesh, balloons: Balloons, vertex_own: wp.
 
 
 @wp.func
+def velocity_of_quad(q: int, quads: wp.array[wp.vec4i], v: wp.array[wp.vec3]):
+    """Return the velocity of a quad's middle, m/s."""
+    c = vec4i_at(quads, q)
+    return 0.25 * (vec3_at(v, c[0]) + vec3_at(v, c[1]) + vec3_at(v, c[2]) + vec3_at(v, c[3]))
+
+
+@wp.func
 def distance_of_wall(
     q: int, d: wp.vec3, seeker: Seeker, touch: Touch, mesh: Mesh, contacts: Contacts, state: State
 ):
@@ -272,7 +288,10 @@ def distance_of_wall(
         face = a / wp.max(size, 1.0e-12)
         height = wp.dot(d, face)
         limit = wp.min(seeker.depth, DEPTH_LIMIT * float_at(contacts.ring_radius, int_at(mesh.quad_ring, q)))
-        near = height > -limit and height < seeker.offset + seeker.arc * size + touch.margin
+        watched = seeker.offset + seeker.arc * size + touch.margin
+        if touch.ahead > 0.0:
+            watched += touch.ahead * wp.length(seeker.velocity - velocity_of_quad(q, mesh.quads, state.v))
+        near = height > -limit and height < watched
         if wp.dot(face, seeker.normal) < FACING and near:
             beside = SIDE_SLIP * wp.sqrt(size)
             distance = distance_beside(q, face, beside, seeker.position, mesh.quads, state.x)
@@ -310,14 +329,23 @@ def weigh_wall(
 
 
 @wp.func
-def close_quads(base: int, first: int, end: int, p: wp.vec3, reach: float, quad_middle: wp.array[wp.vec3]):
-    """Return the bits, counted from quad `base`, of those quads whose middles are within reach (m) of a
-    point.
+def close_quads(
+    base: int,
+    first: int,
+    end: int,
+    p: wp.vec3,
+    reach: float,
+    quad_middle: wp.array[wp.vec3],
+    quad_reach: wp.array[float],
+):
+    """Return the bits, counted from quad `base`, of those quads whose own reach and that of a point (m)
+    overlap.
     """
     bits = int(0)
     for q in range(first, end):
         d = p - vec3_at(quad_middle, q)
-        if wp.dot(d, d) < reach * reach:
+        both = reach + float_at(quad_reach, q)
+        if wp.dot(d, d) < both * both:
             bits |= 1 << (q - base)
     return bits
 
@@ -338,8 +366,8 @@ def chunk_in_box(chunk: int, low: wp.vec3, high: wp.vec3, own: wp.vec2i, mesh: M
 
 @wp.func
 def close_quads_of_chunk(chunk: int, own: wp.vec2i, seeker: Seeker, mesh: Mesh, contacts: Contacts):
-    """Return the bits of those quads of a chunk whose middles are within a vertex's reach, but for a run of
-    its own ones.
+    """Return the bits of those quads of a chunk that are within a vertex's reach, but for a run of its own
+    ones.
     """
     base = int_at(mesh.chunk_quad, chunk)
     first = int(base)
@@ -356,7 +384,9 @@ def close_quads_of_chunk(chunk: int, own: wp.vec2i, seeker: Seeker, mesh: Mesh, 
     )
     close = int(0)
     if wp.dot(off, off) < seeker.reach * seeker.reach:
-        close = close_quads(base, first, end, p, seeker.reach, contacts.quad_middle)
+        close = close_quads(
+            base, first, end, p, seeker.reach, contacts.quad_middle, contacts.quad_reach
+        )
     return close
 
 
@@ -406,14 +436,15 @@ def find_walls(
     outward, size = surface_of_vertex(i, mesh.corners, contacts.quad_area)
     seeker = seeker_of(i, touch, mesh, balloons)
     seeker.position = state.x[i]
+    seeker.velocity = state.v[i]
     seeker.normal = wp.normalize(outward)
     seeker.depth = DEPTH_LIMIT * contacts.ring_radius[mesh.vertex_ring[i]]
-    seeker.reach = REACH * wp.sqrt(size) + seeker.offset + seeker.arc * size + touch.margin
+    seeker.reach = seeker.offset + touch.margin + touch.ahead * wp.length(seeker.velocity)
     contacts.normal[i] = seeker.normal
     contacts.area[i] = size
     own = contacts.vertex_own[i]
     world = balloons.balloon_world[seeker.balloon]
-    near = wp.vec2(seeker.reach, seeker.reach)
+    near = wp.vec2(FAR, FAR)
     nearest = wp.vec2i(-1, -1)
     first = sculptures.world_chunk[world]
     last = sculptures.world_chunk[world + 1]
