@@ -67,6 +67,11 @@ class Body:
     place: NDArray[np.float32] | None = None
     """Unstressed place of every vertex, (V, 3) float32, m, where it is not told by `along`."""
 
+    outward: NDArray[np.float32] | None = None
+    """Unstressed outward direction of every vertex, (V, 3) float32, 0 where there is none; None where the
+    inside of the wall never meets itself.
+    """
+
     @property
     def along_only(self) -> NDArray[np.float32]:
         """Places along the balloon, (V, 3) float32, m, as if it had no width."""

@@ -32,6 +32,10 @@ def mesh_arrays(scene: FlatBodies, host: Arrays) -> None:
     host["vertex_place"] = np.concatenate(places).astype(np.float32)
     middles = [place[b.quads].mean(axis=1) for place, b in zip(places, bodies, strict=True)]
     host["quad_place"] = np.concatenate(middles).astype(np.float32)
+    outward = [np.zeros_like(b.points) if b.outward is None else b.outward for b in bodies]
+    host["vertex_outward"] = np.concatenate(outward).astype(np.float32)
+    sides = [side[b.quads].mean(axis=1) for side, b in zip(outward, bodies, strict=True)]
+    host["quad_outward"] = np.concatenate(sides).astype(np.float32)
     host["balloon_world"] = np.asarray(scene.worlds, dtype=np.int32)
     host["quad_world"] = host["balloon_world"][host["quad_balloon"]]
     offset = scene.settings.contact_offset

@@ -34,6 +34,10 @@ SELF_DISTANCE = 0.6
 """Unstressed distance along one bubble within which its wall never meets itself, R0: two rows of a crease in
 `draft`.
 """
+OPPOSITE_DISTANCE = 4.0
+"""Unstressed distance along one bubble within which the inside of its wall may meet itself, R0: a tube that
+is pressed flat, but not one that is bent to a ring.
+"""
 SHARED = (Balloons, Checks, Contacts, Hands, Joints, Mesh, Sculptures, State, Welds)
 """Structs of arrays that scenes of all models have."""
 
@@ -95,3 +99,4 @@ def lay_meshes(scene: Scene, host: Arrays, weld_count: int) -> None:
     scene.touch.pressure = scene.settings.contact_pressure
     scene.touch.margin = 0.5 * scene.settings.contact_offset
     scene.touch.apart = SELF_DISTANCE
+    scene.touch.across = OPPOSITE_DISTANCE

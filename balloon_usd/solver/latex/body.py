@@ -125,6 +125,7 @@ def tube_body(
         contact_offset=CONTACT_OFFSET * radius,
         contact_arc=ARC_OFFSET / (8.0 * bulged.b * radius),
         along=mesh.along,
+        outward=_outward(mesh),
         mesh_rings=tuple((int(f), n) for f in mesh.ring_start),
         vertex_ring=ring_of,
         rings=rings,
@@ -136,6 +137,13 @@ def tube_body(
         spare_rings=1,
         spare_segments=2,
     )
+
+
+def _outward(mesh: BalloonMesh) -> NDArray[np.float32]:
+    """Direction from the axis of the tube to every vertex, (V, 3)."""
+    away = mesh.points * np.float32([0.0, 1.0, 1.0])
+    radius = np.linalg.norm(away, axis=1, keepdims=True)
+    return np.divide(away, radius, out=np.zeros_like(away), where=radius > 0.0)
 
 
 def _nearest(rings: NDArray[np.float64], along: NDArray[np.float32]) -> NDArray[np.int32]:

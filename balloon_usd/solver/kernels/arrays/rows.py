@@ -164,6 +164,8 @@ class Touch:
     """Time for which a wall that moves is watched farther, s: that between two searches."""
     apart: float
     """Unstressed distance within one bubble, in R0, within which its wall never meets itself."""
+    across: float
+    """Unstressed distance along a bubble, in R0, within which the inside of its wall may meet itself."""
 
 
 @wp.struct

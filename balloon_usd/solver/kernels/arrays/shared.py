@@ -35,6 +35,9 @@ class Mesh:
     quad_world: wp.array[int] = array("quads", meaning="its sculpture")
     quad_ring: wp.array[int] = array("quads", meaning="ring of its first vertex")
     quad_place: wp.array[wp.vec3] = array("quads", unit="m", meaning="unstressed place of its middle")
+    quad_outward: wp.array[wp.vec3] = array(
+        "quads", meaning="its unstressed outward direction; 0: its inside never meets itself"
+    )
     corners: wp.array[wp.vec4i] = array(
         "corner rows",
         meaning="4 quad + corner of each quad at a vertex; -1: none; -2 - row in the fourth: goes on there",
@@ -44,6 +47,7 @@ class Mesh:
     vertex_joint: wp.array[int] = array("vertices", meaning="the joint that moves it; -1 for none")
     vertex_ring: wp.array[int] = array("vertices", meaning="its ring")
     vertex_place: wp.array[wp.vec3] = array("vertices", unit="m", meaning="its unstressed place")
+    vertex_outward: wp.array[wp.vec3] = array("vertices", meaning="its unstressed outward direction, or 0")
     mass: wp.array[float] = array(
         "vertices", unit="kg", meaning="its mass, scaled where the time step asks it"
     )

@@ -48,6 +48,10 @@ CROWD = wp.constant(0.5)
 """Share of the vertices that touch a quad, above 1, by which that limit is divided: two share one limit."""
 OWN = wp.constant(256)
 """Most quads before a vertex, and after it, that are known as its own."""
+OPPOSITE = wp.constant(-0.3)
+"""Walls are on opposite sides of a tube when the dot product of their unstressed normals is below this."""
+INSIDE = wp.constant(0.5)
+"""Distance at which the inside of a wall begins to press on itself, in that of the outside."""
 FAR = wp.constant(1.0e6)
 """Farther than any wall, m."""
 NONE = wp.constant(1 << 30)
@@ -210,6 +214,10 @@ class Seeker:
     """Its unstressed place, m."""
     apart: float
     """Unstressed distance within which the wall of its bubble never meets it, m."""
+    outward: wp.vec3
+    """Unstressed outward direction; 0 where the inside of the wall never meets itself."""
+    across: float
+    """Unstressed distance along its bubble within which the inside of the wall may meet itself, m."""
     position: wp.vec3
     """m"""
     velocity: wp.vec3
@@ -234,9 +242,24 @@ def seeker_of(i: int, touch: Touch, mesh: Mesh, balloons: Balloons):
     seeker.bubble = mesh.vertex_segment[i]
     seeker.place = mesh.vertex_place[i]
     seeker.apart = touch.apart * balloons.balloon_radius[seeker.balloon]
+    seeker.outward = mesh.vertex_outward[i]
+    seeker.across = touch.across * balloons.balloon_radius[seeker.balloon]
     seeker.offset = balloons.contact_offset[seeker.balloon]
     seeker.arc = balloons.contact_arc[seeker.balloon]
     return seeker
+
+
+@wp.func
+def opposite(q: int, seeker: Seeker, mesh: Mesh):
+    """Return whether a quad is on the other side of a vertex's own bubble: there it is their insides that may
+    meet.
+    """
+    away = wp.max(wp.abs(vec3_at(mesh.quad_place, q) - seeker.place))
+    return (
+        int_at(mesh.quad_segment, q) == seeker.bubble
+        and away < seeker.across
+        and wp.dot(seeker.outward, vec3_at(mesh.quad_outward, q)) < OPPOSITE
+    )
 
 
 @wp.func
@@ -245,6 +268,7 @@ def may_meet(q: int, seeker: Seeker, mesh: Mesh):
     elsewhere = (
         int_at(mesh.quad_balloon, q) != seeker.balloon
         or wp.max(wp.abs(vec3_at(mesh.quad_place, q) - seeker.place)) > seeker.apart
+        or opposite(q, seeker, mesh)
     )
     return elsewhere or (seeker.bubble >= 0 and int_at(mesh.quad_segment, q) != seeker.bubble)
 
@@ -289,10 +313,15 @@ def distance_of_wall(
         height = wp.dot(d, face)
         limit = wp.min(seeker.depth, DEPTH_LIMIT * float_at(contacts.ring_radius, int_at(mesh.quad_ring, q)))
         watched = seeker.offset + seeker.arc * size + touch.margin
+        if opposite(q, seeker, mesh):
+            height = -height
+            watched = INSIDE * seeker.offset + touch.margin
         if touch.ahead > 0.0:
             watched += touch.ahead * wp.length(seeker.velocity - velocity_of_quad(q, mesh.quads, state.v))
         near = height > -limit and height < watched
-        if wp.dot(face, seeker.normal) < FACING and near:
+        # In another bubble it is wherever its own wall faces.
+        within = height < 0.0 and seeker.bubble >= 0 and int_at(mesh.quad_segment, q) != seeker.bubble
+        if near and (within or wp.dot(face, seeker.normal) < FACING):
             beside = SIDE_SLIP * wp.sqrt(size)
             distance = distance_beside(q, face, beside, seeker.position, mesh.quads, state.x)
     return distance
@@ -549,7 +578,8 @@ def limits_of_pair(
     segment_pressure: wp.array[float],
 ):
     """Return what stays constant between two searches for a vertex that touches a quad: the quad's vertices,
-    the stiffness (N/m), the damping (N s/m), the friction, and the distance at which it is pressed (m).
+    the stiffness (N/m), the damping (N s/m), the friction, and the distance at which it is pressed (m), below
+    0 where it is the insides that touch.
     """
     i = pair >> 1
     q = int_in(contacts.target, i, pair & 1)
@@ -565,12 +595,16 @@ def limits_of_pair(
     balloon = int_at(mesh.vertex_balloon, i)
     face = wp.length(vec3_at(contacts.quad_area, q))
     offset = float_at(balloons.contact_offset, balloon) + float_at(balloons.contact_arc, balloon) * face
+    side = float(1.0)
+    if opposite(q, seeker_of(i, touch, mesh, balloons), mesh):
+        offset = INSIDE * float_at(balloons.contact_offset, balloon)
+        side = -1.0
     most_pressure = wp.max(touch.pressure, FIRM * pressure_behind(i, q, mesh, segment_pressure))
     stiffness = wp.min(
         most_pressure * float_at(contacts.area, i) / offset, STABLE * lightest / (dt * dt * crowd)
     )
     damping = NORMAL_DAMPING * lightest / (dt * crowd)
-    return c, wp.vec4(stiffness, damping, float_at(balloons.friction, balloon), offset)
+    return c, wp.vec4(stiffness, damping, float_at(balloons.friction, balloon), side * offset)
 
 
 @wp.func
@@ -610,9 +644,9 @@ def press_wall(
     gap = p - (s[0] * x0 + s[1] * x1 + s[2] * x2 + s[3] * x3)
     area = 0.5 * wp.cross(x2 - x0, x3 - x1)
     size = wp.length(area)
-    face = area / wp.max(size, 1.0e-12)
+    face = wp.sign(limits[3]) * area / wp.max(size, 1.0e-12)
     height = wp.dot(gap, face)
-    offset = limits[3]
+    offset = wp.abs(limits[3])
     overlap = offset - height
     f = wp.vec3(0.0)
     deflection = wp.vec3(0.0)
