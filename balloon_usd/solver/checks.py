@@ -8,7 +8,6 @@ import numpy as np
 
 from balloon_usd.balloon.burst import least_burst_stretch
 from balloon_usd.solver.bursting import NEAR, Bursting
-from balloon_usd.solver.kernels.arrays.rows import HITS
 from balloon_usd.solver.remedy import steadier
 from balloon_usd.solver.scene import NO_LIMIT
 
@@ -176,8 +175,3 @@ def _least_burst_stretch(plan: Plan) -> float:
     if plan.recipe.physics.burst != "stop":
         return NO_LIMIT
     return min(least_burst_stretch(strip.rubber) for strip in plan.strips.values())
-
-
-def crowded(most_hits: int) -> str:
-    """Tell that more vertices have pressed on one face at a time than its list holds."""
-    return f"{most_hits} vertices press on one face but there is room for {HITS}: use a finer detail"

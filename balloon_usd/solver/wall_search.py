@@ -37,6 +37,7 @@ class WallSearch:
         s, launcher = self._launcher.scene, self._launcher
         s.pair_count.zero_()
         s.pressed_count.zero_()
+        s.listed_count.zero_()
         launcher.launch_tiled(ring_radii, len(s.ring_first), lanes=WARP)
         launcher.launch_tiled(find_walls, -(-len(s.x) // launcher.lanes(WARP)), lanes=WARP)
         launcher.launch(order_hits, len(s.quads), lanes=WARP)

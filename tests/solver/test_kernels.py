@@ -11,8 +11,17 @@ import pytest
 from balloon_usd.solver import kernels
 from tests.solver.all_kernels import all_kernels
 
-ORDERLESS = ("hit_count", "most_hits", "most_near", "pair_count", "pressed_count", "wp.atomic_max(fastest")
-"""Counts and maxima, which do not depend on who comes first; nor does what is done with lists so counted."""
+ORDERLESS = (
+    "hit_last",
+    "listed_count",
+    "most_near",
+    "pair_count",
+    "pressed_count",
+    "wp.atomic_max(fastest",
+)
+"""Counts, maxima and a chain that is sorted: they do not depend on who comes first, nor does what is done with
+lists so counted.
+"""
 
 
 @pytest.mark.parametrize("name", sorted(all_kernels()))

@@ -7,16 +7,14 @@ from collections import Counter
 from itertools import chain
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.operations.moves import Inflate
 from balloon_usd.plan.meshing import joint_places
 from balloon_usd.plan.parking import parked
 from balloon_usd.solver.body import body_ranges
-from balloon_usd.solver.checks import crowded, stretch_limits
+from balloon_usd.solver.checks import stretch_limits
 from balloon_usd.solver.frame_arrays import FrameArrays
-from balloon_usd.solver.kernels.arrays.rows import HITS, STRUT_SLOTS
+from balloon_usd.solver.kernels.arrays.rows import STRUT_SLOTS
 from balloon_usd.solver.latex.body import LatexBody, tube_body
 from balloon_usd.solver.latex.controls import LatexControls
 from balloon_usd.solver.latex.friction import Friction
@@ -36,6 +34,8 @@ from balloon_usd.solver.settings import SceneSettings
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    import numpy as np
+
     from numpy.typing import NDArray
 
     from balloon_usd.balloon.detail import Detail
@@ -53,7 +53,6 @@ READ_BACK = (
     "stretch",
     "pressure",
     "volume",
-    "most_hits",
     "amount",
     "ring_middle",
     "wall_load",
@@ -142,11 +141,7 @@ class LatexModel(Model):
 
     def failures(self) -> dict[int, str]:
         """Return failures that the frames do not show, by sculpture."""
-        found = {self.scene.worlds[b]: cause for b in self._inflated if (cause := self._short_of_gas(b))}
-        most_hits = self._state["most_hits"]
-        return found | {
-            world: crowded(int(most_hits[world])) for world in np.flatnonzero(most_hits > HITS).tolist()
-        }
+        return {self.scene.worlds[b]: cause for b in self._inflated if (cause := self._short_of_gas(b))}
 
     def _short_of_gas(self, balloon: int) -> str | None:
         """Tell when inflating has ended without the gas that the plan asks for."""

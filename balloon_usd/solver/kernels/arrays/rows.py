@@ -4,8 +4,6 @@ import warp as wp
 
 TARGETS = 2
 """Walls that one vertex may touch at a time."""
-HITS = 48
-"""Vertices that may press on one quad at a time."""
 STRUT_SLOTS = 24
 """Struts that may end at one joint of any scene; nets of many bubbles have more."""
 SPINS = 8

@@ -7,7 +7,7 @@ balloons of all sculptures. Vectors of `contact_force` lie as `device.soa` says.
 import warp as wp
 
 from balloon_usd.plan.welding import MOST_WELDED
-from balloon_usd.solver.kernels.arrays.rows import HITS, TARGETS, Axes, Finger, Spin
+from balloon_usd.solver.kernels.arrays.rows import TARGETS, Axes, Finger, Spin
 from balloon_usd.solver.kernels.arrays.table import array, array_struct
 
 
@@ -160,8 +160,11 @@ class Contacts:
     contact_force: wp.array2d[float] = array(3 * TARGETS, "vertices", unit="N", meaning="force of them on it")
     contact_place: wp.array[wp.vec2] = array("contacts", meaning="where on the quad, -1/2 to 1/2")
     hit_count: wp.array[int] = array("quads", meaning="contacts on it")
-    hits: wp.array2d[int] = array("quads", HITS, meaning="these contacts: 2 vertex + target")
-    most_hits: wp.array[int] = array("sculptures", meaning="most contacts on one quad so far")
+    hit_first: wp.array[int] = array("quads", meaning="the first of these in `hits`")
+    hits: wp.array[int] = array("contacts", meaning="contacts by quad: 2 vertex + target")
+    hit_last: wp.array[int] = array("quads", meaning="contact that was entered last; -1 for none")
+    hit_before: wp.array[int] = array("contacts", meaning="the one entered before it on its quad; -1: none")
+    listed_count: wp.array[int] = array("sculptures", meaning="contacts in `hits`")
     pair_count: wp.array[int] = array("sculptures", meaning="contacts")
     pairs: wp.array[int] = array("contacts", meaning="contacts of each sculpture, from 2 of its first vertex")
     pressed_count: wp.array[int] = array("sculptures", meaning="quads that are touched")

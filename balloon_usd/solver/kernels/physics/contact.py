@@ -5,7 +5,7 @@ patches, penalty forces and Coulomb friction.
 import warp as wp
 
 from balloon_usd.solver.kernels.arrays.latex import Forces
-from balloon_usd.solver.kernels.arrays.rows import HITS, Touch
+from balloon_usd.solver.kernels.arrays.rows import Touch
 from balloon_usd.solver.kernels.arrays.shared import Balloons, Contacts, Mesh, Sculptures, State
 from balloon_usd.solver.kernels.device.array_access import (
     float_at,
@@ -25,8 +25,6 @@ from balloon_usd.solver.kernels.device.warp_reduce import (
     warp_sum,
 )
 from balloon_usd.solver.kernels.physics.motion import LYING
-
-MOST_HITS = wp.constant(HITS)
 
 FACING = wp.constant(-0.1)
 """Walls face each other when the dot product of their outward normals is below this."""
@@ -96,6 +94,7 @@ def chunk_surface(touch: Touch, mesh: Mesh, balloons: Balloons, contacts: Contac
         contacts.quad_area[q] = area
         contacts.quad_reach[q] = corner + around
         contacts.hit_count[q] = 0
+        contacts.hit_last[q] = -1
         high = wp.max(high, wp.max(wp.max(x0, x1), wp.max(x2, x3)) + wp.vec3(around))
         low = wp.min(low, wp.min(wp.min(x0, x1), wp.min(x2, x3)) - wp.vec3(around))
     high = warp_max3(high)
@@ -439,9 +438,7 @@ def enter_walls(
             contacts.contact_place[2 * i + k] = nearest_on_patch(
                 state.x[c[0]], state.x[c[1]], state.x[c[2]], state.x[c[3]], p
             )
-            slot = wp.atomic_add(contacts.hit_count, found[k], 1)
-            if slot < MOST_HITS:
-                contacts.hits[found[k], slot] = 2 * i + k
+            contacts.hit_before[2 * i + k] = wp.atomic_exch(contacts.hit_last, found[k], 2 * i + k)
         else:
             store_soa(contacts.contact_force, i, k, wp.vec3(0.0))
         contacts.target[i, k] = found[k]
@@ -528,33 +525,31 @@ def find_walls(
 
 
 @wp.kernel
-def order_hits(
-    quad_world: wp.array[int],
-    world_quad: wp.array[int],
-    hit_count: wp.array[int],
-    most_hits: wp.array[int],
-    hits: wp.array2d[int],
-    pressed_count: wp.array[int],
-    pressed: wp.array[int],
-):
-    """Sort every quad's list, so that sums do not depend on the order of threads; remember the longest list,
-    and which quads have any.
+def order_hits(mesh: Mesh, sculptures: Sculptures, contacts: Contacts):
+    """Write the list of what touches every quad from the chain in which it was entered, sorted, so that sums
+    do not depend on the order of threads; remember which quads have any.
     """
     q = wp.tid()
-    count = hit_count[q]
-    if count > 0:
-        world = quad_world[q]
-        pressed[world_quad[world] + wp.atomic_add(pressed_count, world, 1)] = q
-        wp.atomic_max(most_hits, world, count)
-        count = wp.min(count, MOST_HITS)
-        hit_count[q] = count
-        for k in range(1, count):
-            here = hits[q, k]
-            j = int(k)
-            while j > 0 and hits[q, wp.max(j - 1, 0)] > here:
-                hits[q, j] = hits[q, j - 1]
-                j -= 1
-            hits[q, j] = here
+    hit = int(contacts.hit_last[q])
+    count = int(0)
+    while hit >= 0:
+        count += 1
+        hit = contacts.hit_before[hit]
+    if count == 0:
+        return
+    world = mesh.quad_world[q]
+    contacts.pressed[sculptures.world_quad[world] + wp.atomic_add(contacts.pressed_count, world, 1)] = q
+    first = 2 * sculptures.world_vertex[world] + wp.atomic_add(contacts.listed_count, world, count)
+    hit = contacts.hit_last[q]
+    for k in range(count):
+        j = first + k
+        while j > first and contacts.hits[wp.max(j - 1, first)] > hit:
+            contacts.hits[j] = contacts.hits[j - 1]
+            j -= 1
+        contacts.hits[j] = hit
+        hit = contacts.hit_before[hit]
+    contacts.hit_first[q] = first
+    contacts.hit_count[q] = count
 
 
 @wp.func
@@ -684,6 +679,7 @@ def balancing_turn(r0: wp.vec3, r1: wp.vec3, r2: wp.vec3, r3: wp.vec3, couple: w
 @wp.func
 def press_quad_back(q: int, shared: int, mesh: Mesh, contacts: Contacts, forces: Forces, state: State):
     """Take from the corners of a quad what the vertices that touch it felt, forces and torques."""
+    first = int_at(contacts.hit_first, q)
     count = int_at(contacts.hit_count, q)
     c = vec4i_at(mesh.quads, q)
     x0 = coherent_vec3(state.x, c[0], shared)
@@ -701,7 +697,7 @@ def press_quad_back(q: int, shared: int, mesh: Mesh, contacts: Contacts, forces:
     f3 = wp.vec3(0.0)
     couple = wp.vec3(0.0)
     for k in range(count):
-        hit = int_in(contacts.hits, q, k)
+        hit = int_at(contacts.hits, first + k)
         f = load_soa(contacts.contact_force, hit // 2, hit % 2, shared)
         share = patch_shares(coherent_vec2(contacts.contact_place, hit, shared))
         f0 += share[0] * f

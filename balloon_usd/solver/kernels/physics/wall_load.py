@@ -55,7 +55,7 @@ def wall_loads(mesh: Mesh, contacts: Contacts, wall_load: wp.array[float], state
     total = float(0.0)
     for q in range(int_at(mesh.segment_quad, s) + lane, int_at(mesh.segment_quad_end, s), wp.block_dim()):
         for k in range(int_at(contacts.hit_count, q)):
-            hit = int_in(contacts.hits, q, k)
+            hit = int_at(contacts.hits, int_at(contacts.hit_first, q) + k)
             total += pressing_on(
                 q, mesh.quads, state.x, load_soa(contacts.contact_force, hit // 2, hit % 2, 0)
             )
