@@ -141,9 +141,10 @@ def tube_body(
 
 def _outward(mesh: BalloonMesh) -> NDArray[np.float32]:
     """Direction from the axis of the tube to every vertex, (V, 3)."""
-    away = mesh.points * np.float32([0.0, 1.0, 1.0])
-    radius = np.linalg.norm(away, axis=1, keepdims=True)
-    return np.divide(away, radius, out=np.zeros_like(away), where=radius > 0.0)
+    away = mesh.points.copy()
+    away[:, 0] = 0.0
+    radius = np.maximum(np.linalg.norm(away, axis=1), 1e-9)
+    return np.asarray(away / radius[:, None], dtype=np.float32)
 
 
 def _nearest(rings: NDArray[np.float64], along: NDArray[np.float32]) -> NDArray[np.int32]:

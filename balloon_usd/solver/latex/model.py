@@ -35,7 +35,6 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     import numpy as np
-
     from numpy.typing import NDArray
 
     from balloon_usd.balloon.detail import Detail

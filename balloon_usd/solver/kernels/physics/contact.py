@@ -412,9 +412,7 @@ def close_quads_of_chunk(chunk: int, own: wp.vec2i, seeker: Seeker, mesh: Mesh, 
     )
     close = int(0)
     if wp.dot(off, off) < seeker.reach * seeker.reach:
-        close = close_quads(
-            base, first, end, p, seeker.reach, contacts.quad_middle, contacts.quad_reach
-        )
+        close = close_quads(base, first, end, p, seeker.reach, contacts.quad_middle, contacts.quad_reach)
     return close
 
 
