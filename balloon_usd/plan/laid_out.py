@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 INFLATE_SPEED = 0.38
 """Inflated length blown up per second, m/s: a maker with a hand pump."""
-INFLATE_LEAST = 2.0
+INFLATE_LEAST = 3.0
 """Shortest time in which a tube is blown up, s."""
 
 

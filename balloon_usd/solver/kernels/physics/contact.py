@@ -249,6 +249,12 @@ def seeker_of(i: int, touch: Touch, mesh: Mesh, balloons: Balloons):
 
 
 @wp.func
+def elsewhere(q: int, seeker: Seeker, mesh: Mesh):
+    """Return whether a quad belongs to another bubble than a vertex; a vertex between two is in neither."""
+    return seeker.bubble >= 0 and int_at(mesh.quad_segment, q) != seeker.bubble
+
+
+@wp.func
 def opposite(q: int, seeker: Seeker, mesh: Mesh):
     """Return whether a quad is on the other side of a vertex's own bubble: there it is their insides that may
     meet.
@@ -264,12 +270,12 @@ def opposite(q: int, seeker: Seeker, mesh: Mesh):
 @wp.func
 def may_meet(q: int, seeker: Seeker, mesh: Mesh):
     """Return whether a quad may ever touch a vertex."""
-    elsewhere = (
+    return (
         int_at(mesh.quad_balloon, q) != seeker.balloon
+        or elsewhere(q, seeker, mesh)
         or wp.max(wp.abs(vec3_at(mesh.quad_place, q) - seeker.place)) > seeker.apart
         or opposite(q, seeker, mesh)
     )
-    return elsewhere or (seeker.bubble >= 0 and int_at(mesh.quad_segment, q) != seeker.bubble)
 
 
 @wp.kernel
@@ -319,7 +325,7 @@ def distance_of_wall(
             watched += touch.ahead * wp.length(seeker.velocity - velocity_of_quad(q, mesh.quads, state.v))
         near = height > -limit and height < watched
         # In another bubble it is wherever its own wall faces.
-        within = height < 0.0 and seeker.bubble >= 0 and int_at(mesh.quad_segment, q) != seeker.bubble
+        within = height < 0.0 and elsewhere(q, seeker, mesh)
         if near and (within or wp.dot(face, seeker.normal) < FACING):
             beside = SIDE_SLIP * wp.sqrt(size)
             distance = distance_beside(q, face, beside, seeker.position, mesh.quads, state.x)
@@ -361,20 +367,21 @@ def close_quads(
     base: int,
     first: int,
     end: int,
-    p: wp.vec3,
-    reach: float,
-    quad_middle: wp.array[wp.vec3],
-    quad_reach: wp.array[float],
+    facing: bool,
+    seeker: Seeker,
+    contacts: Contacts,
 ):
-    """Return the bits, counted from quad `base`, of those quads whose own reach and that of a point (m)
-    overlap.
+    """Return the bits, counted from quad `base`, of those quads whose reach and that of a vertex overlap.
+
+    `facing`: only of those that face it.
     """
     bits = int(0)
     for q in range(first, end):
-        d = p - vec3_at(quad_middle, q)
-        both = reach + float_at(quad_reach, q)
+        d = seeker.position - vec3_at(contacts.quad_middle, q)
+        both = seeker.reach + float_at(contacts.quad_reach, q)
         if wp.dot(d, d) < both * both:
-            bits |= 1 << (q - base)
+            if not facing or wp.dot(vec3_at(contacts.quad_area, q), seeker.normal) < 0.0:
+                bits |= 1 << (q - base)
     return bits
 
 
@@ -412,7 +419,8 @@ def close_quads_of_chunk(chunk: int, own: wp.vec2i, seeker: Seeker, mesh: Mesh, 
     )
     close = int(0)
     if wp.dot(off, off) < seeker.reach * seeker.reach:
-        close = close_quads(base, first, end, p, seeker.reach, contacts.quad_middle, contacts.quad_reach)
+        facing = not elsewhere(base, seeker, mesh)
+        close = close_quads(base, first, end, facing, seeker, contacts)
     return close
 
 

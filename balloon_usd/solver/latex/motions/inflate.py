@@ -21,7 +21,7 @@ PUMP_TIME = 0.985
 """Share of the time given to inflating in which the pump has done its work."""
 PUMP_RAMP = 0.2
 """Share of that time in which the pump starts, and stops."""
-RAMP_SECONDS = 0.7
+RAMP_SECONDS = 1.4
 """Time that it takes for that at least, s, if there is as much: the first bulge jumps out of a tube."""
 BIRTH = 0.5
 """Share of the start in which the first bulge grows: it leans over the knot, and its walls may touch, which
