@@ -6,7 +6,7 @@ import warp as wp
 
 from balloon_usd.solver.kernels.arrays.latex import Forces
 from balloon_usd.solver.kernels.arrays.rows import Touch
-from balloon_usd.solver.kernels.arrays.shared import Balloons, Contacts, Mesh, Sculptures, State
+from balloon_usd.solver.kernels.arrays.shared import Balloons, Contacts, Hands, Mesh, Sculptures, State
 from balloon_usd.solver.kernels.device.array_access import (
     float_at,
     int_at,
@@ -42,6 +42,10 @@ FIRM = wp.constant(2.5)
 """Pressure that each of two walls adds at zero distance, in the higher gauge pressure behind them: at rest a
 fifth of the offset is used up.
 """
+DEEPEST = wp.constant(2.0)
+"""Overlap beyond which walls are pressed no harder, in offsets: what has gone through is led out, not flung
+(scissors with ears of 3 cm flew apart).
+"""
 CROWD = wp.constant(0.5)
 """Share of the vertices that touch a quad, above 1, by which that limit is divided: two share one limit."""
 OWN = wp.constant(256)
@@ -62,8 +66,28 @@ NORMAL_DAMPING = wp.constant(0.3)
 """Damping of the approach, as a share of what would stop the vertex in one substep."""
 
 
+@wp.func
+def velocity_of_spin(i: int, p: wp.vec3, hands: Hands):
+    """Return the velocity (m/s) that hands who turn a vertex give it where it is (m), besides its own."""
+    velocity = wp.vec3(0.0)
+    spin = int_at(hands.vertex_spin, i)
+    if spin > 0:
+        turn = hands.spins[spin - 1]
+        velocity = wp.cross(turn.rate * turn.axis, p - turn.point) + turn.drift
+    return velocity
+
+
+@wp.func
+def velocity_of_quad(c: wp.vec4i, middle: wp.vec3, hands: Hands, v: wp.array[wp.vec3]):
+    """Return the velocity (m/s) of the middle (m) of a quad; `c`: its vertices, which hands turn together."""
+    own = 0.25 * (vec3_at(v, c[0]) + vec3_at(v, c[1]) + vec3_at(v, c[2]) + vec3_at(v, c[3]))
+    return own + velocity_of_spin(c[0], middle, hands)
+
+
 @wp.kernel
-def chunk_surface(touch: Touch, mesh: Mesh, balloons: Balloons, contacts: Contacts, state: State):
+def chunk_surface(
+    touch: Touch, mesh: Mesh, balloons: Balloons, hands: Hands, contacts: Contacts, state: State
+):
     """Write the middle (m), the vector area (m2) and the reach (m) of every quad, and the lowest and the
     highest coordinates (m) of what the quads of a chunk reach; nothing touches them yet. A warp of lanes each
     on a GPU.
@@ -80,11 +104,10 @@ def chunk_surface(touch: Touch, mesh: Mesh, balloons: Balloons, contacts: Contac
         middle = 0.25 * (x0 + x1 + x2 + x3)
         area = 0.5 * wp.cross(x2 - x0, x3 - x1)
         size = wp.length(area)
-        going = 0.25 * (state.v[c[0]] + state.v[c[1]] + state.v[c[2]] + state.v[c[3]])
         around = (
             SIDE_SLIP * wp.sqrt(size)
             + balloons.contact_arc[mesh.quad_balloon[q]] * size
-            + touch.ahead * wp.length(going)
+            + touch.ahead * wp.length(velocity_of_quad(c, middle, hands, state.v))
         )
         corner = wp.max(
             wp.max(wp.length(x0 - middle), wp.length(x1 - middle)),
@@ -249,12 +272,6 @@ def seeker_of(i: int, touch: Touch, mesh: Mesh, balloons: Balloons):
 
 
 @wp.func
-def elsewhere(q: int, seeker: Seeker, mesh: Mesh):
-    """Return whether a quad belongs to another bubble than a vertex; a vertex between two is in neither."""
-    return seeker.bubble >= 0 and int_at(mesh.quad_segment, q) != seeker.bubble
-
-
-@wp.func
 def opposite(q: int, seeker: Seeker, mesh: Mesh):
     """Return whether a quad is on the other side of a vertex's own bubble: there it is their insides that may
     meet.
@@ -272,7 +289,7 @@ def may_meet(q: int, seeker: Seeker, mesh: Mesh):
     """Return whether a quad may ever touch a vertex."""
     return (
         int_at(mesh.quad_balloon, q) != seeker.balloon
-        or elsewhere(q, seeker, mesh)
+        or (seeker.bubble >= 0 and int_at(mesh.quad_segment, q) != seeker.bubble)
         or wp.max(wp.abs(vec3_at(mesh.quad_place, q) - seeker.place)) > seeker.apart
         or opposite(q, seeker, mesh)
     )
@@ -296,15 +313,15 @@ def find_own_walls(touch: Touch, mesh: Mesh, balloons: Balloons, vertex_own: wp.
 
 
 @wp.func
-def velocity_of_quad(q: int, quads: wp.array[wp.vec4i], v: wp.array[wp.vec3]):
-    """Return the velocity of a quad's middle, m/s."""
-    c = vec4i_at(quads, q)
-    return 0.25 * (vec3_at(v, c[0]) + vec3_at(v, c[1]) + vec3_at(v, c[2]) + vec3_at(v, c[3]))
-
-
-@wp.func
 def distance_of_wall(
-    q: int, d: wp.vec3, seeker: Seeker, touch: Touch, mesh: Mesh, contacts: Contacts, state: State
+    q: int,
+    d: wp.vec3,
+    seeker: Seeker,
+    touch: Touch,
+    mesh: Mesh,
+    hands: Hands,
+    contacts: Contacts,
+    state: State,
 ):
     """Return the distance (m) of a vertex from a quad that faces it, or FAR where the two never touch.
 
@@ -321,12 +338,10 @@ def distance_of_wall(
         if opposite(q, seeker, mesh):
             height = -height
             watched = INSIDE * seeker.offset + touch.margin
-        if touch.ahead > 0.0:
-            watched += touch.ahead * wp.length(seeker.velocity - velocity_of_quad(q, mesh.quads, state.v))
+        going = velocity_of_quad(vec4i_at(mesh.quads, q), seeker.position - d, hands, state.v)
+        watched += touch.ahead * wp.length(seeker.velocity - going)
         near = height > -limit and height < watched
-        # In another bubble it is wherever its own wall faces.
-        within = height < 0.0 and elsewhere(q, seeker, mesh)
-        if near and (within or wp.dot(face, seeker.normal) < FACING):
+        if near and wp.dot(face, seeker.normal) < FACING:
             beside = SIDE_SLIP * wp.sqrt(size)
             distance = distance_beside(q, face, beside, seeker.position, mesh.quads, state.x)
     return distance
@@ -340,12 +355,13 @@ def weigh_wall(
     seeker: Seeker,
     touch: Touch,
     mesh: Mesh,
+    hands: Hands,
     contacts: Contacts,
     state: State,
 ):
     """Return the distances (m) of the two nearest quads of different bubbles, and these, after one more."""
     d = seeker.position - vec3_at(contacts.quad_middle, q)
-    distance = distance_of_wall(q, d, seeker, touch, mesh, contacts, state)
+    distance = distance_of_wall(q, d, seeker, touch, mesh, hands, contacts, state)
     other = nearest[0] >= 0 and int_at(mesh.quad_segment, wp.max(nearest[0], 0)) != int_at(
         mesh.quad_segment, q
     )
@@ -367,21 +383,16 @@ def close_quads(
     base: int,
     first: int,
     end: int,
-    facing: bool,
     seeker: Seeker,
     contacts: Contacts,
 ):
-    """Return the bits, counted from quad `base`, of those quads whose reach and that of a vertex overlap.
-
-    `facing`: only of those that face it.
-    """
+    """Return the bits, counted from quad `base`, of those quads that face a vertex and are within reach."""
     bits = int(0)
     for q in range(first, end):
         d = seeker.position - vec3_at(contacts.quad_middle, q)
         both = seeker.reach + float_at(contacts.quad_reach, q)
-        if wp.dot(d, d) < both * both:
-            if not facing or wp.dot(vec3_at(contacts.quad_area, q), seeker.normal) < 0.0:
-                bits |= 1 << (q - base)
+        if wp.dot(d, d) < both * both and wp.dot(vec3_at(contacts.quad_area, q), seeker.normal) < 0.0:
+            bits |= 1 << (q - base)
     return bits
 
 
@@ -419,8 +430,7 @@ def close_quads_of_chunk(chunk: int, own: wp.vec2i, seeker: Seeker, mesh: Mesh, 
     )
     close = int(0)
     if wp.dot(off, off) < seeker.reach * seeker.reach:
-        facing = not elsewhere(base, seeker, mesh)
-        close = close_quads(base, first, end, facing, seeker, contacts)
+        close = close_quads(base, first, end, seeker, contacts)
     return close
 
 
@@ -453,7 +463,13 @@ def enter_walls(
 
 @wp.kernel
 def find_walls(
-    touch: Touch, sculptures: Sculptures, mesh: Mesh, balloons: Balloons, contacts: Contacts, state: State
+    touch: Touch,
+    sculptures: Sculptures,
+    mesh: Mesh,
+    balloons: Balloons,
+    hands: Hands,
+    contacts: Contacts,
+    state: State,
 ):
     """Choose for every vertex the nearest facing quads, of different bubbles, and enter it in their lists;
     write its outward unit normal and its share of the wall's area (m2).
@@ -468,7 +484,7 @@ def find_walls(
     outward, size = surface_of_vertex(i, mesh.corners, contacts.quad_area)
     seeker = seeker_of(i, touch, mesh, balloons)
     seeker.position = state.x[i]
-    seeker.velocity = state.v[i]
+    seeker.velocity = state.v[i] + velocity_of_spin(i, state.x[i], hands)
     seeker.normal = wp.normalize(outward)
     seeker.depth = DEPTH_LIMIT * contacts.ring_radius[mesh.vertex_ring[i]]
     seeker.reach = seeker.offset + touch.margin + touch.ahead * wp.length(seeker.velocity)
@@ -513,7 +529,7 @@ def find_walls(
             while warp_ballot(wp.where(close != 0, 1, 0)) != 0:
                 if close != 0:
                     q = base + lowest_bit(close)
-                    near, nearest = weigh_wall(q, near, nearest, seeker, touch, mesh, contacts, state)
+                    near, nearest = weigh_wall(q, near, nearest, seeker, touch, mesh, hands, contacts, state)
                     close &= close - 1
         begin += wp.block_dim()
     before = wp.vec2i(int_in(contacts.target, i, 0), int_in(contacts.target, i, 1))
@@ -656,7 +672,7 @@ def press_wall(
         going = velocity - (s[0] * v0 + s[1] * v1 + s[2] * v2 + s[3] * v3)
         approach = wp.dot(going, face)
         near = wp.min(overlap / offset, 1.0)
-        push = wp.max(stiffness * overlap - limits[1] * near * approach, 0.0)
+        push = wp.max(stiffness * wp.min(overlap, DEEPEST * offset) - limits[1] * near * approach, 0.0)
         along = going - approach * face
         deflection = before + along * dt
         deflection = deflection - wp.dot(deflection, face) * face

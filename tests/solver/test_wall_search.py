@@ -1,0 +1,147 @@
+"""The search for walls finds what a look at every pair of a vertex and a face finds."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from balloon_usd.plan import plan
+from balloon_usd.recipe import Recipe
+from balloon_usd.solver.kernels.physics import contact
+from balloon_usd.solver.simulation import simulate_many
+
+PAIR = """
+format: 1
+name: pair
+units: cm
+fps: 12
+balloons:
+  main: {size: 260, length: 12, tail: 5}
+steps:
+  - bubbles: {nose: 3, left: 5, right: 5}
+  - lock: [left, right]
+  - rest: tail
+physics: {hold: 0.5}
+"""
+FLAT = 0.05
+"""Width of a tube that is pressed flat, in its own."""
+ROUNDED = 1e-5
+"""How near to a limit float32 does not know the side, m."""
+
+
+@pytest.fixture(scope="module")
+def model():
+    """A locked pair at its end."""
+    simulation = simulate_many([plan(Recipe.parse(PAIR))], detail="draft", device="cpu")
+    assert all(frames for frames in simulation.frames())
+    return simulation.model
+
+
+def searched(model, velocity):
+    """The arrays of the scene after one more search; `velocity`: (V, 3), m/s."""
+    scene, search = model.scene, model.stepper._search
+    kept = scene.v.numpy()
+    scene.v.assign(velocity)
+    scene.touching.assign(np.ones(len(scene.bodies), dtype=np.int32))
+    search.measure_quads()
+    search.find()
+    found = {name: array.numpy().copy() for name, array in scene.arrays.items() if hasattr(array, "numpy")}
+    scene.v.assign(kept)
+    return found
+
+
+def nearest(x, p):
+    """Point of bilinear patches, (N, 4, 3), nearest to points (N, 3), by three steps of Gauss and Newton."""
+    place = np.zeros((len(p), 2))
+    a = 0.5 * (x[:, 1] - x[:, 0] + x[:, 2] - x[:, 3])
+    b = 0.5 * (x[:, 3] - x[:, 0] + x[:, 2] - x[:, 1])
+    h = x[:, 0] - x[:, 1] + x[:, 2] - x[:, 3]
+    for step in range(4):
+        u, w = place.T[:, :, None]
+        r = x.mean(axis=1) + u * a + w * b + u * w * h
+        if step == 3:
+            return r
+        du, dw, r = a + w * h, b + u * h, r - p
+        aa, bb, ab = (du * du).sum(1), (dw * dw).sum(1), (du * dw).sum(1)
+        ra, rb = (r * du).sum(1), (r * dw).sum(1)
+        det = np.maximum(aa * bb - ab * ab, 1e-20)
+        place -= np.stack([(bb * ra - ab * rb) / det, (aa * rb - ab * ra) / det], axis=1)
+        place = np.clip(place, -0.5, 0.5)
+    raise AssertionError
+
+
+def distances(s, touch, vertex, slack):
+    """How far every face is from a vertex, (Q,) m, inf where it may not touch it; `slack`: of limits, m."""
+    x, own = s["x"].astype(float), s["vertex_segment"][vertex]
+    size = np.linalg.norm(s["quad_area"].astype(float), axis=1)
+    face = s["quad_area"] / size[:, None]
+    height = ((x[vertex] - s["quad_middle"]) * face).sum(axis=1)
+    radius = s["balloon_radius"][0]
+    away = np.abs(s["quad_place"] - s["vertex_place"][vertex]).max(axis=1)
+    sides = s["quad_outward"] @ s["vertex_outward"][vertex]
+    across = (s["quad_segment"] == own) & (away < touch.across * radius) & (sides < contact.OPPOSITE)
+    meets = across | (away > touch.apart * radius) | ((s["quad_segment"] != own) & (own >= 0))
+    going = s["v"][s["quads"]].mean(axis=1) - s["v"][vertex]
+    offset = s["contact_offset"][0]
+    watched = np.where(across, contact.INSIDE * offset, offset + s["contact_arc"][0] * size)
+    watched = watched + touch.margin + touch.ahead * np.linalg.norm(going, axis=1) + slack
+    deepest = slack + contact.DEPTH_LIMIT * np.minimum(
+        s["ring_radius"][s["vertex_ring"][vertex]], s["ring_radius"][s["quad_ring"]]
+    )
+    turned = face @ s["normal"][vertex] < contact.FACING + 100.0 * slack
+    height = np.where(across, -height, height)
+    gap = x[vertex] - nearest(x[s["quads"]], np.repeat(x[vertex][None], len(face), axis=0))
+    beside = np.linalg.norm(gap - (gap * face).sum(axis=1)[:, None] * face, axis=1)
+    near = (height > -deepest) & (height < watched) & (beside < contact.SIDE_SLIP * np.sqrt(size) + slack)
+    return np.where(meets & turned & near, np.linalg.norm(gap, axis=1), np.inf)
+
+
+@pytest.mark.parametrize("speed", [0.0, 1.0], ids=["still", "fast"])
+def test_every_vertex_finds_the_wall_nearest_to_it_of_all_that_it_may_touch(model, speed):
+    velocity = np.random.default_rng(5).normal(0.0, speed, (len(model.scene.x), 3)).astype(np.float32)
+    s = searched(model, velocity)
+    found = looked = small = 0
+    for vertex in range(len(s["x"])):
+        distance = distances(s, model.scene.touch, vertex, ROUNDED)
+        best = int(np.argmin(distance))
+        if distance[best] != distances(s, model.scene.touch, vertex, -ROUNDED).min():
+            continue
+        looked += 1
+        target = s["target"][vertex, 0]
+        assert (target >= 0) == (distance[best] < np.inf), vertex
+        if target >= 0:
+            found += 1
+            assert distance[target] == pytest.approx(distance[best], abs=ROUNDED)
+            small += s["area"][vertex] < 0.25 * np.linalg.norm(s["quad_area"][target])
+    assert looked > 0.9 * len(s["x"])
+    assert found > 100
+    # Where necks press on full bubbles.
+    assert small > 5
+
+
+def test_the_list_of_a_face_holds_every_contact_on_it_once_in_order(model):
+    s = searched(model, np.zeros((len(model.scene.x), 3), dtype=np.float32))
+    vertex, slot = np.nonzero(s["target"] >= 0)
+    pairs, faces = 2 * vertex + slot, s["target"][vertex, slot]
+    assert len(pairs) == s["pair_count"][0] == s["listed_count"][0] > 100
+    for face in range(len(s["quads"])):
+        first, count = s["hit_first"][face], s["hit_count"][face]
+        assert s["hits"][first : first + count].tolist() == sorted(pairs[faces == face].tolist())
+    pressed = s["pressed"][: s["pressed_count"][0]]
+    assert sorted(pressed.tolist()) == np.flatnonzero(s["hit_count"]).tolist()
+
+
+def test_the_inside_of_a_tube_that_is_pressed_flat_is_pressed_apart():
+    simulation = simulate_many([plan(Recipe.parse(PAIR))], detail="draft", device="cpu")
+    stepper, scene = simulation.model.stepper, simulation.model.scene
+    x = scene.x.numpy().copy()
+    flat = x.copy()
+    flat[:, 1] *= FLAT
+    scene.x.assign(flat)
+    searched(simulation.model, np.zeros_like(x))
+    stepper._sculptures.advance(stepper._launcher, stepper.substeps, 0, 1, contact=True, fingers=False)
+    # On a CPU the vectors of one vertex lie together.
+    force = scene.contact_force.numpy().reshape(-1, 2, 3).sum(axis=1)
+    pressed = np.abs(force[:, 1]) > 1e-3
+    assert pressed.sum() > 50
+    assert (force[pressed, 1] * x[pressed, 1] > 0.0).mean() > 0.95
