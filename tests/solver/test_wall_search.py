@@ -88,6 +88,7 @@ def distances(s, touch, vertex, slack):
     deepest = slack + contact.DEPTH_LIMIT * np.minimum(
         s["ring_radius"][s["vertex_ring"][vertex]], s["ring_radius"][s["quad_ring"]]
     )
+    deepest = np.where(across, np.minimum(deepest, watched), deepest)
     turned = face @ s["normal"][vertex] < contact.FACING + 100.0 * slack
     height = np.where(across, -height, height)
     gap = x[vertex] - nearest(x[s["quads"]], np.repeat(x[vertex][None], len(face), axis=0))

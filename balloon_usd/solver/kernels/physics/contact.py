@@ -104,18 +104,17 @@ def chunk_surface(
         middle = 0.25 * (x0 + x1 + x2 + x3)
         area = 0.5 * wp.cross(x2 - x0, x3 - x1)
         size = wp.length(area)
-        around = (
-            SIDE_SLIP * wp.sqrt(size)
-            + balloons.contact_arc[mesh.quad_balloon[q]] * size
-            + touch.ahead * wp.length(velocity_of_quad(c, middle, hands, state.v))
+        above = balloons.contact_arc[mesh.quad_balloon[q]] * size + touch.ahead * wp.length(
+            velocity_of_quad(c, middle, hands, state.v)
         )
+        around = SIDE_SLIP * wp.sqrt(size) + above
         corner = wp.max(
             wp.max(wp.length(x0 - middle), wp.length(x1 - middle)),
             wp.max(wp.length(x2 - middle), wp.length(x3 - middle)),
         )
         contacts.quad_middle[q] = middle
         contacts.quad_area[q] = area
-        contacts.quad_reach[q] = corner + around
+        contacts.quad_reach[q] = wp.vec2(corner + around, above)
         contacts.hit_count[q] = 0
         contacts.hit_last[q] = -1
         high = wp.max(high, wp.max(wp.max(x0, x1), wp.max(x2, x3)) + wp.vec3(around))
@@ -328,20 +327,21 @@ def distance_of_wall(
     `d`: from the quad's middle to the vertex, m.
     """
     distance = float(FAR)
-    if may_meet(q, seeker, mesh):
-        a = vec3_at(contacts.quad_area, q)
-        size = wp.length(a)
-        face = a / wp.max(size, 1.0e-12)
+    a = vec3_at(contacts.quad_area, q)
+    size = wp.length(a)
+    face = a / wp.max(size, 1.0e-12)
+    if wp.dot(face, seeker.normal) < FACING and may_meet(q, seeker, mesh):
         height = wp.dot(d, face)
         limit = wp.min(seeker.depth, DEPTH_LIMIT * float_at(contacts.ring_radius, int_at(mesh.quad_ring, q)))
-        watched = seeker.offset + seeker.arc * size + touch.margin
+        going = velocity_of_quad(vec4i_at(mesh.quads, q), seeker.position - d, hands, state.v)
+        watched = touch.margin + touch.ahead * wp.length(seeker.velocity - going)
         if opposite(q, seeker, mesh):
             height = -height
-            watched = INSIDE * seeker.offset + touch.margin
-        going = velocity_of_quad(vec4i_at(mesh.quads, q), seeker.position - d, hands, state.v)
-        watched += touch.ahead * wp.length(seeker.velocity - going)
-        near = height > -limit and height < watched
-        if near and wp.dot(face, seeker.normal) < FACING:
+            watched += INSIDE * seeker.offset
+            limit = wp.min(limit, watched)
+        else:
+            watched += seeker.offset + seeker.arc * size
+        if height > -limit and height < watched:
             beside = SIDE_SLIP * wp.sqrt(size)
             distance = distance_beside(q, face, beside, seeker.position, mesh.quads, state.x)
     return distance
@@ -390,9 +390,14 @@ def close_quads(
     bits = int(0)
     for q in range(first, end):
         d = seeker.position - vec3_at(contacts.quad_middle, q)
-        both = seeker.reach + float_at(contacts.quad_reach, q)
-        if wp.dot(d, d) < both * both and wp.dot(vec3_at(contacts.quad_area, q), seeker.normal) < 0.0:
-            bits |= 1 << (q - base)
+        reach = vec2_at(contacts.quad_reach, q) + wp.vec2(seeker.reach)
+        if wp.dot(d, d) < reach[0] * reach[0]:
+            a = vec3_at(contacts.quad_area, q)
+            size = wp.length(a)
+            height = wp.dot(d, a)
+            above = height < reach[1] * size and height > -wp.max(reach[1], seeker.depth) * size
+            if above and wp.dot(a, seeker.normal) < 0.0:
+                bits |= 1 << (q - base)
     return bits
 
 
