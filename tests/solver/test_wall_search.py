@@ -70,6 +70,12 @@ def nearest(x, p):
     raise AssertionError
 
 
+def ahead_of(s, touch, vertex):
+    """How much farther than where it presses every face is looked for, (Q,) m."""
+    speeds = np.linalg.norm(s["v"][s["quads"]].mean(axis=1), axis=1) + np.linalg.norm(s["v"][vertex])
+    return touch.margin + touch.ahead * speeds
+
+
 def distances(s, touch, vertex, slack):
     """How far every face is from a vertex, (Q,) m, inf where it may not touch it; `slack`: of limits, m."""
     x, own = s["x"].astype(float), s["vertex_segment"][vertex]
@@ -94,6 +100,10 @@ def distances(s, touch, vertex, slack):
     gap = x[vertex] - nearest(x[s["quads"]], np.repeat(x[vertex][None], len(face), axis=0))
     beside = np.linalg.norm(gap - (gap * face).sum(axis=1)[:, None] * face, axis=1)
     near = (height > -deepest) & (height < watched) & (beside < contact.SIDE_SLIP * np.sqrt(size) + slack)
+    corner = np.linalg.norm(x[s["quads"]] - s["quad_middle"][:, None], axis=2).max(axis=1)
+    wide = corner + contact.SIDE_SLIP * np.sqrt(size)
+    seen = ahead_of(s, touch, vertex) + offset + s["contact_arc"][0] * size
+    near &= np.hypot(wide, seen) + slack > np.linalg.norm(x[vertex] - s["quad_middle"], axis=1)
     return np.where(meets & turned & near, np.linalg.norm(gap, axis=1), np.inf)
 
 

@@ -144,8 +144,9 @@ class Contacts:
     area: wp.array[float] = array("vertices", unit="m2", meaning="share of the wall's area")
     quad_middle: wp.array[wp.vec3] = array("quads", unit="m", meaning="its middle")
     quad_area: wp.array[wp.vec3] = array("quads", unit="m2", meaning="its vector area, outward")
+    quad_velocity: wp.array[wp.vec3] = array("quads", unit="m/s", meaning="velocity of its middle")
     quad_reach: wp.array[wp.vec2] = array(
-        "quads", unit="m", meaning="distances from its middle, and above it, within which it may be touched"
+        "quads", unit="m", meaning="how far from its middle, and how high above it, it may be touched"
     )
     chunk_low: wp.array[wp.vec3] = array(
         "chunks", unit="m", meaning="lowest coordinates of what its quads reach"

@@ -104,21 +104,25 @@ def chunk_surface(
         middle = 0.25 * (x0 + x1 + x2 + x3)
         area = 0.5 * wp.cross(x2 - x0, x3 - x1)
         size = wp.length(area)
-        above = balloons.contact_arc[mesh.quad_balloon[q]] * size + touch.ahead * wp.length(
-            velocity_of_quad(c, middle, hands, state.v)
-        )
-        around = SIDE_SLIP * wp.sqrt(size) + above
+        b = mesh.quad_balloon[q]
+        going = velocity_of_quad(c, middle, hands, state.v)
+        above = balloons.contact_arc[b] * size + touch.ahead * wp.length(going)
+        beside = SIDE_SLIP * wp.sqrt(size)
         corner = wp.max(
             wp.max(wp.length(x0 - middle), wp.length(x1 - middle)),
             wp.max(wp.length(x2 - middle), wp.length(x3 - middle)),
         )
         contacts.quad_middle[q] = middle
         contacts.quad_area[q] = area
-        contacts.quad_reach[q] = wp.vec2(corner + around, above)
+        contacts.quad_velocity[q] = going
+        contacts.quad_reach[q] = wp.vec2(corner + beside, above)
         contacts.hit_count[q] = 0
         contacts.hit_last[q] = -1
-        high = wp.max(high, wp.max(wp.max(x0, x1), wp.max(x2, x3)) + wp.vec3(around))
-        low = wp.min(low, wp.min(wp.min(x0, x1), wp.min(x2, x3)) - wp.vec3(around))
+        # So much farther than the least reach of a vertex: above and beside at once.
+        least = balloons.contact_offset[b] + touch.margin
+        around = wp.vec3(wp.length(wp.vec2(beside, above + least)) - least)
+        high = wp.max(high, wp.max(wp.max(x0, x1), wp.max(x2, x3)) + around)
+        low = wp.min(low, wp.min(wp.min(x0, x1), wp.min(x2, x3)) - around)
     high = warp_max3(high)
     low = -warp_max3(-low)
     if lane == 0:
@@ -318,7 +322,6 @@ def distance_of_wall(
     seeker: Seeker,
     touch: Touch,
     mesh: Mesh,
-    hands: Hands,
     contacts: Contacts,
     state: State,
 ):
@@ -333,8 +336,8 @@ def distance_of_wall(
     if wp.dot(face, seeker.normal) < FACING and may_meet(q, seeker, mesh):
         height = wp.dot(d, face)
         limit = wp.min(seeker.depth, DEPTH_LIMIT * float_at(contacts.ring_radius, int_at(mesh.quad_ring, q)))
-        going = velocity_of_quad(vec4i_at(mesh.quads, q), seeker.position - d, hands, state.v)
-        watched = touch.margin + touch.ahead * wp.length(seeker.velocity - going)
+        going = seeker.velocity - vec3_at(contacts.quad_velocity, q)
+        watched = touch.margin + touch.ahead * wp.length(going)
         if opposite(q, seeker, mesh):
             height = -height
             watched += INSIDE * seeker.offset
@@ -355,13 +358,12 @@ def weigh_wall(
     seeker: Seeker,
     touch: Touch,
     mesh: Mesh,
-    hands: Hands,
     contacts: Contacts,
     state: State,
 ):
     """Return the distances (m) of the two nearest quads of different bubbles, and these, after one more."""
     d = seeker.position - vec3_at(contacts.quad_middle, q)
-    distance = distance_of_wall(q, d, seeker, touch, mesh, hands, contacts, state)
+    distance = distance_of_wall(q, d, seeker, touch, mesh, contacts, state)
     other = nearest[0] >= 0 and int_at(mesh.quad_segment, wp.max(nearest[0], 0)) != int_at(
         mesh.quad_segment, q
     )
@@ -379,25 +381,15 @@ def weigh_wall(
 
 
 @wp.func
-def close_quads(
-    base: int,
-    first: int,
-    end: int,
-    seeker: Seeker,
-    contacts: Contacts,
-):
-    """Return the bits, counted from quad `base`, of those quads that face a vertex and are within reach."""
+def close_quads(base: int, first: int, end: int, seeker: Seeker, contacts: Contacts):
+    """Return the bits, counted from quad `base`, of those quads that are within reach of a vertex."""
     bits = int(0)
     for q in range(first, end):
         d = seeker.position - vec3_at(contacts.quad_middle, q)
-        reach = vec2_at(contacts.quad_reach, q) + wp.vec2(seeker.reach)
-        if wp.dot(d, d) < reach[0] * reach[0]:
-            a = vec3_at(contacts.quad_area, q)
-            size = wp.length(a)
-            height = wp.dot(d, a)
-            above = height < reach[1] * size and height > -wp.max(reach[1], seeker.depth) * size
-            if above and wp.dot(a, seeker.normal) < 0.0:
-                bits |= 1 << (q - base)
+        reach = vec2_at(contacts.quad_reach, q)
+        above = seeker.reach + reach[1]
+        if wp.dot(d, d) < reach[0] * reach[0] + above * above:
+            bits |= 1 << (q - base)
     return bits
 
 
@@ -534,7 +526,7 @@ def find_walls(
             while warp_ballot(wp.where(close != 0, 1, 0)) != 0:
                 if close != 0:
                     q = base + lowest_bit(close)
-                    near, nearest = weigh_wall(q, near, nearest, seeker, touch, mesh, hands, contacts, state)
+                    near, nearest = weigh_wall(q, near, nearest, seeker, touch, mesh, contacts, state)
                     close &= close - 1
         begin += wp.block_dim()
     before = wp.vec2i(int_in(contacts.target, i, 0), int_in(contacts.target, i, 1))
