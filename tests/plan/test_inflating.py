@@ -150,8 +150,8 @@ def test_too_few_frames_are_told_at_the_step_with_what_is_enough(fps, seconds, r
 
 
 def test_a_step_without_seconds_that_has_too_few_frames_is_told_what_it_can_say():
-    (line,) = refusals("{inflate: [a, b], seconds: 3}", "{inflate: c}", balloons="abc", more="fps: 2\n")
+    (line,) = refusals("{inflate: [a, b], seconds: 6}", "{inflate: c}", balloons="abc", more="fps: 1\n")
     found = re.search(r"steps\[1\]: .*expected seconds: (\d+), or", line)
     assert found is not None, line
-    steps = ["{inflate: [a, b], seconds: 3}", f"{{inflate: c, seconds: {found[1]}}}"]
-    assert plan(recipe_of("abc", steps, "fps: 2\n"))
+    steps = ["{inflate: [a, b], seconds: 6}", f"{{inflate: c, seconds: {found[1]}}}"]
+    assert plan(recipe_of("abc", steps, "fps: 1\n"))

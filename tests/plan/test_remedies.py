@@ -473,7 +473,7 @@ def test_several_shapes_in_one_place_are_planned_at_those_that_are_told(tmp_path
     (LATEX % ("260", "leak: 5 days", 24), r"expected hold: (\d+),", {"physics.hold": "<1>"}),
     (LATEX % ("260", "leak: 30 days", 24), r"expected hold: (\d+),", {"physics.hold": "<1>"}),
     (LATEX % ("260", "leak: 5 days, hold: 0.7", 24), r"or leak: (.*)$", {"physics.leak": "<1>"}),
-    (LATEX % ("260", "hold: 1", 2), r"expected at least (\d+) frames/s$", {"fps": "<1>"}),
+    (LATEX % ("260", "hold: 1", 1), r"expected at least (\d+) frames/s$", {"fps": "<1>"}),
     (
         ONE % ("length: 9, tail: 2, thickness: 3 mm", "[wait: 1]"),
         r"expected at most ([\d.]+ mm)$",

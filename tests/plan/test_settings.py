@@ -73,12 +73,12 @@ def test_a_tube_narrower_than_its_own_wall_allows_is_refused_by_its_radius():
 
 
 def test_too_few_frames_to_blow_up_in_are_refused():
-    (line,) = messages(head="fps: 2\n")
+    (line,) = messages(head="fps: 1\n")
     assert line == (
-        "t.yaml:4:6: fps: 2 frames/s leave 4 for the 2.0 s in which a balloon is blown up,"
-        " expected at least 3 frames/s"
+        "t.yaml:4:6: fps: 1 frames/s leave 3 for the 3.0 s in which a balloon is blown up,"
+        " expected at least 2 frames/s"
     )
-    assert messages(head="fps: 3\n") == []
+    assert messages(head="fps: 2\n") == []
 
 
 def test_all_problems_are_told_at_once():

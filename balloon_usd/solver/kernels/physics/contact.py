@@ -458,6 +458,27 @@ def enter_walls(
         contacts.slip[i, k] = kept
 
 
+@wp.func
+def seeker_at(
+    i: int,
+    normal: wp.vec3,
+    touch: Touch,
+    mesh: Mesh,
+    balloons: Balloons,
+    hands: Hands,
+    contacts: Contacts,
+    state: State,
+):
+    """Return a vertex that looks for walls from where it is; `normal`: its outward unit normal."""
+    seeker = seeker_of(i, touch, mesh, balloons)
+    seeker.position = state.x[i]
+    seeker.velocity = state.v[i] + velocity_of_spin(i, state.x[i], hands)
+    seeker.normal = normal
+    seeker.depth = DEPTH_LIMIT * contacts.ring_radius[mesh.vertex_ring[i]]
+    seeker.reach = seeker.offset + touch.margin + touch.ahead * wp.length(seeker.velocity)
+    return seeker
+
+
 @wp.kernel
 def find_walls(
     touch: Touch,
@@ -479,12 +500,7 @@ def find_walls(
     spare = i >= state.x.shape[0]
     i = wp.min(i, state.x.shape[0] - 1)
     outward, size = surface_of_vertex(i, mesh.corners, contacts.quad_area)
-    seeker = seeker_of(i, touch, mesh, balloons)
-    seeker.position = state.x[i]
-    seeker.velocity = state.v[i] + velocity_of_spin(i, state.x[i], hands)
-    seeker.normal = wp.normalize(outward)
-    seeker.depth = DEPTH_LIMIT * contacts.ring_radius[mesh.vertex_ring[i]]
-    seeker.reach = seeker.offset + touch.margin + touch.ahead * wp.length(seeker.velocity)
+    seeker = seeker_at(i, wp.normalize(outward), touch, mesh, balloons, hands, contacts, state)
     contacts.normal[i] = seeker.normal
     contacts.area[i] = size
     own = contacts.vertex_own[i]
