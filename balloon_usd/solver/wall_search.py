@@ -5,13 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from balloon_usd.solver.kernels.device.warp_reduce import WARP
-from balloon_usd.solver.kernels.physics.contact import (
-    chunk_surface,
-    find_own_walls,
-    find_walls,
-    order_hits,
-    ring_radii,
-)
+from balloon_usd.solver.kernels.physics.facing_walls import find_own_walls, find_walls, order_hits
+from balloon_usd.solver.kernels.physics.surface import chunk_surface, ring_radii
 
 if TYPE_CHECKING:
     from balloon_usd.solver.launch import Launcher

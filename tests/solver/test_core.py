@@ -11,7 +11,7 @@ from balloon_usd.bench.pinch_task import RADIUS, PinchTask
 from balloon_usd.plan import plan
 from balloon_usd.recipe import Recipe
 from balloon_usd.solver.kernels.device.warp_reduce import WARP
-from balloon_usd.solver.kernels.physics.contact import ring_radii
+from balloon_usd.solver.kernels.physics.surface import ring_radii
 from balloon_usd.solver.latex.cores import core_radii
 from balloon_usd.solver.latex.scene import build_scene
 from balloon_usd.solver.latex.stepper import Stepper

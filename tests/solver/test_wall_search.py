@@ -7,7 +7,9 @@ import pytest
 
 from balloon_usd.plan import plan
 from balloon_usd.recipe import Recipe
-from balloon_usd.solver.kernels.physics import contact
+from balloon_usd.solver.kernels.physics.facing_walls import DEPTH_LIMIT, FACING
+from balloon_usd.solver.kernels.physics.meeting import INSIDE, OPPOSITE
+from balloon_usd.solver.kernels.physics.patch import SIDE_SLIP
 from balloon_usd.solver.simulation import simulate_many
 
 PAIR = """
@@ -85,23 +87,23 @@ def distances(s, touch, vertex, slack):
     radius = s["balloon_radius"][0]
     away = np.abs(s["quad_place"] - s["vertex_place"][vertex]).max(axis=1)
     sides = s["quad_outward"] @ s["vertex_outward"][vertex]
-    across = (s["quad_segment"] == own) & (away < touch.across * radius) & (sides < contact.OPPOSITE)
+    across = (s["quad_segment"] == own) & (away < touch.across * radius) & (sides < OPPOSITE)
     meets = across | (away > touch.apart * radius) | ((s["quad_segment"] != own) & (own >= 0))
     going = s["v"][s["quads"]].mean(axis=1) - s["v"][vertex]
     offset = s["contact_offset"][0]
-    watched = np.where(across, contact.INSIDE * offset, offset + s["contact_arc"][0] * size)
+    watched = np.where(across, INSIDE * offset, offset + s["contact_arc"][0] * size)
     watched = watched + touch.margin + touch.ahead * np.linalg.norm(going, axis=1) + slack
-    deepest = slack + contact.DEPTH_LIMIT * np.minimum(
+    deepest = slack + DEPTH_LIMIT * np.minimum(
         s["ring_radius"][s["vertex_ring"][vertex]], s["ring_radius"][s["quad_ring"]]
     )
     deepest = np.where(across, np.minimum(deepest, watched), deepest)
-    turned = face @ s["normal"][vertex] < contact.FACING + 100.0 * slack
+    turned = face @ s["normal"][vertex] < FACING + 100.0 * slack
     height = np.where(across, -height, height)
     gap = x[vertex] - nearest(x[s["quads"]], np.repeat(x[vertex][None], len(face), axis=0))
     beside = np.linalg.norm(gap - (gap * face).sum(axis=1)[:, None] * face, axis=1)
-    near = (height > -deepest) & (height < watched) & (beside < contact.SIDE_SLIP * np.sqrt(size) + slack)
+    near = (height > -deepest) & (height < watched) & (beside < SIDE_SLIP * np.sqrt(size) + slack)
     corner = np.linalg.norm(x[s["quads"]] - s["quad_middle"][:, None], axis=2).max(axis=1)
-    wide = corner + contact.SIDE_SLIP * np.sqrt(size)
+    wide = corner + SIDE_SLIP * np.sqrt(size)
     seen = ahead_of(s, touch, vertex) + offset + s["contact_arc"][0] * size
     near &= np.hypot(wide, seen) + slack > np.linalg.norm(x[vertex] - s["quad_middle"], axis=1)
     return np.where(meets & turned & near, np.linalg.norm(gap, axis=1), np.inf)
