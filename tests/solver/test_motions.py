@@ -350,7 +350,7 @@ def test_a_pinched_neck_closes_and_all_that_hangs_on_its_knots_side_is_steadied(
 def test_a_pump_starts_and_stops_gently_and_is_taken_off_in_the_end():
     room = Room()
     body, hands = room.sculpture.body["red"], room.hands
-    inflate = moves.Inflate(**{**DONE, "seconds": 6.0}, balloon="red")
+    inflate = moves.Inflate(**{**DONE, "seconds": 7.0}, balloon="red")
     pump = LATEX_MOTIONS[moves.Inflate](inflate, room.sculpture)
     assert (hands.drag[body], hands.softening[body]) == (0.0, 0.0)
     flows = []
