@@ -5,28 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from balloon_usd.plan import plan
-from balloon_usd.recipe import Recipe
 from balloon_usd.solver.simulation import simulate_many
-
-PAIR = """
-format: 1
-name: pair
-units: cm
-fps: 12
-balloons:
-  main: {size: 260, length: 14, tail: 5}
-steps:
-  - bubbles: {nose: 4, left: 6, right: 6}
-  - lock: [left, right]
-  - rest: tail
-physics: {hold: 0.5}
-"""
+from tests.solver.locked_pair import locked_pair
 
 
 def made():
     """The simulation of a locked pair at its end, and its last frame."""
-    simulation = simulate_many([plan(Recipe.parse(PAIR))], detail="draft", device="cpu")
+    simulation = simulate_many([locked_pair()], detail="draft", device="cpu")
     return simulation, [frames[0] for frames in simulation.frames()]
 
 

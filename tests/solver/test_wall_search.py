@@ -5,26 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from balloon_usd.plan import plan
-from balloon_usd.recipe import Recipe
 from balloon_usd.solver.kernels.physics.facing_walls import DEPTH_LIMIT, FACING
 from balloon_usd.solver.kernels.physics.meeting import INSIDE, OPPOSITE
 from balloon_usd.solver.kernels.physics.patch import SIDE_SLIP
 from balloon_usd.solver.simulation import simulate_many
+from tests.solver.locked_pair import locked_pair
 
-PAIR = """
-format: 1
-name: pair
-units: cm
-fps: 12
-balloons:
-  main: {size: 260, length: 12, tail: 5}
-steps:
-  - bubbles: {nose: 3, left: 5, right: 5}
-  - lock: [left, right]
-  - rest: tail
-physics: {hold: 0.5}
-"""
 FLAT = 0.05
 """Width of a tube that is pressed flat, in its own."""
 ROUNDED = 1e-5
@@ -34,7 +20,7 @@ ROUNDED = 1e-5
 @pytest.fixture(scope="module")
 def model():
     """A locked pair at its end."""
-    simulation = simulate_many([plan(Recipe.parse(PAIR))], detail="draft", device="cpu")
+    simulation = simulate_many([locked_pair()], detail="draft", device="cpu")
     assert all(frames for frames in simulation.frames())
     return simulation.model
 
@@ -42,7 +28,7 @@ def model():
 def searched(model, velocity):
     """The arrays of the scene after one more search; `velocity`: (V, 3), m/s."""
     scene, search = model.scene, model.stepper._search
-    kept = scene.v.numpy()
+    kept = scene.v.numpy().copy()
     scene.v.assign(velocity)
     scene.touching.assign(np.ones(len(scene.bodies), dtype=np.int32))
     search.measure_quads()
@@ -145,7 +131,7 @@ def test_the_list_of_a_face_holds_every_contact_on_it_once_in_order(model):
 
 
 def test_the_inside_of_a_tube_that_is_pressed_flat_is_pressed_apart():
-    simulation = simulate_many([plan(Recipe.parse(PAIR))], detail="draft", device="cpu")
+    simulation = simulate_many([locked_pair()], detail="draft", device="cpu")
     stepper, scene = simulation.model.stepper, simulation.model.scene
     x = scene.x.numpy().copy()
     flat = x.copy()

@@ -54,8 +54,9 @@ def wall_loads(mesh: Mesh, contacts: Contacts, wall_load: wp.array[float], state
     s, lane = wp.tid()
     total = float(0.0)
     for q in range(int_at(mesh.segment_quad, s) + lane, int_at(mesh.segment_quad_end, s), wp.block_dim()):
+        first = int_at(contacts.hit_first, q)
         for k in range(int_at(contacts.hit_count, q)):
-            hit = int_at(contacts.hits, int_at(contacts.hit_first, q) + k)
+            hit = int_at(contacts.hits, first + k)
             total += pressing_on(
                 q, mesh.quads, state.x, load_soa(contacts.contact_force, hit // 2, hit % 2, 0)
             )
