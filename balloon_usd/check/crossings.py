@@ -91,7 +91,7 @@ def _count(stage: Any, choose: Choose | None, report: CrossingReport) -> None:
     times = choose(walls.times) if choose else walls.times
     if not times:
         raise UnreadableError(f"has frames {walls.times[0]:g} to {walls.times[-1]:g} only")
-    counter = CrossingCounter(walls.walls, len(times))
+    counter = CrossingCounter(walls.walls, len(times), "auto")
     for time in times:
         report.frames[time] = counter.count(walls.points(time))
     for time in {report.worst, report.last}:

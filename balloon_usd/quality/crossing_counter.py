@@ -26,10 +26,16 @@ FEW = 8
 class CrossingCounter:
     """Counts the crossings of walls; NumPy or Warp do so with the same result, bit for bit."""
 
-    def __init__(self, walls: Walls, frames: int) -> None:
-        """Get ready for about so many frames."""
+    def __init__(self, walls: Walls, frames: int, device: str = "cpu") -> None:
+        """Get ready for about so many frames; `device`: by name, that counts in many of them.
+
+        While frames are simulated on a GPU, counting there would wait for them.
+
+        Raises:
+            DeviceUnavailable: there is no such device.
+        """
         self._walls = walls
-        self._search = _search(walls) if frames > FEW else None
+        self._search = _search(walls, device) if frames > FEW else None
 
     def count(self, points: Sequence[NDArray[np.float32]]) -> Crossings:
         """Return the crossings of a frame; `points`: (V, 3) float32 of every balloon, m."""
@@ -51,10 +57,9 @@ def _joined(points: Sequence[NDArray[np.float32]]) -> NDArray[np.float32]:
     return np.concatenate(points) if len(points) > 1 else points[0]
 
 
-def _search(walls: Walls) -> PiercedSearch:
-    """Return a search on the CPU: on a GPU it would wait for the frames that are simulated there."""
+def _search(walls: Walls, device: str) -> PiercedSearch:
     from balloon_usd.quality.pierced_search import PiercedSearch  # noqa: PLC0415
-    from balloon_usd.solver.device import start_warp  # noqa: PLC0415
+    from balloon_usd.solver.device import device_named, start_warp  # noqa: PLC0415
 
     start_warp()
-    return PiercedSearch(walls.quads, len(walls.neck))
+    return PiercedSearch(walls.quads, len(walls.neck), device_named(device))
