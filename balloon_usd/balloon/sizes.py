@@ -11,6 +11,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, fields
 
+NECK_REACH = 1.0
+"""Rubber on each side of a joint that counts as its neck, in R0: folded and pressed together there."""
+
 
 @dataclass(frozen=True)
 class BalloonSize:

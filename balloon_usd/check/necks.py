@@ -14,9 +14,10 @@ import networkx as nx
 import numpy as np
 
 from balloon_usd.balloon.ringed_faces import inner_vertices, ring_starts, ringed_quads
+from balloon_usd.balloon.sizes import NECK_REACH
 from balloon_usd.balloon.tube_mesh import KNOT_LENGTH, LIP_LENGTH
 from balloon_usd.quality.joints import APART
-from balloon_usd.quality.walls import CAPSULE_NECK_REACH, NECK_REACH, NO_NECK
+from balloon_usd.quality.walls import CAPSULE_NECK_REACH, NO_NECK
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

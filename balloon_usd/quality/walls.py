@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from balloon_usd.balloon.sizes import NECK_REACH
 from balloon_usd.quality.joints import joints_of
 
 if TYPE_CHECKING:
@@ -18,8 +19,6 @@ if TYPE_CHECKING:
 
     Numbers = NDArray[np.int64]
 
-NECK_REACH = 1.0
-"""Rubber on each side of a joint that counts as its neck, in R0: folded and pressed together there."""
 CAPSULE_NECK_REACH = 0.25
 """The same of a capsule, in radii before it is twisted."""
 NO_NECK = -1

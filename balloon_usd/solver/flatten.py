@@ -7,10 +7,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from balloon_usd.balloon.sizes import NECK_REACH
 from balloon_usd.solver.corners import corner_table
 from balloon_usd.solver.kernels.device.warp_reduce import WARP
 
 if TYPE_CHECKING:
+    from balloon_usd.solver.body import Body
     from balloon_usd.solver.flat_bodies import FlatBodies
 
 Arrays = dict[str, NDArray[Any]]
@@ -93,6 +95,8 @@ def ring_arrays(scene: FlatBodies, host: Arrays) -> None:
     for j, (f, n, before) in enumerate(zip(first, around, carried, strict=True)):
         vertex_joint[f - before : f + n] = j
     host["vertex_joint"] = vertex_joint
+    necks = [_quad_necks(b, int(scene.joint_start[k])) for k, b in enumerate(bodies)]
+    host["quad_neck"] = np.concatenate(necks).astype(np.int32)
     host["ring_cos_sin"] = np.zeros((v[-1], 2), dtype=np.float32)
     sizes = host["ring_around"].astype(np.int64)
     place = np.arange(sizes.sum()) - np.repeat(np.cumsum(sizes) - sizes, sizes)
@@ -107,6 +111,21 @@ def ring_arrays(scene: FlatBodies, host: Arrays) -> None:
     host["joint_mass"] = np.array(
         [mass[f : f + n].sum() for f, n in zip(first, around, strict=True)] or [1.0], dtype=np.float32
     )
+
+
+def _quad_necks(body: Body, first_joint: int) -> NDArray[np.int64]:
+    """Return for every quad of a body the joint in whose neck all of it lies, (Q,), else -1."""
+    parting = [i for i, ring in enumerate(body.rings) if ring.parts]
+    if not parting:
+        return np.full(len(body.quads), -1)
+    # Knot and lip lie in the neck of the knot.
+    along = np.maximum(body.along, 0.0)
+    away = np.abs(along[:, None] - along[[body.rings[i].first for i in parting]])
+    nearest = away.shape[1] - 1 - away[:, ::-1].argmin(axis=1)
+    joint = np.array(parting)[nearest] + first_joint
+    joint[away.min(axis=1) > NECK_REACH * body.radius] = -1
+    corners = joint[body.quads]
+    return np.where((corners == corners[:, :1]).all(axis=1), corners[:, 0], -1)
 
 
 def segment_arrays(scene: FlatBodies, host: Arrays) -> None:

@@ -35,6 +35,8 @@ LEAD_FORCE = 6.0
 """Largest force of a hand that leads a bubble, N: a light push."""
 LEAD_STIFFNESS = 800.0
 """Stiffness of that hand, N/m, where the time step allows it."""
+LEADING_SPEED = 0.024
+"""Speed at which walls are led out of others while hands work, m/s: 1 mm a frame at 24 frames/s."""
 STEP_STIFFNESS = 0.1
 """Largest stiffness on a ring, in ring masses per squared time step."""
 
@@ -69,6 +71,8 @@ class Hands:
         self.fingers = scene.fingers.numpy().copy()
         self.drag = scene.drag.numpy().copy()
         """Air drag of every balloon, 1/s."""
+        self.leading = np.full(len(scene.bodies), LEADING_SPEED, dtype=np.float32)
+        """Speed at which walls of every balloon are led out of others that they have gone through, m/s."""
         self.finger_share = np.zeros(len(scene.x), dtype=np.float32)
         """Share of a finger's force that every vertex takes."""
         self.pressing = False
@@ -250,6 +254,7 @@ class Hands:
             "radius_to": self.radius_goal,
             "touching": self.touching,
             "drag": self.drag,
+            "leading": self.leading,
         }
 
     def arrived(self) -> None:

@@ -17,10 +17,11 @@ ORDERLESS = (
     "most_near",
     "pair_count",
     "pressed_count",
+    "way_back",
     "wp.atomic_max(fastest",
 )
-"""Counts, maxima and a chain that is sorted: they do not depend on who comes first, nor does what is done with
-lists so counted.
+"""Counts, maxima, sums of integers and a chain that is sorted: they do not depend on who comes first, nor does
+what is done with lists so counted.
 """
 
 

@@ -13,6 +13,7 @@ from balloon_usd.solver.kernels.physics.joints import measure_rings
 from balloon_usd.solver.kernels.physics.membrane import vertex_stretch
 from balloon_usd.solver.kernels.physics.wall_load import wall_loads
 from balloon_usd.solver.latex.launch_shape import SculptureLaunch
+from balloon_usd.solver.latex.untangling import Untangling
 from balloon_usd.solver.launch import Launcher
 from balloon_usd.solver.wall_search import WallSearch
 
@@ -39,6 +40,7 @@ class Stepper:
         self._launcher = Launcher(scene, values)
         self._launch = self._launcher.launch
         self._search = WallSearch(self._launcher)
+        self._untangling = Untangling(self._launcher)
         self._launcher.load(wall_loads, lanes=WARP)
         self._sculptures = SculptureLaunch(scene)
         self._start()
@@ -84,6 +86,8 @@ class Stepper:
             if contact:
                 self._search.measure_quads()
                 self._search.find()
+                if begin == 0:
+                    self._untangling.step()
             end = min(begin + stride, self.substeps)
             self._sculptures.advance(
                 self._launcher, self.substeps, begin, end, contact=contact, fingers=fingers

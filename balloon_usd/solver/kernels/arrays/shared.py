@@ -34,6 +34,7 @@ class Mesh:
     quad_balloon: wp.array[int] = array("quads", meaning="its balloon")
     quad_world: wp.array[int] = array("quads", meaning="its sculpture")
     quad_ring: wp.array[int] = array("quads", meaning="ring of its first vertex")
+    quad_neck: wp.array[int] = array("quads", meaning="joint in whose neck it lies; -1 for none")
     quad_place: wp.array[wp.vec3] = array("quads", unit="m", meaning="unstressed place of its middle")
     quad_outward: wp.array[wp.vec3] = array(
         "quads", meaning="its unstressed outward direction; 0: its inside never meets itself"
@@ -132,6 +133,9 @@ class Hands:
     )
     spins: wp.array[Spin] = array("spins", unit="SI", meaning="a turn of some vertices")
     vertex_spin: wp.array[int] = array("vertices", meaning="the spin that turns it + 1; 0 for none")
+    leading: wp.array[float] = array(
+        "balloons", unit="m/s", meaning="speed at which its walls are led out of others"
+    )
     fingers: wp.array[Finger] = array("balloons", unit="SI", meaning="a finger that presses on its wall")
     finger_share: wp.array[float] = array("vertices", meaning="share of the finger's force")
 
@@ -145,6 +149,7 @@ class Contacts:
     quad_middle: wp.array[wp.vec3] = array("quads", unit="m", meaning="its middle")
     quad_area: wp.array[wp.vec3] = array("quads", unit="m2", meaning="its vector area, outward")
     quad_velocity: wp.array[wp.vec3] = array("quads", unit="m/s", meaning="velocity of its middle")
+    quad_radius: wp.array[float] = array("quads", unit="m", meaning="from its middle to its farthest corner")
     quad_reach: wp.array[wp.vec2] = array(
         "quads", unit="m", meaning="how far from its middle, and how high above it, it may be touched"
     )
@@ -160,6 +165,9 @@ class Contacts:
     )
     contact_force: wp.array2d[float] = array(3 * TARGETS, "vertices", unit="N", meaning="force of them on it")
     contact_place: wp.array[wp.vec2] = array("contacts", meaning="where on the quad, -1/2 to 1/2")
+    way_back: wp.array[wp.vec4i] = array(
+        "vertices", meaning="how it is led out of walls that it has gone through, and its share, 65536 to 1"
+    )
     hit_count: wp.array[int] = array("quads", meaning="contacts on it")
     hit_first: wp.array[int] = array("quads", meaning="the first of these in `hits`")
     hits: wp.array[int] = array("contacts", meaning="contacts by quad: 2 vertex + target")

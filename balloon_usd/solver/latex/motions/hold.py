@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from balloon_usd.solver.hands import LEADING_SPEED
 from balloon_usd.solver.motions.motion import Motion
 
 if TYPE_CHECKING:
@@ -17,6 +18,10 @@ of 2 Hz critically.
 """
 MOST_DRAG = 400.0
 """Drag on what has been put down, 1/s: at 2 mm/s it takes 0.8 N from each kg of the mesh, 5 Pa off a wall."""
+LED_SECONDS = 0.2
+"""Time in which the speed fades by a factor of e at which walls of what lies are led out of others, s."""
+LEAST_LEADING = 5.0e-4
+"""What is left of that speed, m/s: what cannot be led out stays calm."""
 LIES_AFTER = 1.0
 """Time after which a sculpture lies and sticks to what it lies on, s."""
 
@@ -46,3 +51,5 @@ class Hold(Motion):
         sculpture.hands.drag[self._bodies] = min(growing, MOST_DRAG)
         if self._seconds >= LIES_AFTER and not self._leaks:
             sculpture.hands.lay(self._bodies)
+            fading = LEADING_SPEED * math.exp((LIES_AFTER - self._seconds) / LED_SECONDS)
+            sculpture.hands.leading[self._bodies] = max(fading, LEAST_LEADING)
