@@ -11,7 +11,9 @@ if TYPE_CHECKING:
     from balloon_usd.solver.launch import Launcher
 
 PARTS = 8
-"""Warps of a GPU that look for what one chunk of quads pierces: one dog has too few chunks to fill it."""
+"""Warps of a GPU that look for what one chunk of quads pierces: one dog has too few chunks to fill it
+(with the candidates of each quad kept as bits, 350 -> 41 us a frame of a dog on an H200).
+"""
 
 
 class Untangling:
