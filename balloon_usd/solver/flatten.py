@@ -95,8 +95,11 @@ def ring_arrays(scene: FlatBodies, host: Arrays) -> None:
     for j, (f, n, before) in enumerate(zip(first, around, carried, strict=True)):
         vertex_joint[f - before : f + n] = j
     host["vertex_joint"] = vertex_joint
-    necks = [_quad_necks(b, int(scene.joint_start[k])) for k, b in enumerate(bodies)]
-    host["quad_neck"] = np.concatenate(necks).astype(np.int32)
+    necks = [_necks(b, int(scene.joint_start[k])) for k, b in enumerate(bodies)]
+    neck = np.concatenate(necks).astype(np.int32)
+    corners = neck[host["quads"]]
+    host["vertex_neck"] = neck
+    host["quad_neck"] = np.where((corners == corners[:, :1]).all(axis=1), corners[:, 0], -1).astype(np.int32)
     host["ring_cos_sin"] = np.zeros((v[-1], 2), dtype=np.float32)
     sizes = host["ring_around"].astype(np.int64)
     place = np.arange(sizes.sum()) - np.repeat(np.cumsum(sizes) - sizes, sizes)
@@ -113,19 +116,18 @@ def ring_arrays(scene: FlatBodies, host: Arrays) -> None:
     )
 
 
-def _quad_necks(body: Body, first_joint: int) -> NDArray[np.int64]:
-    """Return for every quad of a body the joint in whose neck all of it lies, (Q,), else -1."""
+def _necks(body: Body, first_joint: int) -> NDArray[np.int64]:
+    """Return for every vertex of a body the joint in whose neck it lies, (V,), else -1."""
     parting = [i for i, ring in enumerate(body.rings) if ring.parts]
     if not parting:
-        return np.full(len(body.quads), -1)
+        return np.full(len(body.along), -1)
     # Knot and lip lie in the neck of the knot.
     along = np.maximum(body.along, 0.0)
     away = np.abs(along[:, None] - along[[body.rings[i].first for i in parting]])
     nearest = away.shape[1] - 1 - away[:, ::-1].argmin(axis=1)
     joint = np.array(parting)[nearest] + first_joint
     joint[away.min(axis=1) > NECK_REACH * body.radius] = -1
-    corners = joint[body.quads]
-    return np.where((corners == corners[:, :1]).all(axis=1), corners[:, 0], -1)
+    return joint
 
 
 def segment_arrays(scene: FlatBodies, host: Arrays) -> None:

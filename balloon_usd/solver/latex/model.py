@@ -49,6 +49,7 @@ SHORT_OF_GAS = 0.98
 """Share of the wanted gas below which inflating counts as failed."""
 READ_BACK = (
     "x",
+    "x_shown",
     "stretch",
     "pressure",
     "volume",
@@ -136,7 +137,7 @@ class LatexModel(Model):
         """Arrays of the state read back last, of all sculptures; valid for two more read-backs."""
         state, bubbles = self._state, self.layout.bubbles
         gas = (state[name][bubbles] for name in ("pressure", "volume", "wall_load"))
-        return FrameArrays(state["x"], state["stretch"], *gas)
+        return FrameArrays(state["x_shown"], state["stretch"], *gas)
 
     def failures(self) -> dict[int, str]:
         """Return failures that the frames do not show, by sculpture."""

@@ -9,7 +9,7 @@ import numpy as np
 import warp as wp
 
 from balloon_usd.balloon.air import AIR_DENSITY, GAS_CONSTANT, ROOM_TEMPERATURE
-from balloon_usd.solver.kernels.arrays.latex import Chambers, Cores, Forces, Rubber, Struts
+from balloon_usd.solver.kernels.arrays.latex import Chambers, Cores, Crossings, Forces, Rubber, Struts
 from balloon_usd.solver.kernels.arrays.rows import STRUT_SLOTS, Air, Law
 from balloon_usd.solver.latex.cores import core_arrays
 from balloon_usd.solver.latex.device_law import device_laws
@@ -75,7 +75,7 @@ def build_scene(
     scene.arrays.fill("strut_joint", wp.vec2i(-1, -1))
     packs = any(b.packs for b in scene.bodies)
     scene.arrays.set_size("packed vertices", int(scene.vertex_start[-1]) if packs else 1)
-    scene.arrays.zero_others(Chambers, Cores, Forces, Rubber, Struts)
+    scene.arrays.zero_others(Chambers, Cores, Crossings, Forces, Rubber, Struts)
     scene.air.atmosphere = settings.atmosphere
     scene.air.molar_energy = wp.float64(GAS_CONSTANT * ROOM_TEMPERATURE)
     scene.air.density = AIR_DENSITY

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import warp as wp
 
 from balloon_usd.solver.checks import travel_limit
 from balloon_usd.solver.kernels.device.warp_reduce import WARP
@@ -57,6 +58,7 @@ class Stepper:
             amount[[s.segment_start[k] + i for i in body.vented]] = 0.0
         s.amount.assign(amount)
         s.pressure.assign(gauge)
+        wp.copy(s.x_shown, s.x)
 
     def advance(self, *, contact: bool, fingers: bool = False) -> None:
         """Advance by one frame, with or without walls that can touch and fingers that press."""
@@ -86,12 +88,13 @@ class Stepper:
             if contact:
                 self._search.measure_quads()
                 self._search.find()
-                if begin == 0:
-                    self._untangling.step()
             end = min(begin + stride, self.substeps)
             self._sculptures.advance(
                 self._launcher, self.substeps, begin, end, contact=contact, fingers=fingers
             )
+        wp.copy(self.scene.x_shown, self.scene.x)
+        if contact:
+            self._untangling.run()
 
     def _volumes(self) -> None:
         self._launcher.launch_tiled(segment_volumes, len(self.scene.segment_quad))

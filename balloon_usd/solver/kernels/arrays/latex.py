@@ -1,4 +1,4 @@
-"""Device arrays of the latex model: rubber, chambers of gas, struts, packing cores and forces.
+"""Device arrays of the latex model: rubber, chambers of gas, struts, packing cores, forces and crossings.
 
 Vectors of `corner_force` and `volume_gradient` lie as `device.soa` says.
 """
@@ -115,3 +115,24 @@ class Forces:
         "contacts", unit="SI", meaning="stiffness, damping, friction, reach beside"
     )
     wall_load: wp.array[float] = array("segments", unit="N", meaning="normal forces of other walls on it")
+
+
+@array_struct
+class Crossings:
+    """Walls that have gone through each other, and where they are shown."""
+
+    x_shown: wp.array[wp.vec3] = array("vertices", unit="m", meaning="where frames show it: no walls cross")
+    x_coming: wp.array[wp.vec3] = array("vertices", unit="m", meaning="scratch: that in the coming round")
+
+    quad_radius: wp.array[float] = array("quads", unit="m", meaning="from its middle to its farthest corner")
+    quad_bent: wp.array[int] = array("quads", meaning="1 where it is bent about its diagonal")
+    box_low: wp.array[wp.vec3] = array("chunks", unit="m", meaning="lowest coordinates of its quads")
+    box_high: wp.array[wp.vec3] = array("chunks", unit="m", meaning="highest coordinates of its quads")
+    way_back: wp.array[wp.vec4i] = array(
+        "vertices", meaning="how it is led out of walls that it has gone through, and its share, 65536 to 1"
+    )
+    smoothing: wp.array[float] = array("vertices", meaning="how much it is smoothed; 1 at a crossing")
+    smoothing_next: wp.array[float] = array("vertices", meaning="scratch: that in the coming round")
+    pierced_count: wp.array[int] = array("sculptures", meaning="edges found that pierce a face")
+    untangling_round: wp.array[int] = array("sculptures", meaning="rounds in this frame; -1: none is left")
+    untangling: wp.array[int] = array(1, meaning="1 while any sculpture needs another round")

@@ -47,6 +47,7 @@ class Mesh:
     vertex_segment: wp.array[int] = array("vertices", meaning="its segment; -1 on a ring between two")
     vertex_joint: wp.array[int] = array("vertices", meaning="the joint that moves it; -1 for none")
     vertex_ring: wp.array[int] = array("vertices", meaning="its ring")
+    vertex_neck: wp.array[int] = array("vertices", meaning="joint in whose neck it lies; -1 for none")
     vertex_place: wp.array[wp.vec3] = array("vertices", unit="m", meaning="its unstressed place")
     vertex_outward: wp.array[wp.vec3] = array("vertices", meaning="its unstressed outward direction, or 0")
     mass: wp.array[float] = array(
@@ -149,7 +150,6 @@ class Contacts:
     quad_middle: wp.array[wp.vec3] = array("quads", unit="m", meaning="its middle")
     quad_area: wp.array[wp.vec3] = array("quads", unit="m2", meaning="its vector area, outward")
     quad_velocity: wp.array[wp.vec3] = array("quads", unit="m/s", meaning="velocity of its middle")
-    quad_radius: wp.array[float] = array("quads", unit="m", meaning="from its middle to its farthest corner")
     quad_reach: wp.array[wp.vec2] = array(
         "quads", unit="m", meaning="how far from its middle, and how high above it, it may be touched"
     )
@@ -165,9 +165,6 @@ class Contacts:
     )
     contact_force: wp.array2d[float] = array(3 * TARGETS, "vertices", unit="N", meaning="force of them on it")
     contact_place: wp.array[wp.vec2] = array("contacts", meaning="where on the quad, -1/2 to 1/2")
-    way_back: wp.array[wp.vec4i] = array(
-        "vertices", meaning="how it is led out of walls that it has gone through, and its share, 65536 to 1"
-    )
     hit_count: wp.array[int] = array("quads", meaning="contacts on it")
     hit_first: wp.array[int] = array("quads", meaning="the first of these in `hits`")
     hits: wp.array[int] = array("contacts", meaning="contacts by quad: 2 vertex + target")

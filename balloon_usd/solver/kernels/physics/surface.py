@@ -61,7 +61,6 @@ def chunk_surface(
         contacts.quad_middle[q] = middle
         contacts.quad_area[q] = area
         contacts.quad_velocity[q] = going
-        contacts.quad_radius[q] = corner
         contacts.quad_reach[q] = wp.vec2(corner + beside, above)
         contacts.hit_count[q] = 0
         contacts.hit_last[q] = -1

@@ -1,267 +1,135 @@
-"""Walls that have gone through each other are led back: intersection contours are made shorter, which needs
-neither insides nor outsides (Volino & Magnenat-Thalmann 2006, "Resolving surface collisions through
-intersection contour minimization").
+"""Untangling: walls that have gone through each other are led back a little, and are shown where they no
+more cross: round after round they go back, and the wall about them is smoothed, more and farther around the
+longer it takes.
 """
 
 import warp as wp
 
-from balloon_usd.solver.kernels.arrays.shared import (
-    Balloons,
-    Contacts,
-    Hands,
-    Mesh,
-    Sculptures,
-    State,
-    Welds,
-)
+from balloon_usd.solver.kernels.arrays.latex import Crossings
+from balloon_usd.solver.kernels.arrays.shared import Balloons, Hands, Mesh
 from balloon_usd.solver.kernels.device.array_access import float_at, int_at, vec3_at, vec4i_at
-from balloon_usd.solver.kernels.device.warp_reduce import lowest_bit, warp_ballot
+from balloon_usd.solver.kernels.physics.piercing_walls import PER_UNIT
 
-FLATTEST = wp.constant(0.1)
-"""Least sine of the angle between an edge and a wall that it pierces: a flatter one is led as if it had this,
-else it would be led without limit.
-"""
-PER_UNIT = wp.constant(65536.0)
-"""Integers to 1 in sums of ways back: added as integers they do not depend on the order of threads."""
+MOST_ROUNDS = wp.constant(96)
+"""Rounds after which walls that still cross are shown as they are."""
+STEP = wp.constant(1.0 / 6.0)
+"""How far a vertex is shown farther back in a round, in the distance at which walls begin to press."""
 UNDECIDED = wp.constant(1.0e-3)
 """Sum of ways, for a share of 1, below which they cancel: so a vertex goes less than a whole step."""
-
-
-@wp.func
-def is_corner(i: int, quad: wp.vec4i):
-    """Return whether a vertex is a corner of a quad."""
-    return i == quad[0] or i == quad[1] or i == quad[2] or i == quad[3]
-
-
-@wp.func
-def share_corner(c: wp.vec4i, d: wp.vec4i):
-    """Return whether two quads have a vertex in common."""
-    return is_corner(c[0], d) or is_corner(c[1], d) or is_corner(c[2], d) or is_corner(c[3], d)
-
-
-@wp.func
-def lead_back(i: int, share: float, way: wp.vec3, contacts: Contacts):
-    """Add to the way of a vertex, by its share in what is led."""
-    whole = wp.vec4i(0)
-    for k in range(3):
-        whole[k] = int(wp.round(PER_UNIT * share * way[k]))
-    whole[3] = int(wp.round(PER_UNIT * wp.abs(share)))
-    wp.atomic_add(contacts.way_back, i, whole)
-
-
-@wp.func
-def lead_edge_back(
-    ends: wp.vec2i,
-    p: wp.vec3,
-    q: wp.vec3,
-    inward: wp.vec3,
-    below: float,
-    above: float,
-    other: wp.vec3i,
-    a: wp.vec3,
-    b: wp.vec3,
-    c: wp.vec3,
-    contacts: Contacts,
-):
-    """Add to the ways of an edge and a triangle how the contour in one face of the edge becomes shorter, if
-    the edge pierces the triangle.
-
-    `p`, `q`: ends of the edge, m; `inward`: third corner of its face, m; `below`, `above`: heights of the
-    ends above the triangle's plane, times twice its area; `a`, `b`, `c`: corners of the triangle, m.
-    """
-    if (below < 0.0) == (above < 0.0):
-        return
-    share = below / (below - above)
-    place = p + share * (q - p)
-    across = wp.cross(b - a, c - a)
-    size = wp.dot(across, across)
-    first = wp.dot(wp.cross(b - place, c - place), across) / size
-    second = wp.dot(wp.cross(c - place, a - place), across) / size
-    third = 1.0 - first - second
-    if first < 0.0 or second < 0.0 or third < 0.0:
-        return
-    normal = across / wp.sqrt(size)
-    along = wp.normalize(q - p)
-    into = inward - p
-    into = into - wp.dot(into, along) * along
-    # The contour runs where both faces are, from the edge into its own.
-    contour = wp.normalize(wp.cross(normal, wp.cross(along, into)))
-    contour = contour * wp.sign(wp.dot(contour, into))
-    rise = wp.dot(along, normal)
-    rise = wp.sign(rise) * wp.max(wp.abs(rise), FLATTEST)
-    way = wp.normalize(contour - (wp.dot(along, contour) / rise) * normal)
-    lead_back(ends[0], 1.0 - share, way, contacts)
-    lead_back(ends[1], share, way, contacts)
-    lead_back(other[0], -first, way, contacts)
-    lead_back(other[1], -second, way, contacts)
-    lead_back(other[2], -third, way, contacts)
-
-
-@wp.func
-def lead_triangle_back(
-    own: wp.vec3i,
-    p0: wp.vec3,
-    p1: wp.vec3,
-    p2: wp.vec3,
-    other: wp.vec3i,
-    a: wp.vec3,
-    b: wp.vec3,
-    c: wp.vec3,
-    contacts: Contacts,
-):
-    """Add to the ways of two triangles how the contours at the edges of the first become shorter."""
-    across = wp.cross(b - a, c - a)
-    h0 = wp.dot(across, p0 - a)
-    h1 = wp.dot(across, p1 - a)
-    h2 = wp.dot(across, p2 - a)
-    lead_edge_back(wp.vec2i(own[0], own[1]), p0, p1, p2, h0, h1, other, a, b, c, contacts)
-    lead_edge_back(wp.vec2i(own[1], own[2]), p1, p2, p0, h1, h2, other, a, b, c, contacts)
-    lead_edge_back(wp.vec2i(own[2], own[0]), p2, p0, p1, h2, h0, other, a, b, c, contacts)
-
-
-@wp.func
-def beyond(across: wp.vec3, a: wp.vec3, x0: wp.vec3, x1: wp.vec3, x2: wp.vec3, x3: wp.vec3):
-    """Return whether four points are on one side of a plane through `a`."""
-    h0 = wp.dot(across, x0 - a)
-    h1 = wp.dot(across, x1 - a)
-    h2 = wp.dot(across, x2 - a)
-    h3 = wp.dot(across, x3 - a)
-    low = wp.min(wp.min(h0, h1), wp.min(h2, h3))
-    high = wp.max(wp.max(h0, h1), wp.max(h2, h3))
-    return low > 0.0 or high < 0.0
-
-
-@wp.func
-def lead_quad_back(c: wp.vec4i, d: wp.vec4i, contacts: Contacts, x: wp.array[wp.vec3]):
-    """Add to the ways of two quads how the contours at the edges of the first, diagonal included, become
-    shorter.
-    """
-    p0 = vec3_at(x, c[0])
-    p1 = vec3_at(x, c[1])
-    p2 = vec3_at(x, c[2])
-    p3 = vec3_at(x, c[3])
-    a = vec3_at(x, d[0])
-    for half in range(2):
-        k = half + 1
-        other = wp.vec3i(d[0], d[k], d[k + 1])
-        b = vec3_at(x, other[1])
-        e = vec3_at(x, other[2])
-        if not beyond(wp.cross(b - a, e - a), a, p0, p1, p2, p3):
-            lead_triangle_back(wp.vec3i(c[0], c[1], c[2]), p0, p1, p2, other, a, b, e, contacts)
-            lead_triangle_back(wp.vec3i(c[0], c[2], c[3]), p0, p2, p3, other, a, b, e, contacts)
-
-
-@wp.func
-def boxes_meet(chunk: int, other: int, contacts: Contacts):
-    """Return 1 where the bounding boxes of two chunks overlap."""
-    low = vec3_at(contacts.chunk_low, chunk)
-    high = vec3_at(contacts.chunk_high, chunk)
-    other_low = vec3_at(contacts.chunk_low, other)
-    other_high = vec3_at(contacts.chunk_high, other)
-    found = int(0)
-    # The first axis already culls most chunks.
-    if other_low[0] < high[0] and other_high[0] > low[0]:
-        if (
-            other_low[1] < high[1]
-            and other_high[1] > low[1]
-            and other_low[2] < high[2]
-            and other_high[2] > low[2]
-        ):
-            found = 1
-    return found
-
-
-@wp.func
-def joint_of_neck(q: int, mesh: Mesh, welds: Welds):
-    """Return the joint in whose neck a quad lies, the same for all of a weld; -1 for none."""
-    joint = int_at(mesh.quad_neck, q)
-    if joint >= 0:
-        joint = int_at(welds.joint_leader, joint)
-    return joint
-
-
-@wp.func
-def near_quads(q: int, other: int, mesh: Mesh, contacts: Contacts):
-    """Return the bits of those quads of a chunk that are near a quad."""
-    middle = vec3_at(contacts.quad_middle, q)
-    radius = float_at(contacts.quad_radius, q)
-    off = wp.max(
-        wp.max(vec3_at(contacts.chunk_low, other) - middle, middle - vec3_at(contacts.chunk_high, other)),
-        wp.vec3(0.0),
-    )
-    bits = int(0)
-    if wp.dot(off, off) < radius * radius:
-        base = int_at(mesh.chunk_quad, other)
-        for r in range(base, int_at(mesh.chunk_quad, other + 1)):
-            d = middle - vec3_at(contacts.quad_middle, r)
-            near = radius + float_at(contacts.quad_radius, r)
-            if wp.dot(d, d) < near * near:
-                bits |= 1 << (r - base)
-    return bits
-
-
-@wp.func
-def lead_chunk_back(q: int, other: int, mesh: Mesh, welds: Welds, contacts: Contacts, state: State):
-    """Add to the ways of a quad and of those of a chunk that it pierces, but for neighbours, and in a neck
-    for what is folded up there too.
-    """
-    c = vec4i_at(mesh.quads, q)
-    joint = joint_of_neck(q, mesh, welds)
-    base = int_at(mesh.chunk_quad, other)
-    close = near_quads(q, other, mesh, contacts)
-    while close != 0:
-        r = base + lowest_bit(close)
-        close &= close - 1
-        d = vec4i_at(mesh.quads, r)
-        if (joint < 0 or joint_of_neck(r, mesh, welds) != joint) and not share_corner(c, d):
-            lead_quad_back(c, d, contacts, state.x)
+SMOOTHED = wp.constant(0.1)
+"""How far a vertex goes to the middle of its neighbours in the first round, as a share of that way."""
+MORE = wp.constant(0.02)
+"""What is added to that share in every round."""
+MOST_SMOOTHED = wp.constant(0.5)
+"""Largest share."""
+SPREAD = wp.constant(0.85)
+"""How much a vertex is smoothed, in what its neighbours were in the last round."""
+LEAST = wp.constant(0.01)
+"""Smoothing below which a vertex stays where it is."""
 
 
 @wp.kernel
-def find_ways_back(
-    parts: int,
-    sculptures: Sculptures,
-    mesh: Mesh,
-    balloons: Balloons,
-    welds: Welds,
-    contacts: Contacts,
-    state: State,
-):
-    """Sum up for every vertex how it is led where walls have gone through each other; so many `parts` of the
-    other chunks for each chunk, by a warp of lanes each on a GPU.
-    """
-    group, lane = wp.tid()
-    chunk = group // parts
-    first = int_at(mesh.chunk_quad, chunk)
-    if int_at(balloons.touching, int_at(mesh.quad_balloon, first)) == 0:
-        return
-    last = int_at(mesh.chunk_quad, chunk + 1)
-    world = int_at(mesh.quad_world, first)
-    begin = int_at(sculptures.world_chunk, world) + group % parts
-    end = int_at(sculptures.world_chunk, world + 1)
-    while begin < end:
-        found = int(0)
-        if begin + lane * parts < end:
-            found = boxes_meet(chunk, begin + lane * parts, contacts)
-        others = warp_ballot(found)
-        while others != 0:
-            other = begin + lowest_bit(others) * parts
-            others &= others - 1
-            for q in range(first + lane, last, wp.block_dim()):
-                lead_chunk_back(q, other, mesh, welds, contacts, state)
-        begin += wp.block_dim() * parts
+def begin_untangling(crossings: Crossings):
+    """Let every sculpture be looked at; nothing is found yet."""
+    world = wp.tid()
+    crossings.untangling_round[world] = 0
+    crossings.pierced_count[world] = 0
 
 
 @wp.kernel
-def go_back(frame_seconds: float, mesh: Mesh, hands: Hands, contacts: Contacts, x: wp.array[wp.vec3]):
-    """Move every vertex its way back within a frame; it has none then."""
-    i = wp.tid()
-    sums = contacts.way_back[i]
-    if sums[3] == 0:
-        return
+def next_round(crossings: Crossings):
+    """Let another round follow where edges pierce faces, up to the last; nothing is found in it yet."""
+    world = wp.tid()
+    if crossings.untangling_round[world] >= 0:
+        if crossings.pierced_count[world] > 0 and crossings.untangling_round[world] < MOST_ROUNDS:
+            crossings.untangling_round[world] = crossings.untangling_round[world] + 1
+            wp.atomic_max(crossings.untangling, 0, 1)
+        else:
+            crossings.untangling_round[world] = -1
+        crossings.pierced_count[world] = 0
+
+
+@wp.func
+def way_of_vertex(i: int, most: float, crossings: Crossings):
+    """Return how a vertex goes back (m), at most so far (m); its share in what is led says how far."""
+    sums = crossings.way_back[i]
     way = wp.vec3(float(sums[0]), float(sums[1]), float(sums[2])) / PER_UNIT
     # Each edge counts twice, with the faces on both its sides.
     share = wp.min(0.5 * float(sums[3]) / PER_UNIT, 1.0)
-    far = frame_seconds * hands.leading[mesh.vertex_balloon[i]]
-    x[i] = x[i] + way * (far * share / wp.max(wp.length(way), UNDECIDED))
-    contacts.way_back[i] = wp.vec4i(0)
+    return way * (most * share / wp.max(wp.length(way), UNDECIDED))
+
+
+@wp.kernel
+def lead_back_slowly(
+    frame_seconds: float, mesh: Mesh, hands: Hands, crossings: Crossings, x: wp.array[wp.vec3]
+):
+    """Move every vertex its way back within a frame."""
+    i = wp.tid()
+    if crossings.way_back[i][3] != 0:
+        far = frame_seconds * hands.leading[mesh.vertex_balloon[i]]
+        x[i] = x[i] + way_of_vertex(i, far, crossings)
+
+
+@wp.func
+def round_of(i: int, mesh: Mesh, balloons: Balloons, crossings: Crossings):
+    """Return the round of a vertex's sculpture, -1 where none is left."""
+    return int_at(crossings.untangling_round, int_at(balloons.balloon_world, int_at(mesh.vertex_balloon, i)))
+
+
+@wp.kernel
+def draw_back(mesh: Mesh, balloons: Balloons, crossings: Crossings):
+    """Write where every vertex is shown after a round: its way back, and nearer to the middle of its
+    neighbours.
+    """
+    i = wp.tid()
+    if i == 0:
+        crossings.untangling[0] = 0
+    done = round_of(i, mesh, balloons, crossings)
+    if done < 0:
+        return
+    middle = wp.vec3(0.0)
+    count = float(0.0)
+    smoothing = float_at(crossings.smoothing, i)
+    row = int(i)
+    while row >= 0:
+        slots = vec4i_at(mesh.corners, row)
+        for k in range(4):
+            if slots[k] >= 0:
+                c = vec4i_at(mesh.quads, slots[k] // 4)
+                # Every neighbour is met twice, in the quads on both sides of the edge to it.
+                before = c[(slots[k] + 3) % 4]
+                after = c[(slots[k] + 1) % 4]
+                middle += vec3_at(crossings.x_shown, before) + vec3_at(crossings.x_shown, after)
+                count += 2.0
+                smoothing = wp.max(smoothing, float_at(crossings.smoothing, before))
+                smoothing = wp.max(smoothing, float_at(crossings.smoothing, after))
+        row = -2 - slots[3]
+    smoothing *= SPREAD
+    shift = wp.vec3(0.0)
+    if crossings.way_back[i][3] != 0:
+        smoothing = 1.0
+        far = STEP * float_at(balloons.contact_offset, int_at(mesh.vertex_balloon, i))
+        shift = way_of_vertex(i, far, crossings)
+        crossings.way_back[i] = wp.vec4i(0)
+    crossings.smoothing_next[i] = smoothing
+    share = wp.min(SMOOTHED + MORE * float(done - 1), MOST_SMOOTHED)
+    x = vec3_at(crossings.x_shown, i)
+    crossings.x_coming[i] = x + shift + share * smoothing * (middle / count - x)
+
+
+@wp.kernel
+def go_back(mesh: Mesh, balloons: Balloons, crossings: Crossings):
+    """Show every vertex that is smoothed where it is after a round."""
+    i = wp.tid()
+    if round_of(i, mesh, balloons, crossings) < 0:
+        return
+    smoothing = crossings.smoothing_next[i]
+    crossings.smoothing[i] = smoothing
+    if smoothing > LEAST:
+        crossings.x_shown[i] = crossings.x_coming[i]
+
+
+@wp.kernel
+def end_untangling(crossings: Crossings):
+    """Forget where walls were smoothed."""
+    crossings.smoothing[wp.tid()] = 0.0
