@@ -92,9 +92,10 @@ class Stepper:
             self._sculptures.advance(
                 self._launcher, self.substeps, begin, end, contact=contact, fingers=fingers
             )
-        wp.copy(self.scene.x_shown, self.scene.x)
         if contact:
             self._untangling.run()
+        else:
+            wp.copy(self.scene.x_shown, self.scene.x)
 
     def _volumes(self) -> None:
         self._launcher.launch_tiled(segment_volumes, len(self.scene.segment_quad))

@@ -9,9 +9,11 @@ import warp as wp
 from balloon_usd.solver.kernels.device.warp_reduce import WARP
 from balloon_usd.solver.kernels.physics.piercing_walls import box_walls, find_ways_back
 from balloon_usd.solver.kernels.physics.untangling import (
+    begin_rounds,
+    begin_showing,
     begin_untangling,
     draw_back,
-    end_untangling,
+    end_showing,
     go_back,
     lead_back_slowly,
     next_round,
@@ -38,24 +40,26 @@ class Untangling:
     def run(self) -> None:
         """Lead them a step back, and find where they are shown; a graph goes on by itself while any cross."""
         s, launch = self._launcher.scene, self._launcher.launch
-        worlds = len(s.pierced_count)
-        s.untangling.zero_()
+        vertices, worlds = len(s.x), len(s.pierced_count)
+        wp.copy(s.x_shown, s.x)
         launch(begin_untangling, worlds)
-        self._find(worlds)
-        launch(lead_back_slowly, len(s.x))
-        wp.capture_while(s.untangling, lambda: self._round(worlds))
-        launch(end_untangling, len(s.x))
+        self._find()
+        launch(lead_back_slowly, vertices)
+        launch(begin_rounds, worlds)
+        launch(begin_showing, vertices)
+        wp.capture_while(s.untangling, self._round)
+        launch(end_showing, vertices)
 
-    def _round(self, worlds: int) -> None:
-        """Show walls a step farther back, and look again."""
-        vertices = len(self._launcher.scene.x)
-        self._launcher.launch(draw_back, vertices)
-        self._launcher.launch(go_back, vertices)
-        self._find(worlds)
+    def _round(self) -> None:
+        """Show walls that still cross a step farther back."""
+        s, launch = self._launcher.scene, self._launcher.launch
+        self._find()
+        launch(next_round, len(s.pierced_count))
+        launch(draw_back, len(s.x))
+        launch(go_back, len(s.x))
 
-    def _find(self, worlds: int) -> None:
-        """Find where walls cross, and whether another round is needed."""
+    def _find(self) -> None:
+        """Find where walls cross as they are shown."""
         chunks = len(self._launcher.scene.box_low)
         self._launcher.launch_tiled(box_walls, chunks, lanes=WARP)
         self._launcher.launch_tiled(find_ways_back, self._parts * chunks, lanes=WARP, parts=self._parts)
-        self._launcher.launch(next_round, worlds)

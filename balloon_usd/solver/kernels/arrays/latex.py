@@ -122,6 +122,7 @@ class Crossings:
     """Walls that have gone through each other, and where they are shown."""
 
     x_shown: wp.array[wp.vec3] = array("vertices", unit="m", meaning="where frames show it: no walls cross")
+    shown_shift: wp.array[wp.vec3] = array("vertices", unit="m", meaning="how far that is from where it is")
     x_coming: wp.array[wp.vec3] = array("vertices", unit="m", meaning="scratch: that in the coming round")
 
     quad_radius: wp.array[float] = array("quads", unit="m", meaning="from its middle to its farthest corner")
@@ -134,5 +135,8 @@ class Crossings:
     smoothing: wp.array[float] = array("vertices", meaning="how much it is smoothed; 1 at a crossing")
     smoothing_next: wp.array[float] = array("vertices", meaning="scratch: that in the coming round")
     pierced_count: wp.array[int] = array("sculptures", meaning="edges found that pierce a face")
-    untangling_round: wp.array[int] = array("sculptures", meaning="rounds in this frame; -1: none is left")
+    shifted: wp.array[int] = array("sculptures", meaning="1 where any wall is shown elsewhere than it is")
+    untangling_round: wp.array[int] = array(
+        "sculptures", meaning="its round in this frame, from 1; -1: none is left"
+    )
     untangling: wp.array[int] = array(1, meaning="1 while any sculpture needs another round")

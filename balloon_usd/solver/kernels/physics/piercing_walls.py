@@ -21,7 +21,7 @@ does not either where it is counted exactly.
 """
 LEAST_RISE = wp.constant(1.0e-20)
 """Height of an edge's one end over the other, times an area, from which on it may pierce, m3."""
-BENT = wp.constant(0.7)
+BENT = wp.constant(0.9)
 """Cosine between the normals of a quad's halves below which its diagonal may pierce what is beside it."""
 PER_UNIT = wp.constant(65536.0)
 """Integers to 1 in sums of ways back: added as integers they do not depend on the order of threads."""
@@ -281,8 +281,8 @@ def may_pierce(
     quad_bent: wp.array[int],
     quad_area: wp.array[wp.vec3],
 ):
-    """Return whether edges of quad q may pierce quad r: neighbours do only where the wall is folded over, or q
-    itself is.
+    """Return whether edges of quad q may pierce quad r: neighbours do only where the wall is folded over,
+    or q itself is.
 
     `c`, `d`: their corners; `neck`: that in which both lie, -1 for none.
     """
@@ -323,6 +323,8 @@ def box_walls(mesh: Mesh, contacts: Contacts, crossings: Crossings):
     the box (m) about the quads of every chunk; a warp of lanes each on a GPU.
     """
     chunk, lane = wp.tid()
+    if chunk == 0 and lane == 0:
+        crossings.untangling[0] = 0
     high = wp.vec3(-FAR)
     low = wp.vec3(FAR)
     for q in range(mesh.chunk_quad[chunk] + lane, mesh.chunk_quad[chunk + 1], wp.block_dim()):

@@ -6,12 +6,15 @@ longer it takes.
 import warp as wp
 
 from balloon_usd.solver.kernels.arrays.latex import Crossings
-from balloon_usd.solver.kernels.arrays.shared import Balloons, Hands, Mesh
+from balloon_usd.solver.kernels.arrays.shared import Balloons, Hands, Joints, Mesh, State
 from balloon_usd.solver.kernels.device.array_access import float_at, int_at, vec3_at, vec4i_at
+from balloon_usd.solver.kernels.physics.motion import LYING
 from balloon_usd.solver.kernels.physics.piercing_walls import PER_UNIT
 
-MOST_ROUNDS = wp.constant(96)
+MOST_ROUNDS = wp.constant(160)
 """Rounds after which walls that still cross are shown as they are."""
+FIRM_ROUNDS = wp.constant(48)
+"""Rounds in which closed rings stay where they are: joints shall not look as if they came apart."""
 STEP = wp.constant(1.0 / 6.0)
 """How far a vertex is shown farther back in a round, in the distance at which walls begin to press."""
 UNDECIDED = wp.constant(1.0e-3)
@@ -24,6 +27,10 @@ MOST_SMOOTHED = wp.constant(0.5)
 """Largest share."""
 SPREAD = wp.constant(0.85)
 """How much a vertex is smoothed, in what its neighbours were in the last round."""
+KEPT_SECONDS = wp.constant(0.5)
+"""Time in which the shift of what is shown fades by a factor of e where nothing crosses any more, s."""
+LEAST_SHIFT = wp.constant(1.0e-5)
+"""Shift below which a vertex is shown where it is, m."""
 LEAST = wp.constant(0.01)
 """Smoothing below which a vertex stays where it is."""
 
@@ -34,6 +41,18 @@ def begin_untangling(crossings: Crossings):
     world = wp.tid()
     crossings.untangling_round[world] = 0
     crossings.pierced_count[world] = 0
+
+
+@wp.kernel
+def begin_rounds(crossings: Crossings):
+    """Let rounds follow where edges pierce faces, and where walls are shown elsewhere than they are."""
+    world = wp.tid()
+    if crossings.pierced_count[world] + crossings.shifted[world] > 0:
+        wp.atomic_max(crossings.untangling, 0, 1)
+    else:
+        crossings.untangling_round[world] = -1
+    crossings.pierced_count[world] = 0
+    crossings.shifted[world] = 0
 
 
 @wp.kernel
@@ -59,6 +78,16 @@ def way_of_vertex(i: int, most: float, crossings: Crossings):
     return way * (most * share / wp.max(wp.length(way), UNDECIDED))
 
 
+@wp.func
+def kept(i: int, frame_seconds: float, mesh: Mesh, balloons: Balloons, state: State):
+    """Return the share of the last frame's shift that a vertex keeps: less where it moves, all if it lies."""
+    b = int_at(mesh.vertex_balloon, i)
+    if int_at(balloons.touching, b) == LYING:
+        return 1.0
+    moved = frame_seconds * wp.length(vec3_at(state.v, i)) / float_at(balloons.contact_offset, b)
+    return wp.exp(-frame_seconds / KEPT_SECONDS) / (1.0 + moved * moved)
+
+
 @wp.kernel
 def lead_back_slowly(
     frame_seconds: float, mesh: Mesh, hands: Hands, crossings: Crossings, x: wp.array[wp.vec3]
@@ -68,24 +97,58 @@ def lead_back_slowly(
     if crossings.way_back[i][3] != 0:
         far = frame_seconds * hands.leading[mesh.vertex_balloon[i]]
         x[i] = x[i] + way_of_vertex(i, far, crossings)
+        crossings.way_back[i] = wp.vec4i(0)
+
+
+@wp.kernel
+def begin_showing(frame_seconds: float, mesh: Mesh, balloons: Balloons, crossings: Crossings, state: State):
+    """Write where every vertex is shown if no walls cross there: where it is, but for what it keeps of the
+    last frame's shift.
+    """
+    i = wp.tid()
+    shift = crossings.shown_shift[i]
+    if wp.length_sq(shift) > 0.0:
+        shift = kept(i, frame_seconds, mesh, balloons, state) * shift
+    crossings.x_shown[i] = state.x[i] + shift
+    crossings.smoothing[i] = 0.0
+
+
+@wp.kernel
+def end_showing(mesh: Mesh, balloons: Balloons, crossings: Crossings, x: wp.array[wp.vec3]):
+    """Write how far every vertex is shown from where it is, and which sculptures are."""
+    i = wp.tid()
+    shift = crossings.x_shown[i] - x[i]
+    if wp.length(shift) < LEAST_SHIFT:
+        shift = wp.vec3(0.0)
+        crossings.x_shown[i] = x[i]
+    else:
+        wp.atomic_max(crossings.shifted, balloons.balloon_world[mesh.vertex_balloon[i]], 1)
+    crossings.shown_shift[i] = shift
 
 
 @wp.func
 def round_of(i: int, mesh: Mesh, balloons: Balloons, crossings: Crossings):
-    """Return the round of a vertex's sculpture, -1 where none is left."""
+    """Return the round of a vertex's sculpture, from 1; -1 where none is left."""
     return int_at(crossings.untangling_round, int_at(balloons.balloon_world, int_at(mesh.vertex_balloon, i)))
 
 
+@wp.func
+def closed(i: int, mesh: Mesh, joints: Joints, hands: Hands):
+    """Return whether a vertex is of a closed ring."""
+    joint = int_at(mesh.vertex_joint, i)
+    if joint < 0:
+        return False
+    return int_at(joints.joint_parts, joint) == 1 and float_at(hands.radius_to, joint) > 0.0
+
+
 @wp.kernel
-def draw_back(mesh: Mesh, balloons: Balloons, crossings: Crossings):
+def draw_back(mesh: Mesh, balloons: Balloons, joints: Joints, hands: Hands, crossings: Crossings):
     """Write where every vertex is shown after a round: its way back, and nearer to the middle of its
     neighbours.
     """
     i = wp.tid()
-    if i == 0:
-        crossings.untangling[0] = 0
     done = round_of(i, mesh, balloons, crossings)
-    if done < 0:
+    if done <= 0:
         return
     middle = wp.vec3(0.0)
     count = float(0.0)
@@ -105,6 +168,9 @@ def draw_back(mesh: Mesh, balloons: Balloons, crossings: Crossings):
                 smoothing = wp.max(smoothing, float_at(crossings.smoothing, after))
         row = -2 - slots[3]
     smoothing *= SPREAD
+    if done <= FIRM_ROUNDS and closed(i, mesh, joints, hands):
+        smoothing = 0.0
+        crossings.way_back[i] = wp.vec4i(0)
     shift = wp.vec3(0.0)
     if crossings.way_back[i][3] != 0:
         smoothing = 1.0
@@ -121,15 +187,9 @@ def draw_back(mesh: Mesh, balloons: Balloons, crossings: Crossings):
 def go_back(mesh: Mesh, balloons: Balloons, crossings: Crossings):
     """Show every vertex that is smoothed where it is after a round."""
     i = wp.tid()
-    if round_of(i, mesh, balloons, crossings) < 0:
+    if round_of(i, mesh, balloons, crossings) <= 0:
         return
     smoothing = crossings.smoothing_next[i]
     crossings.smoothing[i] = smoothing
     if smoothing > LEAST:
         crossings.x_shown[i] = crossings.x_coming[i]
-
-
-@wp.kernel
-def end_untangling(crossings: Crossings):
-    """Forget where walls were smoothed."""
-    crossings.smoothing[wp.tid()] = 0.0
