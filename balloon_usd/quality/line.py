@@ -53,11 +53,13 @@ def _joints(result: Data) -> Iterator[str]:
 def _crossings(result: Data, depth: Data) -> str:
     # Records of earlier versions do not tell where there were most.
     most = result.get("most", 0)
-    earlier = f"{most} in frame {result['most_at']}" if most > result["value"] else ""
+    earlier = [f"{most} in frame {result['most_at']}"] if most > result["value"] else []
+    if frames := result.get("led_frames", 0):
+        earlier.append(f"led apart by up to {MILLI * result['led_apart']:.1f} mm in {frames} frames")
     if not result["value"]:
-        return f"0 crossings ({earlier})" if earlier else "0 crossings"
+        return f"0 crossings ({', '.join(earlier)})" if earlier else "0 crossings"
     a, b = result["bubbles"][0]["pair"]
-    told = [pair_text((a, b)), f"{MILLI * depth['value']:.1f} mm", *filter(None, [earlier])]
+    told = [pair_text((a, b)), f"{MILLI * depth['value']:.1f} mm", *earlier]
     return f"{result['value']} crossings ({', '.join(told)})"
 
 

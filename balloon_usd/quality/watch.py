@@ -44,6 +44,8 @@ class QualityWatch:
         self._counter = CrossingCounter(walls_of(plan, meshes), len(self._counted))
         self.crossings = CrossingHistory()
         """In those frames."""
+        self._led_apart, self._led_frames = 0.0, 0
+        """Farthest that a wall was shown from where it was, m, and in how many frames any was."""
         self._rest = Rest(plan)
         self._tails = TwistTails(plan, meshes)
         self._end: Frame | None = None
@@ -52,6 +54,8 @@ class QualityWatch:
         """Take the next frame; the last one must not be changed afterwards."""
         self._rest.add(frame)
         self._tails.add(frame)
+        if frame.shift is not None and (most := float(frame.shift.max(initial=0.0))) > 0.0:
+            self._led_apart, self._led_frames = max(self._led_apart, most), self._led_frames + 1
         if frame.time_code in self._counted:
             self.crossings.add(frame.time_code, self._counter.count(frame.points))
         if frame.time_code == self._plan.frame_count:
@@ -84,6 +88,8 @@ class QualityWatch:
             "bubbles": [{"pair": list(pair), "count": count} for pair, count in found.pairs.items()],
             "most": history.frames[history.worst].count,
             "most_at": history.worst,
+            "led_apart": round(self._led_apart, 5),
+            "led_frames": self._led_frames,
         }
         depth = self._counter.depth(end.points) if found.count else 0.0
         return {

@@ -125,7 +125,7 @@ def _necks(body: Body, first_joint: int) -> NDArray[np.int64]:
     along = np.maximum(body.along, 0.0)
     away = np.abs(along[:, None] - along[[body.rings[i].first for i in parting]])
     nearest = away.shape[1] - 1 - away[:, ::-1].argmin(axis=1)
-    joint = np.array(parting)[nearest] + first_joint
+    joint: NDArray[np.int64] = np.array(parting)[nearest] + first_joint
     joint[away.min(axis=1) > NECK_REACH * body.radius] = -1
     return joint
 

@@ -36,6 +36,10 @@ class Frame:
     """Air particles of every balloon, (P, 3) float32, m; empty where the air is no particles."""
     cluster: tuple[NDArray[np.int32], ...] = ()
     """Bubble of every particle, (P,) int32 in plan order; an undivided run has the number of its first."""
+    shift: NDArray[np.float32] | None = None
+    """Farthest that the wall of every bubble is shown from where it is, so that no walls cross, (bubbles,)
+    float32, m; None in the model kosaka.
+    """
 
     def copy(self) -> Frame:
         """Return the same in arrays of its own."""
@@ -48,4 +52,5 @@ class Frame:
             contact=None if self.contact is None else self.contact.copy(),
             air=tuple([air.copy() for air in self.air]),
             cluster=tuple([cluster.copy() for cluster in self.cluster]),
+            shift=None if self.shift is None else self.shift.copy(),
         )

@@ -44,7 +44,8 @@ class Extent(NamedTuple):
         walls = make((self.vertices, 3), np.float32), make((self.vertices,), np.float32)
         pressure, volume = (make((self.bubbles,), np.float32) for _ in range(2))
         if self.particles is None:
-            return FrameArrays(*walls, pressure, volume, make((self.bubbles,), np.float32))
+            contact, shift = (make((self.bubbles,), np.float32) for _ in range(2))
+            return FrameArrays(*walls, pressure, volume, contact, shift=shift)
         air, cluster = make((self.particles, 3), np.float32), make((self.particles,), np.int32)
         return FrameArrays(*walls, pressure, volume, None, air, cluster)
 
@@ -87,6 +88,10 @@ class FrameArrays:
     """Air particles, (P, 3) float32, m; None in the model latex, as what follows."""
     cluster: NDArray[np.int32] | None = None
     """Bubble of every particle, (P,) int32, as in a `Frame`."""
+    shift: NDArray[np.float32] | None = None
+    """Farthest that the wall of every bubble is shown from where it is, (bubbles,) float32, m; None in the
+    model kosaka.
+    """
 
     def copy_to(self, other: FrameArrays) -> None:
         """Copy all arrays into others of the same extent."""
@@ -104,7 +109,7 @@ class FrameArrays:
         walls = slice(before.vertices, before.vertices + extent.vertices)
         bubbles = slice(before.bubbles, before.bubbles + extent.bubbles)
         air = slice(before.particles or 0, (before.particles or 0) + (extent.particles or 0))
-        spans = (walls, walls, bubbles, bubbles, bubbles, air, air)
+        spans = (walls, walls, bubbles, bubbles, bubbles, air, air, bubbles)
         arrays: list[Any] = [
             None if array is None else array[span] for array, span in zip(self._arrays(), spans, strict=True)
         ]
@@ -112,7 +117,7 @@ class FrameArrays:
 
     def frame(self, place: Place, time_code: int, doing: str = "", undone: tuple[str, ...] = ()) -> Frame:
         """Return the frame of one sculpture: views of these arrays."""
-        air, cluster, contact = self.air, self.cluster, self.contact
+        air, cluster, contact, shift = self.air, self.cluster, self.contact, self.shift
         return Frame(
             time_code,
             tuple([self.points[span] for span in place.walls]),
@@ -124,6 +129,7 @@ class FrameArrays:
             undone,
             () if air is None else tuple([air[span] for span in place.air]),
             () if cluster is None else tuple([cluster[span] for span in place.air]),
+            None if shift is None else shift[place.bubbles],
         )
 
     def _arrays(self) -> tuple[Any, ...]:
@@ -135,6 +141,7 @@ class FrameArrays:
             self.contact,
             self.air,
             self.cluster,
+            self.shift,
         )
 
 

@@ -16,7 +16,11 @@ ORDERLESS = (
     "listed_count",
     "most_near",
     "pair_count",
+    "pierced_count",
     "pressed_count",
+    "segment_shift",
+    "shifted",
+    "untangling",
     "way_back",
     "wp.atomic_max(fastest",
 )

@@ -1,4 +1,4 @@
-"""Walls that have gone through each other are led back out."""
+"""Walls that have gone through each other are led back out, and shown where none cross."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import pytest
 from balloon_usd.quality.crossing_counter import CrossingCounter
 from balloon_usd.quality.walls import walls_of
 from balloon_usd.solver.hands import LEADING_SPEED
+from balloon_usd.solver.kernels.physics.motion import LYING_MODE
 from balloon_usd.solver.simulation import simulate_many
 from tests.solver.locked_pair import locked_pair
 
@@ -39,8 +40,12 @@ class Pair:
         return self.scene.vertex_segment.numpy() == self.scene.bubbles_of(0)[bubble]
 
     def crossings(self) -> int:
-        """How many there are in no neck."""
+        """How many there are in no neck where walls are."""
         return self._counter.count([self.scene.x.numpy()]).count
+
+    def shown(self) -> int:
+        """How many there are in no neck where walls are shown."""
+        return self._counter.count([self.scene.x_shown.numpy()]).count
 
     def pierced(self) -> set[int]:
         """Vertices of all edges and faces that pierce each other, in necks too."""
@@ -57,8 +62,7 @@ class Pair:
         self.scene.x.assign(pushed)
 
     def untangle(self) -> None:
-        self._stepper._search.measure_quads()
-        self._stepper._untangling.step()
+        self._stepper._untangling.run()
 
 
 @pytest.fixture(scope="module")
@@ -69,6 +73,9 @@ def whole_pair():
 @pytest.fixture
 def pair(whole_pair):
     whole_pair.scene.x.assign(whole_pair.made)
+    whole_pair.scene.v.zero_()
+    whole_pair.scene.shown_shift.zero_()
+    whole_pair.scene.shifted.zero_()
     return whole_pair
 
 
@@ -96,6 +103,56 @@ def test_walls_that_cross_nowhere_stay_where_they_are_bit_by_bit(pair):
     scene, stepper = model.scene, model.stepper
     scene.touching.assign(np.ones(len(scene.bodies), dtype=np.int32))
     flat = scene.x.numpy().copy()
-    stepper._search.measure_quads()
-    stepper._untangling.step()
+    stepper._untangling.run()
     assert np.array_equal(scene.x.numpy(), flat)
+    assert np.array_equal(scene.x_shown.numpy(), flat)
+
+
+def test_bubbles_that_cross_are_shown_apart_in_the_same_frame(pair):
+    pair.push()
+    pushed = pair.crossings()
+    pair.untangle()
+    assert pushed > 30
+    assert pair.shown() == 0
+    # All else is where it is.
+    far = np.linalg.norm(pair.scene.x_shown.numpy() - pair.scene.x.numpy(), axis=1)
+    assert far.max() < 2.0 * PUSHED
+    assert (far == 0.0).mean() > 0.5
+
+
+def test_joints_are_shown_where_they_are(pair):
+    pair.push()
+    pair.untangle()
+    shift = pair.scene.x_shown.numpy() - pair.scene.x.numpy()
+    closed = pair.scene.vertex_joint.numpy() >= 0
+    closed &= pair.scene.joint_parts.numpy()[pair.scene.vertex_joint.numpy()] == 1
+    closed &= pair.scene.radius_to.numpy()[pair.scene.vertex_joint.numpy()] > 0.0
+    assert closed.any()
+    assert not shift[closed].any()
+
+
+def test_what_no_more_crosses_comes_back_to_where_it_is_by_and_by(pair):
+    pair.push()
+    pair.untangle()
+    pair.scene.x.assign(pair.made)
+    pair.scene.touching.assign(np.ones(len(pair.scene.bodies), dtype=np.int32))
+    far = []
+    for _ in range(STEPS):
+        pair.untangle()
+        assert pair.shown() == 0
+        far.append(float(np.linalg.norm(pair.scene.x_shown.numpy() - pair.made, axis=1).max()))
+    assert far == sorted(far, reverse=True)
+    assert far[-1] < 0.1 * far[0]
+
+
+def test_what_lies_is_shown_as_it_was(pair):
+    pair.push()
+    pair.scene.leading.zero_()
+    pair.untangle()
+    before = pair.scene.x_shown.numpy().copy()
+    pair.scene.touching.assign(np.full(len(pair.scene.bodies), LYING_MODE, dtype=np.int32))
+    pair.untangle()
+    # But for rounding.
+    assert np.abs(pair.scene.x_shown.numpy() - before).max() < 1e-7
+    pair.scene.touching.assign(np.ones(len(pair.scene.bodies), dtype=np.int32))
+    pair.scene.leading.fill_(LEADING_SPEED)

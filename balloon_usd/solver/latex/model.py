@@ -7,8 +7,11 @@ from collections import Counter
 from itertools import chain
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from balloon_usd.balloon.tube_theory import maxwell_state
-from balloon_usd.operations.moves import Inflate
+from balloon_usd.operations.disjoint_sets import DisjointSets
+from balloon_usd.operations.moves import Inflate, Weld
 from balloon_usd.plan.meshing import joint_places
 from balloon_usd.plan.parking import parked
 from balloon_usd.solver.body import body_ranges
@@ -34,12 +37,12 @@ from balloon_usd.solver.settings import SceneSettings
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    import numpy as np
     from numpy.typing import NDArray
 
     from balloon_usd.balloon.detail import Detail
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan, Strip
+    from balloon_usd.solver.latex.scene import LatexScene
 
 SEALED_KNOT = 0.7
 """Pressure in the knot bead, in Maxwell pressures of its balloon."""
@@ -56,6 +59,7 @@ READ_BACK = (
     "amount",
     "ring_middle",
     "wall_load",
+    "segment_shift",
     "suspects",
 )
 """Arrays that are read back for every frame."""
@@ -95,6 +99,7 @@ class LatexModel(Model):
             LatexSculpture(plan, self.scene, self.hands, self._struts, run.start)
             for plan, run in zip(plans, runs, strict=True)
         ]
+        _join_necks(self.scene, self._sculptures)
         self._leak = Leak(plans, self.scene, self.hands, runs)
         self._reached = 0.0
         """End of the latest frame, s."""
@@ -136,8 +141,10 @@ class LatexModel(Model):
     def frame_arrays(self) -> FrameArrays:
         """Arrays of the state read back last, of all sculptures; valid for two more read-backs."""
         state, bubbles = self._state, self.layout.bubbles
-        gas = (state[name][bubbles] for name in ("pressure", "volume", "wall_load"))
-        return FrameArrays(state["x_shown"], state["stretch"], *gas)
+        pressure, volume, contact, shift = (
+            state[name][bubbles] for name in ("pressure", "volume", "wall_load", "segment_shift")
+        )
+        return FrameArrays(state["x_shown"], state["stretch"], pressure, volume, contact, shift=shift)
 
     def failures(self) -> dict[int, str]:
         """Return failures that the frames do not show, by sculpture."""
@@ -159,6 +166,18 @@ class LatexModel(Model):
             for move in sculpture.plan.choreography.moves
             if isinstance(move, Inflate) and sculpture.body[move.balloon] == balloon
         )
+
+
+def _join_necks(scene: LatexScene, sculptures: Sequence[LatexSculpture]) -> None:
+    """Let the necks of joints that become one be one neck from the start: there rubber is folded up."""
+    meant: DisjointSets[int] = DisjointSets()
+    for sculpture in sculptures:
+        for move in sculpture.plan.choreography.moves:
+            if isinstance(move, Weld):
+                meant.merge([sculpture.joints[ring] for ring in move.rings])
+    leader = np.array([*map(meant.root, range(len(scene.joint_first))), -1])
+    for necks in (scene.vertex_neck, scene.quad_neck):
+        necks.assign(leader[necks.numpy()].astype(np.int32))
 
 
 def _room_for_struts(plans: Sequence[Plan]) -> tuple[int, int]:

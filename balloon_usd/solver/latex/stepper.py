@@ -95,6 +95,7 @@ class Stepper:
         if contact:
             self._untangling.run()
         else:
+            self.scene.segment_shift.zero_()
             wp.copy(self.scene.x_shown, self.scene.x)
 
     def _volumes(self) -> None:

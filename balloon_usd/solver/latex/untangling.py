@@ -41,6 +41,7 @@ class Untangling:
         """Lead them a step back, and find where they are shown; a graph goes on by itself while any cross."""
         s, launch = self._launcher.scene, self._launcher.launch
         vertices, worlds = len(s.x), len(s.pierced_count)
+        s.segment_shift.zero_()
         wp.copy(s.x_shown, s.x)
         launch(begin_untangling, worlds)
         self._find()

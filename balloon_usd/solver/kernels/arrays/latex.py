@@ -123,6 +123,7 @@ class Crossings:
 
     x_shown: wp.array[wp.vec3] = array("vertices", unit="m", meaning="where frames show it: no walls cross")
     shown_shift: wp.array[wp.vec3] = array("vertices", unit="m", meaning="how far that is from where it is")
+    segment_shift: wp.array[float] = array("segments", unit="m", meaning="largest such shift of its wall")
     x_coming: wp.array[wp.vec3] = array("vertices", unit="m", meaning="scratch: that in the coming round")
 
     quad_radius: wp.array[float] = array("quads", unit="m", meaning="from its middle to its farthest corner")

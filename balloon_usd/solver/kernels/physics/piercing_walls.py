@@ -6,7 +6,7 @@ intersection contour minimization").
 import warp as wp
 
 from balloon_usd.solver.kernels.arrays.latex import Crossings
-from balloon_usd.solver.kernels.arrays.shared import Balloons, Contacts, Mesh, Sculptures, Welds
+from balloon_usd.solver.kernels.arrays.shared import Balloons, Contacts, Mesh, Sculptures
 from balloon_usd.solver.kernels.device.array_access import float_at, int_at, vec3_at, vec4i_at
 from balloon_usd.solver.kernels.device.warp_reduce import lowest_bit, warp_ballot, warp_max3
 from balloon_usd.solver.kernels.physics.surface import FAR
@@ -50,25 +50,7 @@ def lead_back(i: int, share: float, way: wp.vec3, crossings: Crossings):
 
 
 @wp.func
-def neck_of_vertex(i: int, mesh: Mesh, welds: Welds):
-    """Return the joint in whose neck a vertex lies, the same for all of a weld; -1 for none."""
-    joint = int_at(mesh.vertex_neck, i)
-    if joint >= 0:
-        joint = int_at(welds.joint_leader, joint)
-    return joint
-
-
-@wp.func
-def neck_of_quad(q: int, mesh: Mesh, welds: Welds):
-    """Return the joint in whose neck all of a quad lies, the same for all of a weld; -1 for none."""
-    joint = int_at(mesh.quad_neck, q)
-    if joint >= 0:
-        joint = int_at(welds.joint_leader, joint)
-    return joint
-
-
-@wp.func
-def counts(ends: wp.vec2i, d: wp.vec4i, neck: int, mesh: Mesh, welds: Welds):
+def counts(ends: wp.vec2i, d: wp.vec4i, neck: int, mesh: Mesh):
     """Return whether an edge may not pierce a quad: it is no neighbour, and not folded up in its neck.
 
     `neck`: of the quad.
@@ -77,7 +59,7 @@ def counts(ends: wp.vec2i, d: wp.vec4i, neck: int, mesh: Mesh, welds: Welds):
         return False
     if neck < 0:
         return True
-    return neck_of_vertex(ends[0], mesh, welds) != neck or neck_of_vertex(ends[1], mesh, welds) != neck
+    return int_at(mesh.vertex_neck, ends[0]) != neck or int_at(mesh.vertex_neck, ends[1]) != neck
 
 
 @wp.func
@@ -96,7 +78,6 @@ def lead_edge_back(
     neck: int,
     world: int,
     mesh: Mesh,
-    welds: Welds,
     crossings: Crossings,
 ):
     """Count an edge that pierces a triangle, and add to the ways of both how the contour in one face of the
@@ -116,7 +97,7 @@ def lead_edge_back(
     first = wp.dot(wp.cross(b - place, c - place), across) / size
     second = wp.dot(wp.cross(c - place, a - place), across) / size
     third = 1.0 - first - second
-    if wp.min(wp.min(first, second), third) < -LONGER or not counts(ends, d, neck, mesh, welds):
+    if wp.min(wp.min(first, second), third) < -LONGER or not counts(ends, d, neck, mesh):
         return
     wp.atomic_add(crossings.pierced_count, world, 1)
     normal = across / wp.sqrt(size)
@@ -150,7 +131,6 @@ def lead_triangle_back(
     neck: int,
     world: int,
     mesh: Mesh,
-    welds: Welds,
     crossings: Crossings,
 ):
     """Add to the ways of two triangles how the contours at the edges of the first become shorter."""
@@ -179,9 +159,7 @@ def lead_triangle_back(
             inward = p1
             below = h2
             above = h0
-        lead_edge_back(
-            ends, p, q, inward, below, above, d, other, a, b, c, neck, world, mesh, welds, crossings
-        )
+        lead_edge_back(ends, p, q, inward, below, above, d, other, a, b, c, neck, world, mesh, crossings)
 
 
 @wp.func
@@ -204,7 +182,6 @@ def lead_quad_back(
     neck: int,
     world: int,
     mesh: Mesh,
-    welds: Welds,
     crossings: Crossings,
     x: wp.array[wp.vec3],
 ):
@@ -228,7 +205,7 @@ def lead_quad_back(
                 own = wp.vec3i(c[0], c[1 + part], c[2 + part])
                 q1 = wp.where(part == 0, p1, p2)
                 q2 = wp.where(part == 0, p2, p3)
-                lead_triangle_back(own, p0, q1, q2, d, other, a, b, e, neck, world, mesh, welds, crossings)
+                lead_triangle_back(own, p0, q1, q2, d, other, a, b, e, neck, world, mesh, crossings)
 
 
 @wp.func
@@ -299,22 +276,21 @@ def lead_chunk_back(
     other: int,
     world: int,
     mesh: Mesh,
-    welds: Welds,
     contacts: Contacts,
     crossings: Crossings,
 ):
     """Add to the ways of a quad and of those of a chunk that its edges pierce."""
     c = vec4i_at(mesh.quads, q)
-    own = neck_of_quad(q, mesh, welds)
+    own = int_at(mesh.quad_neck, q)
     base = int_at(mesh.chunk_quad, other)
     close = near_quads(q, other, mesh, contacts, crossings)
     while close != 0:
         r = base + lowest_bit(close)
         close &= close - 1
         d = vec4i_at(mesh.quads, r)
-        neck = neck_of_quad(r, mesh, welds)
+        neck = int_at(mesh.quad_neck, r)
         if may_pierce(q, r, c, d, wp.where(neck == own, neck, -1), crossings.quad_bent, contacts.quad_area):
-            lead_quad_back(c, d, neck, world, mesh, welds, crossings, crossings.x_shown)
+            lead_quad_back(c, d, neck, world, mesh, crossings, crossings.x_shown)
 
 
 @wp.kernel
@@ -358,7 +334,6 @@ def find_ways_back(
     sculptures: Sculptures,
     mesh: Mesh,
     balloons: Balloons,
-    welds: Welds,
     contacts: Contacts,
     crossings: Crossings,
 ):
@@ -385,5 +360,5 @@ def find_ways_back(
             other = begin + lowest_bit(others) * parts
             others &= others - 1
             for q in range(first + lane, last, wp.block_dim()):
-                lead_chunk_back(q, other, world, mesh, welds, contacts, crossings)
+                lead_chunk_back(q, other, world, mesh, contacts, crossings)
         begin += wp.block_dim() * parts

@@ -11,22 +11,24 @@ from balloon_usd.solver.kernels.device.array_access import float_at, int_at, vec
 from balloon_usd.solver.kernels.physics.motion import LYING
 from balloon_usd.solver.kernels.physics.piercing_walls import PER_UNIT
 
-MOST_ROUNDS = wp.constant(160)
+MOST_ROUNDS = wp.constant(192)
 """Rounds after which walls that still cross are shown as they are."""
-FIRM_ROUNDS = wp.constant(48)
+FIRM_ROUNDS = wp.constant(40)
 """Rounds in which closed rings stay where they are: joints shall not look as if they came apart."""
 STEP = wp.constant(1.0 / 6.0)
 """How far a vertex is shown farther back in a round, in the distance at which walls begin to press."""
 UNDECIDED = wp.constant(1.0e-3)
 """Sum of ways, for a share of 1, below which they cancel: so a vertex goes less than a whole step."""
-SMOOTHED = wp.constant(0.1)
-"""How far a vertex goes to the middle of its neighbours in the first round, as a share of that way."""
+UNSMOOTHED_ROUNDS = wp.constant(4)
+"""Rounds in which nothing is smoothed: what hardly crosses is hardly moved."""
 MORE = wp.constant(0.02)
-"""What is added to that share in every round."""
+"""How much farther a vertex goes to the middle of its neighbours in every round, as a share of that way."""
 MOST_SMOOTHED = wp.constant(0.5)
 """Largest share."""
 SPREAD = wp.constant(0.85)
 """How much a vertex is smoothed, in what its neighbours were in the last round."""
+SPREAD_FAR = wp.constant(0.98)
+"""The same once closed rings give way: then what is folded over is long."""
 KEPT_SECONDS = wp.constant(0.5)
 """Time in which the shift of what is shown fades by a factor of e where nothing crosses any more, s."""
 LEAST_SHIFT = wp.constant(1.0e-5)
@@ -115,14 +117,18 @@ def begin_showing(frame_seconds: float, mesh: Mesh, balloons: Balloons, crossing
 
 @wp.kernel
 def end_showing(mesh: Mesh, balloons: Balloons, crossings: Crossings, x: wp.array[wp.vec3]):
-    """Write how far every vertex is shown from where it is, and which sculptures are."""
+    """Write how far every vertex is shown from where it is, which sculptures are, and the most of each
+    segment.
+    """
     i = wp.tid()
     shift = crossings.x_shown[i] - x[i]
-    if wp.length(shift) < LEAST_SHIFT:
+    far = wp.length(shift)
+    if far < LEAST_SHIFT:
         shift = wp.vec3(0.0)
         crossings.x_shown[i] = x[i]
     else:
         wp.atomic_max(crossings.shifted, balloons.balloon_world[mesh.vertex_balloon[i]], 1)
+        wp.atomic_max(crossings.segment_shift, mesh.quad_segment[wp.max(mesh.corners[i][0], 0) // 4], far)
     crossings.shown_shift[i] = shift
 
 
@@ -167,7 +173,7 @@ def draw_back(mesh: Mesh, balloons: Balloons, joints: Joints, hands: Hands, cros
                 smoothing = wp.max(smoothing, float_at(crossings.smoothing, before))
                 smoothing = wp.max(smoothing, float_at(crossings.smoothing, after))
         row = -2 - slots[3]
-    smoothing *= SPREAD
+    smoothing *= wp.where(done <= FIRM_ROUNDS, SPREAD, SPREAD_FAR)
     if done <= FIRM_ROUNDS and closed(i, mesh, joints, hands):
         smoothing = 0.0
         crossings.way_back[i] = wp.vec4i(0)
@@ -178,7 +184,7 @@ def draw_back(mesh: Mesh, balloons: Balloons, joints: Joints, hands: Hands, cros
         shift = way_of_vertex(i, far, crossings)
         crossings.way_back[i] = wp.vec4i(0)
     crossings.smoothing_next[i] = smoothing
-    share = wp.min(SMOOTHED + MORE * float(done - 1), MOST_SMOOTHED)
+    share = wp.clamp(MORE * float(done - UNSMOOTHED_ROUNDS), 0.0, MOST_SMOOTHED)
     x = vec3_at(crossings.x_shown, i)
     crossings.x_coming[i] = x + shift + share * smoothing * (middle / count - x)
 
