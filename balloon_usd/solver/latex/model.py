@@ -169,15 +169,14 @@ class LatexModel(Model):
 
 
 def _join_necks(scene: LatexScene, sculptures: Sequence[LatexSculpture]) -> None:
-    """Let the necks of joints that become one be one neck from the start: there rubber is folded up."""
+    """Tell of every joint which one it is meant to become: where they meet rubber is folded up."""
     meant: DisjointSets[int] = DisjointSets()
     for sculpture in sculptures:
         for move in sculpture.plan.choreography.moves:
             if isinstance(move, Weld):
                 meant.merge([sculpture.joints[ring] for ring in move.rings])
-    leader = np.array([*map(meant.root, range(len(scene.joint_first))), -1])
-    for necks in (scene.vertex_neck, scene.quad_neck):
-        necks.assign(leader[necks.numpy()].astype(np.int32))
+    leaders = [meant.root(joint) for joint in range(len(scene.joint_first))]
+    scene.joint_meant.assign(np.array(leaders, dtype=np.int32))
 
 
 def _room_for_struts(plans: Sequence[Plan]) -> tuple[int, int]:

@@ -88,14 +88,17 @@ class Stepper:
             if contact:
                 self._search.measure_quads()
                 self._search.find()
+                if begin == 0:
+                    self._untangling.lead()
             end = min(begin + stride, self.substeps)
             self._sculptures.advance(
                 self._launcher, self.substeps, begin, end, contact=contact, fingers=fingers
             )
         if contact:
-            self._untangling.run()
+            self._untangling.show()
         else:
-            self.scene.segment_shift.zero_()
+            for array in (self.scene.segment_shift, self.scene.way_led):
+                array.zero_()
             wp.copy(self.scene.x_shown, self.scene.x)
 
     def _volumes(self) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import warp as wp
 
@@ -15,6 +15,7 @@ from balloon_usd.solver.kernels.physics.untangling import (
     draw_back,
     end_showing,
     go_back,
+    keep_ways,
     lead_back_slowly,
     next_round,
 )
@@ -37,15 +38,19 @@ class Untangling:
         launcher.load(box_walls, find_ways_back, lanes=WARP)
         launcher.load(begin_untangling)
 
-    def run(self) -> None:
-        """Lead them a step back, and find where they are shown; a graph goes on by itself while any cross."""
+    def lead(self) -> None:
+        """Lead walls a step back that crossed at the end of the last frame."""
+        self._launcher.launch(lead_back_slowly, len(self._launcher.scene.x))
+
+    def show(self) -> None:
+        """Find where walls are shown at the end of a frame; a graph goes on by itself while any cross."""
         s, launch = self._launcher.scene, self._launcher.launch
         vertices, worlds = len(s.x), len(s.pierced_count)
         s.segment_shift.zero_()
         wp.copy(s.x_shown, s.x)
         launch(begin_untangling, worlds)
-        self._find()
-        launch(lead_back_slowly, vertices)
+        self._find(s.joint_leader)
+        launch(keep_ways, vertices)
         launch(begin_rounds, worlds)
         launch(begin_showing, vertices)
         wp.capture_while(s.untangling, self._round)
@@ -54,13 +59,14 @@ class Untangling:
     def _round(self) -> None:
         """Show walls that still cross a step farther back."""
         s, launch = self._launcher.scene, self._launcher.launch
-        self._find()
+        self._find(s.joint_meant)
         launch(next_round, len(s.pierced_count))
         launch(draw_back, len(s.x))
         launch(go_back, len(s.x))
 
-    def _find(self) -> None:
-        """Find where walls cross as they are shown."""
+    def _find(self, necks: Any) -> None:
+        """Find where walls cross as they are shown; `necks`: neck of every joint, (joints,) on the device."""
         chunks = len(self._launcher.scene.box_low)
         self._launcher.launch_tiled(box_walls, chunks, lanes=WARP)
-        self._launcher.launch_tiled(find_ways_back, self._parts * chunks, lanes=WARP, parts=self._parts)
+        groups, told = self._parts * chunks, {"parts": self._parts, "necks": necks}
+        self._launcher.launch_tiled(find_ways_back, groups, lanes=WARP, **told)

@@ -121,6 +121,10 @@ class Forces:
 class Crossings:
     """Walls that have gone through each other, and where they are shown."""
 
+    joint_meant: wp.array[int] = array("joints", meaning="the joint that stands for all it is meant to join")
+    way_led: wp.array[wp.vec3] = array(
+        "vertices", meaning="way on which it is led, as long as its share in what is led"
+    )
     x_shown: wp.array[wp.vec3] = array("vertices", unit="m", meaning="where frames show it: no walls cross")
     shown_shift: wp.array[wp.vec3] = array("vertices", unit="m", meaning="how far that is from where it is")
     segment_shift: wp.array[float] = array("segments", unit="m", meaning="largest such shift of its wall")

@@ -50,7 +50,15 @@ def lead_back(i: int, share: float, way: wp.vec3, crossings: Crossings):
 
 
 @wp.func
-def counts(ends: wp.vec2i, d: wp.vec4i, neck: int, mesh: Mesh):
+def neck_at(joint: int, necks: wp.array[int]):
+    """Return the neck of a joint; -1 for none."""
+    if joint >= 0:
+        return int_at(necks, joint)
+    return -1
+
+
+@wp.func
+def counts(ends: wp.vec2i, d: wp.vec4i, neck: int, necks: wp.array[int], mesh: Mesh):
     """Return whether an edge may not pierce a quad: it is no neighbour, and not folded up in its neck.
 
     `neck`: of the quad.
@@ -59,7 +67,10 @@ def counts(ends: wp.vec2i, d: wp.vec4i, neck: int, mesh: Mesh):
         return False
     if neck < 0:
         return True
-    return int_at(mesh.vertex_neck, ends[0]) != neck or int_at(mesh.vertex_neck, ends[1]) != neck
+    return (
+        neck_at(int_at(mesh.vertex_neck, ends[0]), necks) != neck
+        or neck_at(int_at(mesh.vertex_neck, ends[1]), necks) != neck
+    )
 
 
 @wp.func
@@ -77,6 +88,7 @@ def lead_edge_back(
     c: wp.vec3,
     neck: int,
     world: int,
+    necks: wp.array[int],
     mesh: Mesh,
     crossings: Crossings,
 ):
@@ -97,7 +109,7 @@ def lead_edge_back(
     first = wp.dot(wp.cross(b - place, c - place), across) / size
     second = wp.dot(wp.cross(c - place, a - place), across) / size
     third = 1.0 - first - second
-    if wp.min(wp.min(first, second), third) < -LONGER or not counts(ends, d, neck, mesh):
+    if wp.min(wp.min(first, second), third) < -LONGER or not counts(ends, d, neck, necks, mesh):
         return
     wp.atomic_add(crossings.pierced_count, world, 1)
     normal = across / wp.sqrt(size)
@@ -130,6 +142,7 @@ def lead_triangle_back(
     c: wp.vec3,
     neck: int,
     world: int,
+    necks: wp.array[int],
     mesh: Mesh,
     crossings: Crossings,
 ):
@@ -159,7 +172,9 @@ def lead_triangle_back(
             inward = p1
             below = h2
             above = h0
-        lead_edge_back(ends, p, q, inward, below, above, d, other, a, b, c, neck, world, mesh, crossings)
+        lead_edge_back(
+            ends, p, q, inward, below, above, d, other, a, b, c, neck, world, necks, mesh, crossings
+        )
 
 
 @wp.func
@@ -181,6 +196,7 @@ def lead_quad_back(
     d: wp.vec4i,
     neck: int,
     world: int,
+    necks: wp.array[int],
     mesh: Mesh,
     crossings: Crossings,
     x: wp.array[wp.vec3],
@@ -205,7 +221,7 @@ def lead_quad_back(
                 own = wp.vec3i(c[0], c[1 + part], c[2 + part])
                 q1 = wp.where(part == 0, p1, p2)
                 q2 = wp.where(part == 0, p2, p3)
-                lead_triangle_back(own, p0, q1, q2, d, other, a, b, e, neck, world, mesh, crossings)
+                lead_triangle_back(own, p0, q1, q2, d, other, a, b, e, neck, world, necks, mesh, crossings)
 
 
 @wp.func
@@ -275,22 +291,23 @@ def lead_chunk_back(
     q: int,
     other: int,
     world: int,
+    necks: wp.array[int],
     mesh: Mesh,
     contacts: Contacts,
     crossings: Crossings,
 ):
     """Add to the ways of a quad and of those of a chunk that its edges pierce."""
     c = vec4i_at(mesh.quads, q)
-    own = int_at(mesh.quad_neck, q)
+    own = neck_at(int_at(mesh.quad_neck, q), necks)
     base = int_at(mesh.chunk_quad, other)
     close = near_quads(q, other, mesh, contacts, crossings)
     while close != 0:
         r = base + lowest_bit(close)
         close &= close - 1
         d = vec4i_at(mesh.quads, r)
-        neck = int_at(mesh.quad_neck, r)
+        neck = neck_at(int_at(mesh.quad_neck, r), necks)
         if may_pierce(q, r, c, d, wp.where(neck == own, neck, -1), crossings.quad_bent, contacts.quad_area):
-            lead_quad_back(c, d, neck, world, mesh, crossings, crossings.x_shown)
+            lead_quad_back(c, d, neck, world, necks, mesh, crossings, crossings.x_shown)
 
 
 @wp.kernel
@@ -331,6 +348,7 @@ def box_walls(mesh: Mesh, contacts: Contacts, crossings: Crossings):
 @wp.kernel
 def find_ways_back(
     parts: int,
+    necks: wp.array[int],
     sculptures: Sculptures,
     mesh: Mesh,
     balloons: Balloons,
@@ -338,7 +356,10 @@ def find_ways_back(
     crossings: Crossings,
 ):
     """Sum up for every vertex how it is led where walls have gone through each other, and count the edges
-    that pierce a face; so many `parts` of the other chunks for each chunk, by a warp of lanes each on a GPU.
+    that pierce a face, but for rubber of one neck; so many `parts` of the other chunks for each chunk, by a
+    warp of lanes each on a GPU.
+
+    `necks`: neck of every joint.
     """
     group, lane = wp.tid()
     chunk = group // parts
@@ -360,5 +381,5 @@ def find_ways_back(
             other = begin + lowest_bit(others) * parts
             others &= others - 1
             for q in range(first + lane, last, wp.block_dim()):
-                lead_chunk_back(q, other, world, mesh, contacts, crossings)
+                lead_chunk_back(q, other, world, necks, mesh, contacts, crossings)
         begin += wp.block_dim() * parts

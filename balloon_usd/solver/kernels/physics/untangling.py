@@ -11,12 +11,16 @@ from balloon_usd.solver.kernels.device.array_access import float_at, int_at, vec
 from balloon_usd.solver.kernels.physics.motion import LYING
 from balloon_usd.solver.kernels.physics.piercing_walls import PER_UNIT
 
-MOST_ROUNDS = wp.constant(192)
+MOST_ROUNDS = wp.constant(96)
 """Rounds after which walls that still cross are shown as they are."""
 FIRM_ROUNDS = wp.constant(40)
 """Rounds in which closed rings stay where they are: joints shall not look as if they came apart."""
+FARTHEST = wp.constant(6.0)
+"""How far from where it is a vertex is shown at most, in the same: about half of a bubble's radius."""
 STEP = wp.constant(1.0 / 6.0)
 """How far a vertex is shown farther back in a round, in the distance at which walls begin to press."""
+FAILED = wp.constant(-2)
+"""Round of a sculpture whose walls still cross after the last one: it is shown as it is."""
 UNDECIDED = wp.constant(1.0e-3)
 """Sum of ways, for a share of 1, below which they cancel: so a vertex goes less than a whole step."""
 UNSMOOTHED_ROUNDS = wp.constant(4)
@@ -27,8 +31,6 @@ MOST_SMOOTHED = wp.constant(0.5)
 """Largest share."""
 SPREAD = wp.constant(0.85)
 """How much a vertex is smoothed, in what its neighbours were in the last round."""
-SPREAD_FAR = wp.constant(0.98)
-"""The same once closed rings give way: then what is folded over is long."""
 KEPT_SECONDS = wp.constant(0.5)
 """Time in which the shift of what is shown fades by a factor of e where nothing crosses any more, s."""
 LEAST_SHIFT = wp.constant(1.0e-5)
@@ -66,7 +68,7 @@ def next_round(crossings: Crossings):
             crossings.untangling_round[world] = crossings.untangling_round[world] + 1
             wp.atomic_max(crossings.untangling, 0, 1)
         else:
-            crossings.untangling_round[world] = -1
+            crossings.untangling_round[world] = wp.where(crossings.pierced_count[world] > 0, FAILED, -1)
         crossings.pierced_count[world] = 0
 
 
@@ -90,16 +92,29 @@ def kept(i: int, frame_seconds: float, mesh: Mesh, balloons: Balloons, state: St
     return wp.exp(-frame_seconds / KEPT_SECONDS) / (1.0 + moved * moved)
 
 
+@wp.func
+def round_of(i: int, mesh: Mesh, balloons: Balloons, crossings: Crossings):
+    """Return the round of a vertex's sculpture, from 1; below 0 where none is left."""
+    return int_at(crossings.untangling_round, int_at(balloons.balloon_world, int_at(mesh.vertex_balloon, i)))
+
+
+@wp.kernel
+def keep_ways(crossings: Crossings):
+    """Keep the ways back of where walls are: those found next are of where they are shown."""
+    i = wp.tid()
+    crossings.way_led[i] = way_of_vertex(i, 1.0, crossings)
+    crossings.way_back[i] = wp.vec4i(0)
+
+
 @wp.kernel
 def lead_back_slowly(
     frame_seconds: float, mesh: Mesh, hands: Hands, crossings: Crossings, x: wp.array[wp.vec3]
 ):
-    """Move every vertex its way back within a frame."""
+    """Move every vertex the way back that was found in the last frame, as far as it is led in one."""
     i = wp.tid()
-    if crossings.way_back[i][3] != 0:
-        far = frame_seconds * hands.leading[mesh.vertex_balloon[i]]
-        x[i] = x[i] + way_of_vertex(i, far, crossings)
-        crossings.way_back[i] = wp.vec4i(0)
+    way = crossings.way_led[i]
+    if wp.length_sq(way) > 0.0:
+        x[i] = x[i] + frame_seconds * hands.leading[mesh.vertex_balloon[i]] * way
 
 
 @wp.kernel
@@ -117,25 +132,17 @@ def begin_showing(frame_seconds: float, mesh: Mesh, balloons: Balloons, crossing
 
 @wp.kernel
 def end_showing(mesh: Mesh, balloons: Balloons, crossings: Crossings, x: wp.array[wp.vec3]):
-    """Write how far every vertex is shown from where it is, which sculptures are, and the most of each
-    segment.
-    """
+    """Write how far every vertex is shown from where it is, and where any is, by sculpture and segment."""
     i = wp.tid()
     shift = crossings.x_shown[i] - x[i]
     far = wp.length(shift)
-    if far < LEAST_SHIFT:
+    if far < LEAST_SHIFT or round_of(i, mesh, balloons, crossings) == FAILED:
         shift = wp.vec3(0.0)
         crossings.x_shown[i] = x[i]
     else:
         wp.atomic_max(crossings.shifted, balloons.balloon_world[mesh.vertex_balloon[i]], 1)
         wp.atomic_max(crossings.segment_shift, mesh.quad_segment[wp.max(mesh.corners[i][0], 0) // 4], far)
     crossings.shown_shift[i] = shift
-
-
-@wp.func
-def round_of(i: int, mesh: Mesh, balloons: Balloons, crossings: Crossings):
-    """Return the round of a vertex's sculpture, from 1; -1 where none is left."""
-    return int_at(crossings.untangling_round, int_at(balloons.balloon_world, int_at(mesh.vertex_balloon, i)))
 
 
 @wp.func
@@ -148,7 +155,14 @@ def closed(i: int, mesh: Mesh, joints: Joints, hands: Hands):
 
 
 @wp.kernel
-def draw_back(mesh: Mesh, balloons: Balloons, joints: Joints, hands: Hands, crossings: Crossings):
+def draw_back(
+    mesh: Mesh,
+    balloons: Balloons,
+    joints: Joints,
+    hands: Hands,
+    crossings: Crossings,
+    x: wp.array[wp.vec3],
+):
     """Write where every vertex is shown after a round: its way back, and nearer to the middle of its
     neighbours.
     """
@@ -173,7 +187,7 @@ def draw_back(mesh: Mesh, balloons: Balloons, joints: Joints, hands: Hands, cros
                 smoothing = wp.max(smoothing, float_at(crossings.smoothing, before))
                 smoothing = wp.max(smoothing, float_at(crossings.smoothing, after))
         row = -2 - slots[3]
-    smoothing *= wp.where(done <= FIRM_ROUNDS, SPREAD, SPREAD_FAR)
+    smoothing *= SPREAD
     if done <= FIRM_ROUNDS and closed(i, mesh, joints, hands):
         smoothing = 0.0
         crossings.way_back[i] = wp.vec4i(0)
@@ -185,8 +199,11 @@ def draw_back(mesh: Mesh, balloons: Balloons, joints: Joints, hands: Hands, cros
         crossings.way_back[i] = wp.vec4i(0)
     crossings.smoothing_next[i] = smoothing
     share = wp.clamp(MORE * float(done - UNSMOOTHED_ROUNDS), 0.0, MOST_SMOOTHED)
-    x = vec3_at(crossings.x_shown, i)
-    crossings.x_coming[i] = x + shift + share * smoothing * (middle / count - x)
+    shown = vec3_at(crossings.x_shown, i)
+    shown += shift + share * smoothing * (middle / count - shown)
+    off = shown - vec3_at(x, i)
+    most = FARTHEST * float_at(balloons.contact_offset, int_at(mesh.vertex_balloon, i))
+    crossings.x_coming[i] = vec3_at(x, i) + off * wp.min(most / wp.max(wp.length(off), most), 1.0)
 
 
 @wp.kernel
