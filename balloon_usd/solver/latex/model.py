@@ -52,7 +52,6 @@ SHORT_OF_GAS = 0.98
 """Share of the wanted gas below which inflating counts as failed."""
 READ_BACK = (
     "x",
-    "x_shown",
     "stretch",
     "pressure",
     "volume",
@@ -144,7 +143,7 @@ class LatexModel(Model):
         pressure, volume, contact, shift = (
             state[name][bubbles] for name in ("pressure", "volume", "wall_load", "segment_shift")
         )
-        return FrameArrays(state["x_shown"], state["stretch"], pressure, volume, contact, shift=shift)
+        return FrameArrays(state["x"], state["stretch"], pressure, volume, contact, shift=shift)
 
     def failures(self) -> dict[int, str]:
         """Return failures that the frames do not show, by sculpture."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import warp as wp
 
 from balloon_usd.solver.checks import travel_limit
 from balloon_usd.solver.kernels.device.warp_reduce import WARP
@@ -41,7 +40,7 @@ class Stepper:
         self._launcher = Launcher(scene, values)
         self._launch = self._launcher.launch
         self._search = WallSearch(self._launcher)
-        self._untangling = Untangling(self._launcher)
+        self._untangling = Untangling(self._launcher, scene.touch.ahead)
         self._launcher.load(wall_loads, lanes=WARP)
         self._sculptures = SculptureLaunch(scene)
         self._start()
@@ -58,7 +57,6 @@ class Stepper:
             amount[[s.segment_start[k] + i for i in body.vented]] = 0.0
         s.amount.assign(amount)
         s.pressure.assign(gauge)
-        wp.copy(s.x_shown, s.x)
 
     def advance(self, *, contact: bool, fingers: bool = False) -> None:
         """Advance by one frame, with or without walls that can touch and fingers that press."""
@@ -84,22 +82,21 @@ class Stepper:
 
     def _frame(self, *, contact: bool, fingers: bool) -> None:
         stride = self._search_every if contact else self.substeps
+        self._untangling.begin_frame()
         for begin in range(0, self.substeps, stride):
             if contact:
                 self._search.measure_quads()
                 self._search.find()
-                if begin == 0:
-                    self._untangling.lead()
             end = min(begin + stride, self.substeps)
             self._sculptures.advance(
                 self._launcher, self.substeps, begin, end, contact=contact, fingers=fingers
             )
+            if contact and end < self.substeps:
+                self._untangling.watch()
         if contact:
-            self._untangling.show()
+            self._untangling.end_frame()
         else:
-            for array in (self.scene.segment_shift, self.scene.way_led):
-                array.zero_()
-            wp.copy(self.scene.x_shown, self.scene.x)
+            self._untangling.leave()
 
     def _volumes(self) -> None:
         self._launcher.launch_tiled(segment_volumes, len(self.scene.segment_quad))

@@ -1,22 +1,27 @@
-"""Walls that have gone through each other, led back a step a frame, and shown where none cross."""
+"""Walls that are kept from going through each other, and led apart where they have all the same."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import warp as wp
 
 from balloon_usd.solver.kernels.device.warp_reduce import WARP
-from balloon_usd.solver.kernels.physics.piercing_walls import box_walls, find_ways_back
+from balloon_usd.solver.kernels.physics.keeping_apart import (
+    begin_keeping_apart,
+    begin_move_rounds,
+    begin_moves,
+    end_keeping_apart,
+    go_on_watching,
+    let_hands_yield,
+    move_together,
+)
+from balloon_usd.solver.kernels.physics.piercing_walls import box_walls, find_piercing_walls
 from balloon_usd.solver.kernels.physics.untangling import (
-    begin_rounds,
-    begin_showing,
     begin_untangling,
     draw_back,
-    end_showing,
-    go_back,
-    keep_ways,
-    lead_back_slowly,
+    end_round,
+    end_untangling,
     next_round,
 )
 
@@ -30,43 +35,91 @@ PARTS = 8
 
 
 class Untangling:
-    """Leads walls back that have gone through each other, whatever brought them there."""
+    """Keeps walls apart: at the end of every frame, and at every search where they would have crossed."""
 
-    def __init__(self, launcher: Launcher) -> None:
+    def __init__(self, launcher: Launcher, between_searches: float) -> None:
+        """Get ready; `between_searches`: time between two searches for facing walls, s."""
         self._launcher = launcher
+        self._between_searches = between_searches
         self._parts = PARTS if launcher.lanes(WARP) > 1 else 1
-        launcher.load(box_walls, find_ways_back, lanes=WARP)
-        launcher.load(begin_untangling)
+        launcher.load(box_walls, find_piercing_walls, lanes=WARP)
+        launcher.load(begin_keeping_apart, begin_untangling)
+        self.start()
 
-    def lead(self) -> None:
-        """Lead walls a step back that crossed at the end of the last frame."""
-        self._launcher.launch(lead_back_slowly, len(self._launcher.scene.x))
+    def start(self) -> None:
+        """Let walls be apart where they are now."""
+        s, launcher = self._launcher.scene, self._launcher
+        wp.copy(s.x_safe, s.x)
+        s.safe_seconds.fill_(launcher.values["frame_seconds"])
 
-    def show(self) -> None:
-        """Find where walls are shown at the end of a frame; a graph goes on by itself while any cross."""
+    def leave(self) -> None:
+        """Let walls be wherever they are at the end of a frame."""
+        s = self._launcher.scene
+        for array in (s.crossed, s.watched, s.slowness, s.hand_yield, s.any_watched):
+            array.zero_()
+        self.start()
+
+    def watch(self) -> None:
+        """Keep walls apart between two searches, in sculptures that are watched."""
+        wp.capture_if(self._launcher.scene.any_watched, lambda: self._keep_apart(frame_ends=0))
+
+    def end_frame(self) -> None:
+        """Keep walls apart at the end of a frame."""
+        self._keep_apart(frame_ends=1)
+
+    def begin_frame(self) -> None:
+        """Forget how far walls were led in the last frame."""
+        self._launcher.scene.segment_shift.zero_()
+
+    def _keep_apart(self, *, frame_ends: int) -> None:
+        """Let walls that would cross move as one, and lead apart those that still do; a graph goes on by
+        itself while any cross.
+        """
         s, launch = self._launcher.scene, self._launcher.launch
         vertices, worlds = len(s.x), len(s.pierced_count)
-        s.segment_shift.zero_()
-        wp.copy(s.x_shown, s.x)
+        launch(begin_keeping_apart, worlds, frame_ends=frame_ends)
+        launch(begin_moves, vertices)
+        self._find(together=1)
+        launch(begin_move_rounds, worlds, frame_ends=frame_ends)
+        wp.capture_while(s.untangling, self._move_round)
+        launch(end_keeping_apart, vertices)
+        s.tangled.zero_()
         launch(begin_untangling, worlds)
-        self._find(s.joint_leader)
-        launch(keep_ways, vertices)
-        launch(begin_rounds, worlds)
-        launch(begin_showing, vertices)
+        wp.capture_if(s.tangled, self._untangle)
+        launch(let_hands_yield, len(s.joint_first))
+        s.any_watched.zero_()
+        between = self._between_searches
+        launch(go_on_watching, worlds, frame_ends=frame_ends, between_searches=between)
+
+    def _move_round(self) -> None:
+        """Let walls that would cross move as one, in a round."""
+        s, launch = self._launcher.scene, self._launcher.launch
+        launch(move_together, len(s.x))
+        launch(end_round, len(s.x))
+        self._find(together=1)
+        launch(next_round, len(s.pierced_count))
+
+    def _untangle(self) -> None:
+        """Lead walls apart that cross."""
+        s, launch = self._launcher.scene, self._launcher.launch
+        launch(begin_moves, len(s.x))
+        s.way_back.zero_()
+        s.untangling.fill_(1)
         wp.capture_while(s.untangling, self._round)
-        launch(end_showing, vertices)
+        launch(end_untangling, len(s.x))
 
     def _round(self) -> None:
-        """Show walls that still cross a step farther back."""
+        """Lead walls that cross a step farther apart."""
         s, launch = self._launcher.scene, self._launcher.launch
-        self._find(s.joint_meant)
+        self._find(together=0)
         launch(next_round, len(s.pierced_count))
         launch(draw_back, len(s.x))
-        launch(go_back, len(s.x))
+        launch(end_round, len(s.x))
 
-    def _find(self, necks: Any) -> None:
-        """Find where walls cross as they are shown; `necks`: neck of every joint, (joints,) on the device."""
+    def _find(self, *, together: int) -> None:
+        """Find where walls cross as they are kept apart."""
         chunks = len(self._launcher.scene.box_low)
         self._launcher.launch_tiled(box_walls, chunks, lanes=WARP)
-        groups, told = self._parts * chunks, {"parts": self._parts, "necks": necks}
-        self._launcher.launch_tiled(find_ways_back, groups, lanes=WARP, **told)
+        groups = self._parts * chunks
+        told = {"parts": self._parts, "together": together}
+        self._launcher.launch_tiled(find_piercing_walls, groups, lanes=WARP, **told)

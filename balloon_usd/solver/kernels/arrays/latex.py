@@ -119,29 +119,35 @@ class Forces:
 
 @array_struct
 class Crossings:
-    """Walls that have gone through each other, and where they are shown."""
+    """Walls that would go through each other, or have, and how they are kept apart."""
 
     joint_meant: wp.array[int] = array("joints", meaning="the joint that stands for all it is meant to join")
-    way_led: wp.array[wp.vec3] = array(
-        "vertices", meaning="way on which it is led, as long as its share in what is led"
+    x_safe: wp.array[wp.vec3] = array(
+        "vertices", unit="m", meaning="where it was when walls were last kept apart"
     )
-    x_shown: wp.array[wp.vec3] = array("vertices", unit="m", meaning="where frames show it: no walls cross")
-    shown_shift: wp.array[wp.vec3] = array("vertices", unit="m", meaning="how far that is from where it is")
-    segment_shift: wp.array[float] = array("segments", unit="m", meaning="largest such shift of its wall")
+    safe_seconds: wp.array[float] = array("sculptures", unit="s", meaning="time from then to the next time")
+    crossed: wp.array[int] = array("vertices", meaning="1 where its wall crossed another all the same")
+    x_apart: wp.array[wp.vec3] = array("vertices", unit="m", meaning="scratch: where it is kept apart")
     x_coming: wp.array[wp.vec3] = array("vertices", unit="m", meaning="scratch: that in the coming round")
-
+    segment_shift: wp.array[float] = array(
+        "segments", unit="m", meaning="how far its wall was led out of others in this frame, at most"
+    )
     quad_radius: wp.array[float] = array("quads", unit="m", meaning="from its middle to its farthest corner")
     quad_bent: wp.array[int] = array("quads", meaning="1 where it is bent about its diagonal")
     box_low: wp.array[wp.vec3] = array("chunks", unit="m", meaning="lowest coordinates of its quads")
     box_high: wp.array[wp.vec3] = array("chunks", unit="m", meaning="highest coordinates of its quads")
     way_back: wp.array[wp.vec4i] = array(
-        "vertices", meaning="how it is led out of walls that it has gone through, and its share, 65536 to 1"
+        "vertices",
+        meaning="how it is led out of walls that it has gone through, and its share, 65536 to 1; or motions "
+        "that it shares, 10 million to 1 m, and how many",
     )
     smoothing: wp.array[float] = array("vertices", meaning="how much it is smoothed; 1 at a crossing")
     smoothing_next: wp.array[float] = array("vertices", meaning="scratch: that in the coming round")
     pierced_count: wp.array[int] = array("sculptures", meaning="edges found that pierce a face")
-    shifted: wp.array[int] = array("sculptures", meaning="1 where any wall is shown elsewhere than it is")
+    crossed_count: wp.array[int] = array("sculptures", meaning="those that did before already")
     untangling_round: wp.array[int] = array(
-        "sculptures", meaning="its round in this frame, from 1; -1: none is left"
+        "sculptures", meaning="its round, from 1; 0: not yet; -1: none is left; -2: walls still cross"
     )
     untangling: wp.array[int] = array(1, meaning="1 while any sculpture needs another round")
+    tangled: wp.array[int] = array(1, meaning="1 where walls of any sculpture still cross")
+    any_watched: wp.array[int] = array(1, meaning="1 while any sculpture is watched")

@@ -126,6 +126,9 @@ class Hands:
         "joints", meaning="unit direction in which it does not hold; 0: none"
     )
     hand_force: wp.array[float] = array("joints", unit="N", meaning="largest force of a leading hand")
+    hand_yield: wp.array[float] = array(
+        "joints", meaning="share of that force that it lets go, where it pulls walls through each other"
+    )
     hand_stiffness: wp.array[float] = array("joints", unit="N/m", meaning="stiffness of a leading hand")
     hand_load: wp.array[wp.vec3] = array("joints", unit="N", meaning="force that the hand feels")
     radius_from: wp.array[float] = array("joints", unit="m", meaning="radius at the start; 0: not closed")
@@ -145,6 +148,9 @@ class Hands:
 class Contacts:
     """Walls that touch, and the surface as it was when they were searched for."""
 
+    watched: wp.array[int] = array(
+        "sculptures", meaning="frames for which its walls are still kept apart at every search; 0: none"
+    )
     normal: wp.array[wp.vec3] = array("vertices", meaning="outward unit normal")
     area: wp.array[float] = array("vertices", unit="m2", meaning="share of the wall's area")
     quad_middle: wp.array[wp.vec3] = array("quads", unit="m", meaning="its middle")
@@ -193,5 +199,8 @@ class State:
 
     x: wp.array[wp.vec3] = array("vertices", unit="m", meaning="its position")
     v: wp.array[wp.vec3] = array("vertices", unit="m/s", meaning="its velocity")
+    slowness: wp.array[float] = array(
+        "vertices", unit="s/m", meaning="inverse of its largest speed, where walls would cross; 0: none"
+    )
     x_next: wp.array[wp.vec3] = array("vertices", unit="m", meaning="scratch: its next position")
     volume: wp.array[float] = array("segments", unit="m3", meaning="its volume")

@@ -27,6 +27,10 @@ DEPTH_LIMIT = wp.constant(0.6)
 """Deepest overlap taken for a contact, in local tube radii: beyond it the other wall is the tube's far
 side.
 """
+ROUNDING = wp.constant(0.1)
+"""The same where walls are kept apart, in the distance at which they begin to press: there no wall is behind
+another, and what seemed to be was flung through a third.
+"""
 OWN = wp.constant(256)
 """Most quads before a vertex, and after it, that are known as its own."""
 NONE = wp.constant(1 << 30)
@@ -264,6 +268,8 @@ def find_walls(
     contacts.area[i] = size
     own = contacts.vertex_own[i]
     world = balloons.balloon_world[seeker.balloon]
+    if contacts.watched[world] > 0:
+        seeker.depth = ROUNDING * seeker.offset
     near = wp.vec2(FAR, FAR)
     nearest = wp.vec2i(-1, -1)
     first = sculptures.world_chunk[world]

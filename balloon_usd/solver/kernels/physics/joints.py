@@ -33,6 +33,11 @@ LEAD = wp.constant(LEAD_MODE)
 CLASP = wp.constant(CLASP_MODE)
 """Hand mode: as a grip, and the closed ring does not turn."""
 
+MERGING = wp.constant(4.0)
+"""Speed at which necks that are far apart as they are joined come together, m/s: walls in between hold hands
+up, and at once they would come with 50 m/s (ears of a 646 flew apart).
+"""
+
 
 @wp.func
 def held(mode: int):
@@ -198,7 +203,7 @@ def move_joint(
     inside = coherent_float(chambers.pressure, side, shared)
     outside = coherent_float(chambers.pressure, beside[1], shared)
     heavy = float_at(joints.joint_mass, j)
-    grip = float_at(hands.hand_force, j)
+    grip = float_at(hands.hand_force, j) * (1.0 - float_at(hands.hand_yield, j))
     stiffness = float_at(hands.hand_stiffness, j)
     free = vec3_at(hands.hand_free, j)
     touching = int_at(balloons.touching, int_at(mesh.vertex_balloon, first))
@@ -338,13 +343,20 @@ def measure_rings(
 
 
 @wp.func
-def pair_shift(here: wp.vec3, there: wp.vec3, share: float, gap: float, reach: float):
+def pair_shift(
+    here: wp.vec3, there: wp.vec3, going: wp.vec3, share: float, gap: float, reach: float, dt: float
+):
     """Return how one of two necks moves, given its share of the move, so that they lie between gap and
-    reach (m).
+    reach (m), or come nearer at `MERGING`.
+
+    `going`: velocity of the one as the other sees it, m/s.
     """
     d = here - there
     far = wp.max(wp.length(d), 1.0e-9)
-    return d * (share * (wp.clamp(far, gap, reach) / far - 1.0))
+    move = wp.clamp(far, gap, reach) - far
+    if move < -MERGING * dt:
+        move = -(MERGING + wp.dot(going, d) / far) * dt
+    return d * (share * move / far)
 
 
 @wp.func
@@ -370,6 +382,7 @@ def weld_joint_to_others(
     n = int_at(joints.joint_around, j)
     mine = float_at(joints.joint_mass, j)
     here = vec3_at(joints.ring_middle, j)
+    velocity = vec3_at(joints.ring_velocity, j)
     lies = int_at(balloons.touching, int_at(mesh.vertex_balloon, first)) == LYING
     free = g >= 0 and held(int_at(hands.hand, j)) == 0 and not lies and not idle
     g = wp.max(g, 0)
@@ -382,7 +395,13 @@ def weld_joint_to_others(
         mass = float_at(joints.joint_mass, other)
         share = wp.where(held(int_at(hands.hand, other)) == 1, 1.0, mass / (mine + mass))
         shift += pair_shift(
-            here, vec3_at(joints.ring_middle, other), wp.where(other == j, 0.0, share), gap, reach
+            here,
+            vec3_at(joints.ring_middle, other),
+            velocity - vec3_at(joints.ring_velocity, other),
+            wp.where(other == j, 0.0, share),
+            gap,
+            reach,
+            dt,
         )
     shift = warp_sum3(shift, lanes) / wp.max(float(size - 1), 1.0)
     if free:

@@ -105,6 +105,7 @@ def step_of_vertex(
     # Drag takes from the velocity only: it must not weaken forces against those that act on whole rings.
     kept = wp.max(1.0 - float_at(balloons.drag, b) * dt, 0.0)
     velocity = kept * coherent_vec3(state.v, i, shared) + (f + pull) * (dt / float_at(mesh.mass, i))
+    velocity /= wp.max(float_at(state.slowness, i) * wp.length(velocity), 1.0)
     p = coherent_vec3(state.x, i, shared) + velocity * dt
     if spin > 0:
         turn = hands.spins[spin - 1]

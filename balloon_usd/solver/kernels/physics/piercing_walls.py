@@ -1,7 +1,4 @@
-"""Where walls have gone through each other, and the ways back: intersection contours become shorter, which
-needs neither insides nor outsides (Volino & Magnenat-Thalmann 2006, "Resolving surface collisions through
-intersection contour minimization").
-"""
+"""Where walls go through each other: pairs of quads by the boxes of chunks, then edges against triangles."""
 
 import warp as wp
 
@@ -9,128 +6,15 @@ from balloon_usd.solver.kernels.arrays.latex import Crossings
 from balloon_usd.solver.kernels.arrays.shared import Balloons, Contacts, Mesh, Sculptures
 from balloon_usd.solver.kernels.device.array_access import float_at, int_at, vec3_at, vec4i_at
 from balloon_usd.solver.kernels.device.warp_reduce import lowest_bit, warp_ballot, warp_max3
+from balloon_usd.solver.kernels.physics.piercing_edge import LONGER, answer_edge, neck_at, share_corner
 from balloon_usd.solver.kernels.physics.surface import FAR
 
-FLATTEST = wp.constant(0.1)
-"""Least sine of the angle between an edge and a wall that it pierces: a flatter one is led as if it had this,
-else it would be led without limit.
-"""
-LONGER = wp.constant(0.01)
-"""How much longer an edge and wider a triangle is taken to be, in themselves: so what does not pierce here
-does not either where it is counted exactly.
-"""
-LEAST_RISE = wp.constant(1.0e-20)
-"""Height of an edge's one end over the other, times an area, from which on it may pierce, m3."""
 BENT = wp.constant(0.9)
 """Cosine between the normals of a quad's halves below which its diagonal may pierce what is beside it."""
-PER_UNIT = wp.constant(65536.0)
-"""Integers to 1 in sums of ways back: added as integers they do not depend on the order of threads."""
 
 
 @wp.func
-def is_corner(i: int, quad: wp.vec4i):
-    """Return whether a vertex is a corner of a quad."""
-    return i == quad[0] or i == quad[1] or i == quad[2] or i == quad[3]
-
-
-@wp.func
-def share_corner(c: wp.vec4i, d: wp.vec4i):
-    """Return whether two quads have a vertex in common."""
-    return is_corner(c[0], d) or is_corner(c[1], d) or is_corner(c[2], d) or is_corner(c[3], d)
-
-
-@wp.func
-def lead_back(i: int, share: float, way: wp.vec3, crossings: Crossings):
-    """Add to the way of a vertex, by its share in what is led."""
-    whole = wp.vec4i(0)
-    for k in range(3):
-        whole[k] = int(wp.round(PER_UNIT * share * way[k]))
-    whole[3] = int(wp.round(PER_UNIT * wp.abs(share)))
-    wp.atomic_add(crossings.way_back, i, whole)
-
-
-@wp.func
-def neck_at(joint: int, necks: wp.array[int]):
-    """Return the neck of a joint; -1 for none."""
-    if joint >= 0:
-        return int_at(necks, joint)
-    return -1
-
-
-@wp.func
-def counts(ends: wp.vec2i, d: wp.vec4i, neck: int, necks: wp.array[int], mesh: Mesh):
-    """Return whether an edge may not pierce a quad: it is no neighbour, and not folded up in its neck.
-
-    `neck`: of the quad.
-    """
-    if is_corner(ends[0], d) or is_corner(ends[1], d):
-        return False
-    if neck < 0:
-        return True
-    return (
-        neck_at(int_at(mesh.vertex_neck, ends[0]), necks) != neck
-        or neck_at(int_at(mesh.vertex_neck, ends[1]), necks) != neck
-    )
-
-
-@wp.func
-def lead_edge_back(
-    ends: wp.vec2i,
-    p: wp.vec3,
-    q: wp.vec3,
-    inward: wp.vec3,
-    below: float,
-    above: float,
-    d: wp.vec4i,
-    other: wp.vec3i,
-    a: wp.vec3,
-    b: wp.vec3,
-    c: wp.vec3,
-    neck: int,
-    world: int,
-    necks: wp.array[int],
-    mesh: Mesh,
-    crossings: Crossings,
-):
-    """Count an edge that pierces a triangle, and add to the ways of both how the contour in one face of the
-    edge becomes shorter.
-
-    `p`, `q`: ends of the edge, m; `inward`: third corner of its face, m; `below`, `above`: heights of the
-    ends above the triangle's plane, times twice its area; `d`, `neck`: quad of the triangle and its neck;
-    `a`, `b`, `c`: corners of the triangle, m.
-    """
-    rise = below - above
-    share = below / wp.where(wp.abs(rise) < LEAST_RISE, LEAST_RISE, rise)
-    if share < -LONGER or share > 1.0 + LONGER:
-        return
-    place = p + share * (q - p)
-    across = wp.cross(b - a, c - a)
-    size = wp.max(wp.dot(across, across), 1.0e-30)
-    first = wp.dot(wp.cross(b - place, c - place), across) / size
-    second = wp.dot(wp.cross(c - place, a - place), across) / size
-    third = 1.0 - first - second
-    if wp.min(wp.min(first, second), third) < -LONGER or not counts(ends, d, neck, necks, mesh):
-        return
-    wp.atomic_add(crossings.pierced_count, world, 1)
-    normal = across / wp.sqrt(size)
-    along = wp.normalize(q - p)
-    into = inward - p
-    into = into - wp.dot(into, along) * along
-    # The contour runs where both faces are, from the edge into its own.
-    contour = wp.normalize(wp.cross(normal, wp.cross(along, into)))
-    contour = contour * wp.sign(wp.dot(contour, into))
-    steep = wp.dot(along, normal)
-    steep = wp.sign(steep) * wp.max(wp.abs(steep), FLATTEST)
-    way = wp.normalize(contour - (wp.dot(along, contour) / steep) * normal)
-    lead_back(ends[0], 1.0 - share, way, crossings)
-    lead_back(ends[1], share, way, crossings)
-    lead_back(other[0], -first, way, crossings)
-    lead_back(other[1], -second, way, crossings)
-    lead_back(other[2], -third, way, crossings)
-
-
-@wp.func
-def lead_triangle_back(
+def answer_triangle(
     own: wp.vec3i,
     p0: wp.vec3,
     p1: wp.vec3,
@@ -141,12 +25,12 @@ def lead_triangle_back(
     b: wp.vec3,
     c: wp.vec3,
     neck: int,
+    together: int,
     world: int,
-    necks: wp.array[int],
     mesh: Mesh,
     crossings: Crossings,
 ):
-    """Add to the ways of two triangles how the contours at the edges of the first become shorter."""
+    """Answer the edges of a triangle that pierce another one: both are led apart, or go on as one."""
     across = wp.cross(b - a, c - a)
     h0 = wp.dot(across, p0 - a)
     h1 = wp.dot(across, p1 - a)
@@ -172,8 +56,8 @@ def lead_triangle_back(
             inward = p1
             below = h2
             above = h0
-        lead_edge_back(
-            ends, p, q, inward, below, above, d, other, a, b, c, neck, world, necks, mesh, crossings
+        answer_edge(
+            ends, p, q, inward, below, above, d, other, a, b, c, neck, together, world, mesh, crossings
         )
 
 
@@ -191,21 +75,17 @@ def beyond(across: wp.vec3, a: wp.vec3, x0: wp.vec3, x1: wp.vec3, x2: wp.vec3, x
 
 
 @wp.func
-def lead_quad_back(
+def answer_quad(
     c: wp.vec4i,
     d: wp.vec4i,
     neck: int,
+    together: int,
     world: int,
-    necks: wp.array[int],
     mesh: Mesh,
     crossings: Crossings,
     x: wp.array[wp.vec3],
 ):
-    """Add to the ways of two quads how the contours at the edges of the first, diagonal included, become
-    shorter.
-
-    `neck`: of the second quad.
-    """
+    """Answer the edges of a quad, diagonal included, that pierce another one, whose neck is `neck`."""
     p0 = vec3_at(x, c[0])
     p1 = vec3_at(x, c[1])
     p2 = vec3_at(x, c[2])
@@ -221,7 +101,7 @@ def lead_quad_back(
                 own = wp.vec3i(c[0], c[1 + part], c[2 + part])
                 q1 = wp.where(part == 0, p1, p2)
                 q2 = wp.where(part == 0, p2, p3)
-                lead_triangle_back(own, p0, q1, q2, d, other, a, b, e, neck, world, necks, mesh, crossings)
+                answer_triangle(own, p0, q1, q2, d, other, a, b, e, neck, together, world, mesh, crossings)
 
 
 @wp.func
@@ -287,27 +167,27 @@ def may_pierce(
 
 
 @wp.func
-def lead_chunk_back(
+def answer_chunk(
     q: int,
     other: int,
+    together: int,
     world: int,
-    necks: wp.array[int],
     mesh: Mesh,
     contacts: Contacts,
     crossings: Crossings,
 ):
-    """Add to the ways of a quad and of those of a chunk that its edges pierce."""
+    """Answer the edges of a quad that pierce quads of a chunk."""
     c = vec4i_at(mesh.quads, q)
-    own = neck_at(int_at(mesh.quad_neck, q), necks)
+    own = neck_at(int_at(mesh.quad_neck, q), crossings.joint_meant)
     base = int_at(mesh.chunk_quad, other)
     close = near_quads(q, other, mesh, contacts, crossings)
     while close != 0:
         r = base + lowest_bit(close)
         close &= close - 1
         d = vec4i_at(mesh.quads, r)
-        neck = neck_at(int_at(mesh.quad_neck, r), necks)
+        neck = neck_at(int_at(mesh.quad_neck, r), crossings.joint_meant)
         if may_pierce(q, r, c, d, wp.where(neck == own, neck, -1), crossings.quad_bent, contacts.quad_area):
-            lead_quad_back(c, d, neck, world, necks, mesh, crossings, crossings.x_shown)
+            answer_quad(c, d, neck, together, world, mesh, crossings, crossings.x_apart)
 
 
 @wp.kernel
@@ -322,10 +202,10 @@ def box_walls(mesh: Mesh, contacts: Contacts, crossings: Crossings):
     low = wp.vec3(FAR)
     for q in range(mesh.chunk_quad[chunk] + lane, mesh.chunk_quad[chunk + 1], wp.block_dim()):
         c = mesh.quads[q]
-        x0 = crossings.x_shown[c[0]]
-        x1 = crossings.x_shown[c[1]]
-        x2 = crossings.x_shown[c[2]]
-        x3 = crossings.x_shown[c[3]]
+        x0 = crossings.x_apart[c[0]]
+        x1 = crossings.x_apart[c[1]]
+        x2 = crossings.x_apart[c[2]]
+        x3 = crossings.x_apart[c[3]]
         middle = 0.25 * (x0 + x1 + x2 + x3)
         contacts.quad_middle[q] = middle
         contacts.quad_area[q] = 0.5 * wp.cross(x2 - x0, x3 - x1)
@@ -346,20 +226,18 @@ def box_walls(mesh: Mesh, contacts: Contacts, crossings: Crossings):
 
 
 @wp.kernel
-def find_ways_back(
+def find_piercing_walls(
     parts: int,
-    necks: wp.array[int],
+    together: int,
     sculptures: Sculptures,
     mesh: Mesh,
     balloons: Balloons,
     contacts: Contacts,
     crossings: Crossings,
 ):
-    """Sum up for every vertex how it is led where walls have gone through each other, and count the edges
-    that pierce a face, but for rubber of one neck; so many `parts` of the other chunks for each chunk, by a
-    warp of lanes each on a GPU.
-
-    `necks`: neck of every joint.
+    """Sum up for every vertex how it is led out of walls that it has gone through, or how it and they go on
+    `together`, and count the edges that pierce a face, but for rubber of one neck; so many `parts` of the
+    other chunks for each chunk, by a warp of lanes each on a GPU.
     """
     group, lane = wp.tid()
     chunk = group // parts
@@ -381,5 +259,5 @@ def find_ways_back(
             other = begin + lowest_bit(others) * parts
             others &= others - 1
             for q in range(first + lane, last, wp.block_dim()):
-                lead_chunk_back(q, other, world, necks, mesh, contacts, crossings)
+                answer_chunk(q, other, together, world, mesh, contacts, crossings)
         begin += wp.block_dim() * parts

@@ -1,0 +1,187 @@
+"""Walls that would go through each other: since they were last apart they have moved as one, so they still
+are (rigid impact zones, Bridson, Fedkiw & Anderson 2002, but that zones are as soft as the wall about them).
+"""
+
+import warp as wp
+
+from balloon_usd.solver.kernels.arrays.latex import Crossings
+from balloon_usd.solver.kernels.arrays.shared import Balloons, Contacts, Hands, Joints, Mesh, State
+from balloon_usd.solver.kernels.device.array_access import float_at, int_at, vec3_at, vec4i_at
+from balloon_usd.solver.kernels.physics.joints import held
+from balloon_usd.solver.kernels.physics.piercing_edge import PER_METRE
+from balloon_usd.solver.kernels.physics.surface import velocity_of_spin
+from balloon_usd.solver.kernels.physics.untangling import (
+    FIRM_ROUNDS,
+    LEAST,
+    MOST_SMOOTHED,
+    SPREAD,
+    closed,
+    round_of,
+)
+
+MORE = wp.constant(0.02)
+"""How much more a vertex moves as its neighbours do in every round, as a share of the difference."""
+SLOW = wp.constant(1.0)
+"""Largest speed of a wall that would have crossed another, m/s: then contact finds it before the next search.
+With 0.3 m/s necks stay shut that should open, and bubbles turn inside out.
+"""
+FADING = wp.constant(0.95)
+"""Share of the slowness that is left after each such interval."""
+FASTEST_LEFT = wp.constant(100.0)
+"""Largest speed from which on there is none, m/s."""
+WATCHED_FRAMES = wp.constant(12)
+"""Frames for which walls of a sculpture are kept apart at every search, not only at the end of the frame."""
+MOST_YIELDED = wp.constant(0.97)
+"""Largest share of its force that a leading hand lets go."""
+
+
+@wp.kernel
+def begin_keeping_apart(frame_ends: int, contacts: Contacts, crossings: Crossings):
+    """Let the walls of every sculpture be looked at: at the end of a frame of all, else of those watched."""
+    world = wp.tid()
+    looked = frame_ends == 1 or contacts.watched[world] > 0
+    crossings.untangling_round[world] = wp.where(looked, 0, -1)
+    crossings.pierced_count[world] = 0
+    crossings.crossed_count[world] = 0
+
+
+@wp.kernel
+def begin_moves(crossings: Crossings, x: wp.array[wp.vec3]):
+    """Let every vertex be where it went; nothing is shared yet."""
+    i = wp.tid()
+    crossings.x_apart[i] = x[i]
+    crossings.smoothing[i] = 0.0
+
+
+@wp.kernel
+def begin_move_rounds(frame_ends: int, contacts: Contacts, crossings: Crossings):
+    """Let rounds follow where walls would cross that did not, and watch these sculptures."""
+    world = wp.tid()
+    if crossings.pierced_count[world] > 0:
+        crossings.untangling_round[world] = 1
+        contacts.watched[world] = WATCHED_FRAMES + frame_ends
+        wp.atomic_max(crossings.untangling, 0, 1)
+
+
+@wp.func
+def motion_of(i: int, crossings: Crossings):
+    """Return how a vertex moves: with all that it would cross, if anything (m)."""
+    sums = crossings.way_back[i]
+    if sums[3] > 0:
+        return wp.vec3(float(sums[0]), float(sums[1]), float(sums[2])) / (PER_METRE * float(sums[3]))
+    return vec3_at(crossings.x_apart, i) - vec3_at(crossings.x_safe, i)
+
+
+@wp.func
+def motion_about(i: int, mesh: Mesh, crossings: Crossings):
+    """Return how the neighbours of a vertex move in the mean (m), and the most that one is smoothed."""
+    motion = wp.vec3(0.0)
+    smoothing = float(0.0)
+    count = float(0.0)
+    row = int(i)
+    while row >= 0:
+        slots = vec4i_at(mesh.corners, row)
+        for k in range(4):
+            if slots[k] >= 0:
+                c = vec4i_at(mesh.quads, slots[k] // 4)
+                # Every neighbour is met twice, in the quads on both sides of the edge to it.
+                for side in range(2):
+                    other = c[(slots[k] + 1 + 2 * side) % 4]
+                    motion += vec3_at(crossings.x_apart, other) - vec3_at(crossings.x_safe, other)
+                    smoothing = wp.max(smoothing, float_at(crossings.smoothing, other))
+                    count += 1.0
+        row = -2 - slots[3]
+    return motion / count, smoothing
+
+
+@wp.kernel
+def move_together(mesh: Mesh, balloons: Balloons, joints: Joints, hands: Hands, crossings: Crossings):
+    """Write where every vertex goes after a round: what would cross moves as one, what is beside it nearly.
+
+    Closed rings stay what they are, and where hands hold them; the others first move as without this.
+    """
+    i = wp.tid()
+    crossings.smoothing_next[i] = 0.0
+    done = round_of(i, mesh, balloons, crossings)
+    if done <= 0:
+        return
+    first = int(i)
+    around = int(1)
+    if closed(i, mesh, joints, hands):
+        joint = int_at(mesh.vertex_joint, i)
+        if held(int_at(hands.hand, joint)) == 1 or done <= FIRM_ROUNDS:
+            return
+        first = int_at(joints.joint_first, joint)
+        around = int_at(joints.joint_around, joint)
+    motion = wp.vec3(0.0)
+    about = wp.vec3(0.0)
+    smoothing = float(0.0)
+    crossing = int(0)
+    for v in range(first, first + around):
+        motion += motion_of(v, crossings) / float(around)
+        crossing = wp.max(crossing, crossings.way_back[v][3])
+        beside, smoothed = motion_about(v, mesh, crossings)
+        about += beside / float(around)
+        smoothing = wp.max(smoothing, wp.max(smoothed, float_at(crossings.smoothing, v)))
+    smoothing *= SPREAD
+    if crossing > 0:
+        smoothing = 1.0
+    else:
+        motion += wp.min(MORE * float(done), MOST_SMOOTHED) * smoothing * (about - motion)
+    crossings.smoothing_next[i] = smoothing
+    crossings.x_coming[i] = vec3_at(crossings.x_safe, i) + motion
+
+
+@wp.kernel
+def end_keeping_apart(
+    mesh: Mesh,
+    balloons: Balloons,
+    hands: Hands,
+    crossings: Crossings,
+    state: State,
+):
+    """Let every vertex that moved with others be where that led it, as fast as that was, and slow for a
+    while; it is safe there.
+    """
+    i = wp.tid()
+    world = int_at(balloons.balloon_world, int_at(mesh.vertex_balloon, i))
+    if crossings.untangling_round[world] == -1:
+        return
+    if crossings.smoothing[i] > LEAST:
+        way = crossings.x_apart[i] - crossings.x_safe[i]
+        state.slowness[i] = 1.0 / SLOW
+        if wp.length_sq(crossings.x_apart[i] - state.x[i]) > 0.0:
+            state.x[i] = crossings.x_apart[i]
+            # Turns by hands are no part of the velocity.
+            state.v[i] = way / crossings.safe_seconds[world] - velocity_of_spin(i, state.x[i], hands)
+    elif state.slowness[i] > 0.0:
+        slowness = FADING * state.slowness[i]
+        state.slowness[i] = wp.where(slowness * FASTEST_LEFT > 1.0, slowness, 0.0)
+    if crossings.crossed_count[world] == 0 and crossings.untangling_round[world] >= 0:
+        crossings.crossed[i] = 0
+    crossings.x_safe[i] = state.x[i]
+
+
+@wp.kernel
+def let_hands_yield(joints: Joints, hands: Hands, slowness: wp.array[float]):
+    """Let hands that lead open rings let go of most of their force where that pulls walls through others."""
+    j = wp.tid()
+    if joints.joint_parts[j] == 0:
+        most = float(0.0)
+        for i in range(joints.joint_first[j], joints.joint_first[j] + joints.joint_around[j]):
+            most = wp.max(most, slowness[i])
+        hands.hand_yield[j] = MOST_YIELDED * wp.min(SLOW * most, 1.0)
+
+
+@wp.kernel
+def go_on_watching(
+    frame_ends: int, between_searches: float, frame_seconds: float, contacts: Contacts, crossings: Crossings
+):
+    """Count down the frames for which sculptures are watched, and write when they are looked at next."""
+    world = wp.tid()
+    left = contacts.watched[world]
+    if frame_ends == 1:
+        left = wp.max(left - 1, 0)
+        contacts.watched[world] = left
+    crossings.safe_seconds[world] = wp.where(left > 0, between_searches, frame_seconds)
+    wp.atomic_max(crossings.any_watched, 0, left)

@@ -1,0 +1,164 @@
+"""An edge that pierces a wall, and two answers to it: both go on as one, or both are led apart."""
+
+import warp as wp
+
+from balloon_usd.solver.kernels.arrays.latex import Crossings
+from balloon_usd.solver.kernels.arrays.shared import Mesh
+from balloon_usd.solver.kernels.device.array_access import int_at, vec3_at
+
+FLATTEST = wp.constant(0.1)
+"""Least sine of the angle between an edge and a wall that it pierces: a flatter one is led as if it had this,
+else it would be led without limit.
+"""
+LONGER = wp.constant(0.01)
+"""How much longer an edge and wider a triangle is taken to be, in themselves: so what does not pierce here
+does not either where it is counted exactly.
+"""
+LEAST_RISE = wp.constant(1.0e-20)
+"""Height of an edge's one end over the other, times an area, from which on it may pierce, m3."""
+PER_UNIT = wp.constant(65536.0)
+"""Integers to 1 in sums of ways: added as integers they do not depend on the order of threads."""
+PER_METRE = wp.constant(1.0e7)
+"""Integers to 1 m in sums of motions."""
+FASTEST = wp.constant(0.1)
+"""Farthest that a vertex is taken to have moved since walls were last kept apart, m: sums never overflow."""
+
+
+@wp.func
+def is_corner(i: int, quad: wp.vec4i):
+    """Return whether a vertex is a corner of a quad."""
+    return i == quad[0] or i == quad[1] or i == quad[2] or i == quad[3]
+
+
+@wp.func
+def share_corner(c: wp.vec4i, d: wp.vec4i):
+    """Return whether two quads have a vertex in common."""
+    return is_corner(c[0], d) or is_corner(c[1], d) or is_corner(c[2], d) or is_corner(c[3], d)
+
+
+@wp.func
+def lead_back(i: int, share: float, way: wp.vec3, crossings: Crossings):
+    """Add to the way of a vertex, by its share in what is led."""
+    whole = wp.vec4i(0)
+    for k in range(3):
+        whole[k] = int(wp.round(PER_UNIT * share * way[k]))
+    whole[3] = int(wp.round(PER_UNIT * wp.abs(share)))
+    wp.atomic_add(crossings.way_back, i, whole)
+
+
+@wp.func
+def neck_at(joint: int, joint_meant: wp.array[int]):
+    """Return the neck of a joint, one for all that are meant to become one; -1 for none."""
+    if joint >= 0:
+        return int_at(joint_meant, joint)
+    return -1
+
+
+@wp.func
+def counts(ends: wp.vec2i, d: wp.vec4i, neck: int, joint_meant: wp.array[int], mesh: Mesh):
+    """Return whether an edge may not pierce a quad: it is no neighbour, and not folded up in its neck.
+
+    `neck`: of the quad.
+    """
+    if is_corner(ends[0], d) or is_corner(ends[1], d):
+        return False
+    if neck < 0:
+        return True
+    return (
+        neck_at(int_at(mesh.vertex_neck, ends[0]), joint_meant) != neck
+        or neck_at(int_at(mesh.vertex_neck, ends[1]), joint_meant) != neck
+    )
+
+
+@wp.func
+def moved(i: int, crossings: Crossings):
+    """Return how far a vertex goes since walls were last kept apart (m)."""
+    way = vec3_at(crossings.x_apart, i) - vec3_at(crossings.x_safe, i)
+    return wp.vec3(
+        wp.clamp(way[0], -FASTEST, FASTEST),
+        wp.clamp(way[1], -FASTEST, FASTEST),
+        wp.clamp(way[2], -FASTEST, FASTEST),
+    )
+
+
+@wp.func
+def share_motion(ends: wp.vec2i, other: wp.vec3i, world: int, crossings: Crossings):
+    """Count an edge that pierces a triangle, and add the mean of how both moved to the motions of both; where
+    one crossed before already they are only counted apart.
+    """
+    before = int_at(crossings.crossed, ends[0]) + int_at(crossings.crossed, ends[1])
+    for k in range(3):
+        before += int_at(crossings.crossed, other[k])
+    if before > 0:
+        wp.atomic_add(crossings.crossed_count, world, 1)
+        return
+    wp.atomic_add(crossings.pierced_count, world, 1)
+    edge = 0.5 * (moved(ends[0], crossings) + moved(ends[1], crossings))
+    face = moved(other[0], crossings) + moved(other[1], crossings) + moved(other[2], crossings)
+    mean = PER_METRE * (0.5 * edge + face / 6.0)
+    whole = wp.vec4i(int(wp.round(mean[0])), int(wp.round(mean[1])), int(wp.round(mean[2])), 1)
+    wp.atomic_add(crossings.way_back, ends[0], whole)
+    wp.atomic_add(crossings.way_back, ends[1], whole)
+    for k in range(3):
+        wp.atomic_add(crossings.way_back, other[k], whole)
+
+
+@wp.func
+def answer_edge(
+    ends: wp.vec2i,
+    p: wp.vec3,
+    q: wp.vec3,
+    inward: wp.vec3,
+    below: float,
+    above: float,
+    d: wp.vec4i,
+    other: wp.vec3i,
+    a: wp.vec3,
+    b: wp.vec3,
+    c: wp.vec3,
+    neck: int,
+    together: int,
+    world: int,
+    mesh: Mesh,
+    crossings: Crossings,
+):
+    """Count an edge that pierces a triangle, and add to the ways of both how the contour in one face of the
+    edge becomes shorter (Volino & Magnenat-Thalmann 2006), or the mean of their motions.
+
+    `p`, `q`: ends of the edge, m; `inward`: third corner of its face, m; `below`, `above`: heights of the
+    ends above the triangle's plane, times twice its area; `d`, `neck`: quad of the triangle and its neck;
+    `a`, `b`, `c`: corners of the triangle, m; `together`: 1 for their motions.
+    """
+    rise = below - above
+    share = below / wp.where(wp.abs(rise) < LEAST_RISE, LEAST_RISE, rise)
+    if share < -LONGER or share > 1.0 + LONGER:
+        return
+    place = p + share * (q - p)
+    across = wp.cross(b - a, c - a)
+    size = wp.max(wp.dot(across, across), 1.0e-30)
+    first = wp.dot(wp.cross(b - place, c - place), across) / size
+    second = wp.dot(wp.cross(c - place, a - place), across) / size
+    third = 1.0 - first - second
+    if wp.min(wp.min(first, second), third) < -LONGER:
+        return
+    if not counts(ends, d, neck, crossings.joint_meant, mesh):
+        return
+    if together == 1:
+        share_motion(ends, other, world, crossings)
+        return
+    wp.atomic_add(crossings.pierced_count, world, 1)
+    normal = across / wp.sqrt(size)
+    along = wp.normalize(q - p)
+    into = inward - p
+    into = into - wp.dot(into, along) * along
+    # The contour runs where both faces are, from the edge into its own.
+    contour = wp.normalize(wp.cross(normal, wp.cross(along, into)))
+    contour = contour * wp.sign(wp.dot(contour, into))
+    steep = wp.dot(along, normal)
+    steep = wp.sign(steep) * wp.max(wp.abs(steep), FLATTEST)
+    way = wp.normalize(contour - (wp.dot(along, contour) / steep) * normal)
+    lead_back(ends[0], 1.0 - share, way, crossings)
+    lead_back(ends[1], share, way, crossings)
+    lead_back(other[0], -first, way, crossings)
+    lead_back(other[1], -second, way, crossings)
+    lead_back(other[2], -third, way, crossings)
