@@ -45,7 +45,7 @@ class QualityWatch:
         self.crossings = CrossingHistory()
         """In those frames."""
         self._led_apart, self._led_frames = 0.0, 0
-        """Farthest that a wall was shown from where it was, m, and in how many frames any was."""
+        """Farthest that a wall was led out of others in a frame, m, and in how many frames any was."""
         self._rest = Rest(plan)
         self._tails = TwistTails(plan, meshes)
         self._end: Frame | None = None

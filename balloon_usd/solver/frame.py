@@ -37,8 +37,8 @@ class Frame:
     cluster: tuple[NDArray[np.int32], ...] = ()
     """Bubble of every particle, (P,) int32 in plan order; an undivided run has the number of its first."""
     shift: NDArray[np.float32] | None = None
-    """Farthest that the wall of every bubble is shown from where it is, so that no walls cross, (bubbles,)
-    float32, m; None in the model kosaka.
+    """Farthest that the wall of every bubble was led out of others in this frame, (bubbles,) float32, m; None
+    in the model kosaka.
     """
 
     def copy(self) -> Frame:

@@ -89,8 +89,8 @@ class FrameArrays:
     cluster: NDArray[np.int32] | None = None
     """Bubble of every particle, (P,) int32, as in a `Frame`."""
     shift: NDArray[np.float32] | None = None
-    """Farthest that the wall of every bubble is shown from where it is, (bubbles,) float32, m; None in the
-    model kosaka.
+    """Farthest that the wall of every bubble was led out of others in this frame, (bubbles,) float32, m; None
+    in the model kosaka.
     """
 
     def copy_to(self, other: FrameArrays) -> None:

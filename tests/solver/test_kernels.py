@@ -12,6 +12,8 @@ from balloon_usd.solver import kernels
 from tests.solver.all_kernels import all_kernels
 
 ORDERLESS = (
+    "any_watched",
+    "crossed_count",
     "hit_last",
     "listed_count",
     "most_near",
@@ -19,7 +21,7 @@ ORDERLESS = (
     "pierced_count",
     "pressed_count",
     "segment_shift",
-    "shifted",
+    "tangled",
     "untangling",
     "way_back",
     "wp.atomic_max(fastest",

@@ -1,4 +1,4 @@
-"""Walls that have gone through each other are led back out, and shown where none cross."""
+"""Walls that would go through each other go on as one, and those that have are led apart."""
 
 from __future__ import annotations
 
@@ -7,19 +7,19 @@ import pytest
 
 from balloon_usd.quality.crossing_counter import CrossingCounter
 from balloon_usd.quality.walls import walls_of
-from balloon_usd.solver.hands import LEADING_SPEED
-from balloon_usd.solver.kernels.physics.motion import LYING_MODE
+from balloon_usd.solver.kernels.physics.keeping_apart import WATCHED_FRAMES
+from balloon_usd.solver.kernels.physics.motion import SLOW
 from balloon_usd.solver.simulation import simulate_many
 from tests.solver.locked_pair import locked_pair
 
 PUSHED = 0.003
 """How far one bubble is pushed into the other, m."""
-STEPS = 24
-"""Frames in which they are led apart: 2 s at 12 frames/s."""
+FRAME = 1.0 / 12.0
+"""Time of a frame of the pair, s."""
 
 
 class Pair:
-    """A locked pair at its end, whose walls only untangling moves."""
+    """A locked pair at its end, whose walls only the test moves, and what keeps them apart."""
 
     def __init__(self) -> None:
         planned = locked_pair()
@@ -27,44 +27,44 @@ class Pair:
         assert all(frames for frames in simulation.frames())
         # Its hands own the memory of some arrays.
         self._model = simulation.model
-        self.scene, self._stepper = self._model.scene, self._model.stepper
+        self.scene, self.untangling = self._model.scene, self._model.stepper._untangling
         self.scene.touching.assign(np.ones(len(self.scene.bodies), dtype=np.int32))
-        # The speed fades in what lies.
-        self.scene.leading.fill_(LEADING_SPEED)
-        self._walls = walls_of(planned, simulation.meshes[0])
-        self._counter = CrossingCounter(self._walls, 1)
+        self._counter = CrossingCounter(walls_of(planned, simulation.meshes[0]), 1)
         self.made = self.scene.x.numpy().copy()
 
+    def start(self) -> None:
+        """Let it be as it was made, at rest, its walls apart."""
+        self.scene.x.assign(self.made)
+        self.scene.v.zero_()
+        self.untangling.leave()
+
     def of(self, bubble: int) -> np.ndarray:
-        """Whether each vertex is of a bubble, by its place on the balloon."""
-        return self.scene.vertex_segment.numpy() == self.scene.bubbles_of(0)[bubble]
+        """Whether each vertex is of a bubble, by its place on the balloon, but not of its necks."""
+        inside: np.ndarray = self.scene.vertex_segment.numpy() == self.scene.bubbles_of(0)[bubble]
+        inside[self.scene.quads.numpy()[self.scene.quad_neck.numpy() >= 0]] = False
+        return inside
 
     def crossings(self) -> int:
-        """How many there are in no neck where walls are."""
+        """How many there are in no neck."""
         return self._counter.count([self.scene.x.numpy()]).count
 
-    def shown(self) -> int:
-        """How many there are in no neck where walls are shown."""
-        return self._counter.count([self.scene.x_shown.numpy()]).count
-
-    def pierced(self) -> set[int]:
-        """Vertices of all edges and faces that pierce each other, in necks too."""
-        found = self._counter._pierced(self.scene.x.numpy())
-        return {*found.edges.ravel().tolist(), *self._walls.triangles[found.triangles].ravel().tolist()}
-
-    def push(self) -> None:
-        """Push one bubble, but for its necks, into the other."""
+    def push(self) -> np.ndarray:
+        """Push one bubble into the other; how far, m."""
         left, right = self.of(1), self.of(2)
-        left[self.scene.quads.numpy()[self.scene.quad_neck.numpy() >= 0]] = False
         way = self.made[right].mean(axis=0) - self.made[left].mean(axis=0)
         pushed = self.made.copy()
         pushed[left] += PUSHED * way / np.linalg.norm(way)
         self.scene.x.assign(pushed)
+        assert self.crossings() > 30
+        return pushed
 
-    def untangle(self) -> None:
-        """Show a frame, and lead walls as at the start of the next."""
-        self._stepper._untangling.show()
-        self._stepper._untangling.lead()
+    def closed(self) -> np.ndarray:
+        """Whether each vertex is of a closed ring."""
+        joint = self.scene.vertex_joint.numpy()
+        parts = self.scene.joint_parts.numpy()[joint] == 1
+        found: np.ndarray = (joint >= 0) & parts & (self.scene.radius_to.numpy()[joint] > 0.0)
+        assert found.any()
+        return found
 
 
 @pytest.fixture(scope="module")
@@ -74,89 +74,83 @@ def whole_pair():
 
 @pytest.fixture
 def pair(whole_pair):
-    whole_pair.scene.x.assign(whole_pair.made)
-    whole_pair.scene.v.zero_()
-    whole_pair.scene.shown_shift.zero_()
-    whole_pair.scene.shifted.zero_()
+    whole_pair.start()
     return whole_pair
 
 
-def test_a_bubble_that_was_pushed_into_another_is_led_out_again(pair):
-    pair.push()
-    assert pair.crossings() > 30
-    for _ in range(STEPS):
-        pair.untangle()
+def test_a_bubble_that_would_go_into_another_takes_it_along(pair):
+    pushed = pair.push()
+    pair.untangling.end_frame()
+    x, v = pair.scene.x.numpy(), pair.scene.v.numpy()
     assert pair.crossings() == 0
+    held = np.linalg.norm(x - pushed, axis=1) > 0.0
+    assert held[pair.of(1)].any()
+    assert held[pair.of(2)].any()
+    # Slower than it was pushed, and no faster than that moved it.
+    assert np.linalg.norm(x - pair.made, axis=1).max() <= 1.001 * PUSHED
+    assert np.abs(v[held] - (x - pair.made)[held] / FRAME).max() < 1e-3
+    assert not v[~held].any()
 
 
-def test_only_what_crosses_is_moved_and_no_farther_than_a_step(pair):
-    pair.push()
-    before, pierced = pair.scene.x.numpy().copy(), pair.pierced()
-    pair.untangle()
-    far = np.linalg.norm(pair.scene.x.numpy() - before, axis=1)
-    moved = set(np.flatnonzero(far > 0.0).tolist())
-    assert len(moved) > 30
-    # An edge is taken to be a hundredth longer than it is.
-    assert len(moved - pierced) <= 0.02 * len(moved)
-    assert far.max() <= 1.001 * LEADING_SPEED / 12
-
-
-def test_walls_that_cross_nowhere_stay_where_they_are_bit_by_bit(pair):
-    model = simulate_many([locked_pair()], detail="draft", device="cpu").model
-    scene, stepper = model.scene, model.stepper
-    scene.touching.assign(np.ones(len(scene.bodies), dtype=np.int32))
-    flat = scene.x.numpy().copy()
-    stepper._untangling.show()
-    stepper._untangling.lead()
-    assert np.array_equal(scene.x.numpy(), flat)
-    assert np.array_equal(scene.x_shown.numpy(), flat)
-
-
-def test_bubbles_that_cross_are_shown_apart_in_the_same_frame(pair):
-    pair.push()
-    pushed = pair.crossings()
-    pair.untangle()
-    assert pushed > 30
-    assert pair.shown() == 0
-    # All else is where it is.
-    far = np.linalg.norm(pair.scene.x_shown.numpy() - pair.scene.x.numpy(), axis=1)
+def test_walls_that_cross_already_are_led_apart(pair):
+    pushed = pair.push()
+    pair.untangling.leave()
+    pair.untangling.end_frame()
+    assert pair.crossings() == 0
+    far = np.linalg.norm(pair.scene.x.numpy() - pushed, axis=1)
     assert far.max() < 2.0 * PUSHED
     assert (far == 0.0).mean() > 0.5
+    assert pair.scene.segment_shift.numpy().max() == pytest.approx(far.max(), rel=1e-3)
 
 
-def test_joints_are_shown_where_they_are(pair):
+@pytest.mark.parametrize("crossing_already", [False, True])
+def test_joints_stay_where_they_are(pair, crossing_already):
+    pushed = pair.push()
+    if crossing_already:
+        pair.untangling.leave()
+    pair.untangling.end_frame()
+    assert np.array_equal(pair.scene.x.numpy()[pair.closed()], pushed[pair.closed()])
+
+
+def test_walls_that_cross_nowhere_stay_where_they_are_bit_by_bit():
+    model = simulate_many([locked_pair()], detail="draft", device="cpu").model
+    scene, untangling = model.scene, model.stepper._untangling
+    scene.touching.assign(np.ones(len(scene.bodies), dtype=np.int32))
+    flat = scene.x.numpy().copy()
+    untangling.end_frame()
+    assert np.array_equal(scene.x.numpy(), flat)
+    assert not scene.watched.numpy().any()
+
+
+def test_walls_that_would_cross_are_slow_and_watched_for_a_while(pair):
     pair.push()
-    pair.untangle()
-    shift = pair.scene.x_shown.numpy() - pair.scene.x.numpy()
-    closed = pair.scene.vertex_joint.numpy() >= 0
-    closed &= pair.scene.joint_parts.numpy()[pair.scene.vertex_joint.numpy()] == 1
-    closed &= pair.scene.radius_to.numpy()[pair.scene.vertex_joint.numpy()] > 0.0
-    assert closed.any()
-    assert not shift[closed].any()
+    pair.untangling.end_frame()
+    slowness = pair.scene.slowness.numpy()
+    assert slowness.max() == pytest.approx(1.0 / SLOW)
+    assert (slowness == 0.0).mean() > 0.3
+    assert pair.scene.any_watched.numpy()[0] > 0
+    for _ in range(WATCHED_FRAMES):
+        pair.untangling.watch()
+        pair.untangling.end_frame()
+    assert pair.scene.any_watched.numpy()[0] == 0
+    assert pair.scene.slowness.numpy().max() < 0.5 / SLOW
 
 
-def test_what_no_more_crosses_comes_back_to_where_it_is_by_and_by(pair):
+def test_hands_that_lead_open_rings_yield_where_walls_would_cross(pair):
+    pair.untangling.end_frame()
+    assert not pair.scene.hand_yield.numpy().any()
     pair.push()
-    pair.untangle()
-    pair.scene.x.assign(pair.made)
-    pair.scene.touching.assign(np.ones(len(pair.scene.bodies), dtype=np.int32))
-    far = []
-    for _ in range(STEPS):
-        pair.untangle()
-        assert pair.shown() == 0
-        far.append(float(np.linalg.norm(pair.scene.x_shown.numpy() - pair.made, axis=1).max()))
-    assert far == sorted(far, reverse=True)
-    assert far[-1] < 0.1 * far[0]
+    pair.untangling.end_frame()
+    yielding = pair.scene.hand_yield.numpy()
+    assert yielding.max() > 0.9
+    assert not yielding[pair.scene.joint_parts.numpy() == 1].any()
 
 
-def test_what_lies_is_shown_as_it_was(pair):
-    pair.push()
-    pair.scene.leading.zero_()
-    pair.untangle()
-    before = pair.scene.x_shown.numpy().copy()
-    pair.scene.touching.assign(np.full(len(pair.scene.bodies), LYING_MODE, dtype=np.int32))
-    pair.untangle()
-    # But for rounding.
-    assert np.abs(pair.scene.x_shown.numpy() - before).max() < 1e-7
-    pair.scene.touching.assign(np.ones(len(pair.scene.bodies), dtype=np.int32))
-    pair.scene.leading.fill_(LEADING_SPEED)
+def test_what_keeps_walls_apart_gives_the_same_bits_again(pair):
+    found = []
+    for _ in range(2):
+        pair.start()
+        pair.push()
+        pair.untangling.end_frame()
+        found.append(pair.scene.x.numpy().copy())
+    assert np.array_equal(*found)

@@ -17,7 +17,7 @@ from balloon_usd.solver.kernels.device.array_access import (
 from balloon_usd.solver.kernels.device.soa import store_soa
 from balloon_usd.solver.kernels.device.warp_reduce import lowest_bit, warp_ballot, warp_max, warp_max3
 from balloon_usd.solver.kernels.physics.meeting import INSIDE, Seeker, may_meet, opposite, seeker_of
-from balloon_usd.solver.kernels.physics.motion import LYING
+from balloon_usd.solver.kernels.physics.motion import LYING, SLOW
 from balloon_usd.solver.kernels.physics.patch import SIDE_SLIP, nearest_on_patch, patch_shares
 from balloon_usd.solver.kernels.physics.surface import FAR, surface_of_vertex, velocity_of_spin
 
@@ -100,7 +100,7 @@ def distance_of_wall(
         height = wp.dot(d, face)
         limit = wp.min(seeker.depth, DEPTH_LIMIT * float_at(contacts.ring_radius, int_at(mesh.quad_ring, q)))
         going = seeker.velocity - vec3_at(contacts.quad_velocity, q)
-        watched = touch.margin + touch.ahead * wp.length(going)
+        watched = touch.margin + touch.ahead * wp.max(wp.length(going), seeker.speed)
         if opposite(q, seeker, mesh):
             height = -height
             watched += INSIDE * seeker.offset
@@ -238,7 +238,10 @@ def seeker_at(
     seeker.velocity = state.v[i] + velocity_of_spin(i, state.x[i], hands)
     seeker.normal = normal
     seeker.depth = DEPTH_LIMIT * contacts.ring_radius[mesh.vertex_ring[i]]
-    seeker.reach = seeker.offset + touch.margin + touch.ahead * wp.length(seeker.velocity)
+    # What would have crossed is soon as fast as it may be, and so is what it would have crossed.
+    seeker.speed = wp.where(state.slowness[i] > 0.0, 2.0 * SLOW, 0.0)
+    farthest = touch.ahead * wp.max(wp.length(seeker.velocity), seeker.speed)
+    seeker.reach = seeker.offset + touch.margin + farthest
     return seeker
 
 

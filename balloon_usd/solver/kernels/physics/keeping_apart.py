@@ -8,6 +8,7 @@ from balloon_usd.solver.kernels.arrays.latex import Crossings
 from balloon_usd.solver.kernels.arrays.shared import Balloons, Contacts, Hands, Joints, Mesh, State
 from balloon_usd.solver.kernels.device.array_access import float_at, int_at, vec3_at, vec4i_at
 from balloon_usd.solver.kernels.physics.joints import held
+from balloon_usd.solver.kernels.physics.motion import SLOW
 from balloon_usd.solver.kernels.physics.piercing_edge import PER_METRE
 from balloon_usd.solver.kernels.physics.surface import velocity_of_spin
 from balloon_usd.solver.kernels.physics.untangling import (
@@ -21,10 +22,6 @@ from balloon_usd.solver.kernels.physics.untangling import (
 
 MORE = wp.constant(0.02)
 """How much more a vertex moves as its neighbours do in every round, as a share of the difference."""
-SLOW = wp.constant(1.0)
-"""Largest speed of a wall that would have crossed another, m/s: then contact finds it before the next search.
-With 0.3 m/s necks stay shut that should open, and bubbles turn inside out.
-"""
 FADING = wp.constant(0.95)
 """Share of the slowness that is left after each such interval."""
 FASTEST_LEFT = wp.constant(100.0)

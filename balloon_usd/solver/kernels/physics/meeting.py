@@ -31,6 +31,8 @@ class Seeker:
     """m"""
     velocity: wp.vec3
     """m/s"""
+    speed: float
+    """Least speed at which it and other walls are taken to come nearer, m/s."""
     normal: wp.vec3
     """Its outward unit normal."""
     depth: float

@@ -13,6 +13,10 @@ LYING = wp.constant(LYING_MODE)
 """Of a balloon that was put down: its walls touch what they touched, and look for nothing else."""
 LYING_SPEED = wp.constant(1.0e-3)
 """Largest speed of its wall, m/s: faster it sticks to what it lies on."""
+SLOW = wp.constant(1.0)
+"""Largest speed of a wall that would have crossed another, m/s: then contact finds it before the next search.
+With 0.3 m/s necks stay shut that should open, and bubbles turn inside out.
+"""
 
 
 @wp.func

@@ -51,12 +51,13 @@ def prepare_contacts(
     chambers: Chambers,
     contacts: Contacts,
     forces: Forces,
+    state: State,
 ):
     """Write what stays constant for every contact until the next search."""
     # No barrier follows: `press_contacts` gives each contact to the same thread.
     for at in range(own.pair_begin + threads.threads - 1 - threads.thread, own.pair_end, threads.threads):
         touched, limits = limits_of_pair(
-            int_at(contacts.pairs, at), touch, dt, mesh, balloons, contacts, chambers.pressure
+            int_at(contacts.pairs, at), touch, dt, mesh, balloons, contacts, chambers.pressure, state.slowness
         )
         forces.pair_corners[at] = touched
         forces.pair_limits[at] = limits

@@ -101,7 +101,9 @@ def substep_kernel(
         own = ranges_of(w, launch, threads, sculptures, welds, cores, contacts)
         dt = launch.dt
         if launch.walls == 1:
-            prepare_contacts(threads, own, dt, touch, mesh, balloons, chambers, contacts, global_forces)
+            prepare_contacts(
+                threads, own, dt, touch, mesh, balloons, chambers, contacts, global_forces, global_state
+            )
         state = global_state
         forces = global_forces
         if wp.static(resident_bytes > 0):

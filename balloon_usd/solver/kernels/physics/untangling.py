@@ -162,8 +162,7 @@ def end_untangling(mesh: Mesh, balloons: Balloons, hands: Hands, crossings: Cros
         most = crossings.safe_seconds[balloons.balloon_world[balloon]] * hands.leading[balloon]
         shift *= wp.min(most / far, 1.0)
     if far > 0.0:
-        wp.atomic_max(
-            crossings.segment_shift, mesh.quad_segment[wp.max(mesh.corners[i][0], 0) // 4], wp.length(shift)
-        )
+        segment = mesh.quad_segment[wp.max(mesh.corners[i][0], 0) // 4]
+        wp.atomic_max(crossings.segment_shift, segment, wp.length(shift))
         state.x[i] = state.x[i] + shift
         crossings.x_safe[i] = state.x[i]
