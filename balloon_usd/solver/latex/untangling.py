@@ -84,7 +84,7 @@ class Untangling:
         wp.capture_while(s.untangling, self._move_round)
         launch(end_keeping_apart, vertices)
         s.tangled.zero_()
-        launch(begin_untangling, worlds)
+        launch(begin_untangling, worlds, frame_ends=frame_ends)
         wp.capture_if(s.tangled, self._untangle)
         launch(let_hands_yield, len(s.joint_first))
         s.any_watched.zero_()
@@ -103,7 +103,6 @@ class Untangling:
         """Lead walls apart that cross."""
         s, launch = self._launcher.scene, self._launcher.launch
         launch(begin_moves, len(s.x))
-        s.way_back.zero_()
         s.untangling.fill_(1)
         wp.capture_while(s.untangling, self._round)
         launch(end_untangling, len(s.x))

@@ -126,7 +126,9 @@ class Crossings:
         "vertices", unit="m", meaning="where it was when walls were last kept apart"
     )
     safe_seconds: wp.array[float] = array("sculptures", unit="s", meaning="time from then to the next time")
-    crossed: wp.array[int] = array("vertices", meaning="1 where its wall crossed another all the same")
+    way_led: wp.array[wp.vec3] = array(
+        "vertices", meaning="way on which it is led out of others, as long as its share in what is led"
+    )
     x_apart: wp.array[wp.vec3] = array("vertices", unit="m", meaning="scratch: where it is kept apart")
     x_coming: wp.array[wp.vec3] = array("vertices", unit="m", meaning="scratch: that in the coming round")
     segment_shift: wp.array[float] = array(

@@ -151,6 +151,7 @@ class Contacts:
     watched: wp.array[int] = array(
         "sculptures", meaning="frames for which its walls are still kept apart at every search; 0: none"
     )
+    crossed: wp.array[int] = array("vertices", meaning="1 where its wall crosses another all the same")
     normal: wp.array[wp.vec3] = array("vertices", meaning="outward unit normal")
     area: wp.array[float] = array("vertices", unit="m2", meaning="share of the wall's area")
     quad_middle: wp.array[wp.vec3] = array("quads", unit="m", meaning="its middle")

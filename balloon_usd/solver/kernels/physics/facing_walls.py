@@ -271,7 +271,7 @@ def find_walls(
     contacts.area[i] = size
     own = contacts.vertex_own[i]
     world = balloons.balloon_world[seeker.balloon]
-    if contacts.watched[world] > 0:
+    if contacts.watched[world] > 0 and contacts.crossed[i] == 0:
         seeker.depth = ROUNDING * seeker.offset
     near = wp.vec2(FAR, FAR)
     nearest = wp.vec2i(-1, -1)

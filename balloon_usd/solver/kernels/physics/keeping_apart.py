@@ -12,9 +12,11 @@ from balloon_usd.solver.kernels.physics.motion import SLOW
 from balloon_usd.solver.kernels.physics.piercing_edge import PER_METRE
 from balloon_usd.solver.kernels.physics.surface import velocity_of_spin
 from balloon_usd.solver.kernels.physics.untangling import (
+    FAILED,
     FIRM_ROUNDS,
     LEAST,
     MOST_SMOOTHED,
+    NOT_LOOKED,
     SPREAD,
     closed,
     round_of,
@@ -37,7 +39,7 @@ def begin_keeping_apart(frame_ends: int, contacts: Contacts, crossings: Crossing
     """Let the walls of every sculpture be looked at: at the end of a frame of all, else of those watched."""
     world = wp.tid()
     looked = frame_ends == 1 or contacts.watched[world] > 0
-    crossings.untangling_round[world] = wp.where(looked, 0, -1)
+    crossings.untangling_round[world] = wp.where(looked, 0, NOT_LOOKED)
     crossings.pierced_count[world] = 0
     crossings.crossed_count[world] = 0
 
@@ -134,6 +136,7 @@ def end_keeping_apart(
     mesh: Mesh,
     balloons: Balloons,
     hands: Hands,
+    contacts: Contacts,
     crossings: Crossings,
     state: State,
 ):
@@ -142,7 +145,7 @@ def end_keeping_apart(
     """
     i = wp.tid()
     world = int_at(balloons.balloon_world, int_at(mesh.vertex_balloon, i))
-    if crossings.untangling_round[world] == -1:
+    if crossings.untangling_round[world] == NOT_LOOKED:
         return
     if crossings.smoothing[i] > LEAST:
         way = crossings.x_apart[i] - crossings.x_safe[i]
@@ -154,8 +157,11 @@ def end_keeping_apart(
     elif state.slowness[i] > 0.0:
         slowness = FADING * state.slowness[i]
         state.slowness[i] = wp.where(slowness * FASTEST_LEFT > 1.0, slowness, 0.0)
-    if crossings.crossed_count[world] == 0 and crossings.untangling_round[world] >= 0:
-        crossings.crossed[i] = 0
+    if crossings.untangling_round[world] == FAILED:
+        contacts.crossed[i] = wp.max(contacts.crossed[i], wp.min(crossings.way_back[i][3], 1))
+        crossings.way_back[i] = wp.vec4i(0)
+    elif crossings.crossed_count[world] == 0:
+        contacts.crossed[i] = 0
     crossings.x_safe[i] = state.x[i]
 
 

@@ -3,7 +3,7 @@
 import warp as wp
 
 from balloon_usd.solver.kernels.arrays.latex import Crossings
-from balloon_usd.solver.kernels.arrays.shared import Mesh
+from balloon_usd.solver.kernels.arrays.shared import Contacts, Mesh
 from balloon_usd.solver.kernels.device.array_access import int_at, vec3_at
 
 FLATTEST = wp.constant(0.1)
@@ -82,13 +82,13 @@ def moved(i: int, crossings: Crossings):
 
 
 @wp.func
-def share_motion(ends: wp.vec2i, other: wp.vec3i, world: int, crossings: Crossings):
+def share_motion(ends: wp.vec2i, other: wp.vec3i, world: int, contacts: Contacts, crossings: Crossings):
     """Count an edge that pierces a triangle, and add the mean of how both moved to the motions of both; where
     one crossed before already they are only counted apart.
     """
-    before = int_at(crossings.crossed, ends[0]) + int_at(crossings.crossed, ends[1])
+    before = int_at(contacts.crossed, ends[0]) + int_at(contacts.crossed, ends[1])
     for k in range(3):
-        before += int_at(crossings.crossed, other[k])
+        before += int_at(contacts.crossed, other[k])
     if before > 0:
         wp.atomic_add(crossings.crossed_count, world, 1)
         return
@@ -120,6 +120,7 @@ def answer_edge(
     together: int,
     world: int,
     mesh: Mesh,
+    contacts: Contacts,
     crossings: Crossings,
 ):
     """Count an edge that pierces a triangle, and add to the ways of both how the contour in one face of the
@@ -144,7 +145,7 @@ def answer_edge(
     if not counts(ends, d, neck, crossings.joint_meant, mesh):
         return
     if together == 1:
-        share_motion(ends, other, world, crossings)
+        share_motion(ends, other, world, contacts, crossings)
         return
     wp.atomic_add(crossings.pierced_count, world, 1)
     normal = across / wp.sqrt(size)

@@ -28,6 +28,7 @@ def answer_triangle(
     together: int,
     world: int,
     mesh: Mesh,
+    contacts: Contacts,
     crossings: Crossings,
 ):
     """Answer the edges of a triangle that pierce another one: both are led apart, or go on as one."""
@@ -57,7 +58,23 @@ def answer_triangle(
             below = h2
             above = h0
         answer_edge(
-            ends, p, q, inward, below, above, d, other, a, b, c, neck, together, world, mesh, crossings
+            ends,
+            p,
+            q,
+            inward,
+            below,
+            above,
+            d,
+            other,
+            a,
+            b,
+            c,
+            neck,
+            together,
+            world,
+            mesh,
+            contacts,
+            crossings,
         )
 
 
@@ -82,6 +99,7 @@ def answer_quad(
     together: int,
     world: int,
     mesh: Mesh,
+    contacts: Contacts,
     crossings: Crossings,
     x: wp.array[wp.vec3],
 ):
@@ -101,7 +119,9 @@ def answer_quad(
                 own = wp.vec3i(c[0], c[1 + part], c[2 + part])
                 q1 = wp.where(part == 0, p1, p2)
                 q2 = wp.where(part == 0, p2, p3)
-                answer_triangle(own, p0, q1, q2, d, other, a, b, e, neck, together, world, mesh, crossings)
+                answer_triangle(
+                    own, p0, q1, q2, d, other, a, b, e, neck, together, world, mesh, contacts, crossings
+                )
 
 
 @wp.func
@@ -187,7 +207,7 @@ def answer_chunk(
         d = vec4i_at(mesh.quads, r)
         neck = neck_at(int_at(mesh.quad_neck, r), crossings.joint_meant)
         if may_pierce(q, r, c, d, wp.where(neck == own, neck, -1), crossings.quad_bent, contacts.quad_area):
-            answer_quad(c, d, neck, together, world, mesh, crossings, crossings.x_apart)
+            answer_quad(c, d, neck, together, world, mesh, contacts, crossings, crossings.x_apart)
 
 
 @wp.kernel

@@ -5,7 +5,7 @@ wall about them is smoothed, more and farther around the longer it takes.
 import warp as wp
 
 from balloon_usd.solver.kernels.arrays.latex import Crossings
-from balloon_usd.solver.kernels.arrays.shared import Balloons, Hands, Joints, Mesh, State
+from balloon_usd.solver.kernels.arrays.shared import Balloons, Contacts, Hands, Joints, Mesh, State
 from balloon_usd.solver.kernels.device.array_access import float_at, int_at, vec3_at, vec4i_at
 from balloon_usd.solver.kernels.physics.piercing_edge import PER_UNIT
 
@@ -70,10 +70,11 @@ def closed(i: int, mesh: Mesh, joints: Joints, hands: Hands):
 
 
 @wp.kernel
-def begin_untangling(crossings: Crossings):
-    """Let walls be led apart where they still cross."""
+def begin_untangling(frame_ends: int, crossings: Crossings):
+    """Let walls be led apart that still cross; where they did before already, once a frame."""
     world = wp.tid()
-    if crossings.untangling_round[world] == FAILED or crossings.crossed_count[world] > 0:
+    old = frame_ends == 1 and crossings.crossed_count[world] > 0
+    if old or crossings.untangling_round[world] == FAILED:
         crossings.untangling_round[world] = 0
         crossings.pierced_count[world] = 0
         wp.atomic_max(crossings.tangled, 0, 1)
@@ -91,7 +92,13 @@ def way_of_vertex(i: int, most: float, crossings: Crossings):
 
 @wp.kernel
 def draw_back(
-    mesh: Mesh, balloons: Balloons, joints: Joints, hands: Hands, crossings: Crossings, state: State
+    mesh: Mesh,
+    balloons: Balloons,
+    joints: Joints,
+    hands: Hands,
+    contacts: Contacts,
+    crossings: Crossings,
+    state: State,
 ):
     """Write where every vertex is after a round: its way back, and nearer to the middle of its neighbours."""
     i = wp.tid()
@@ -100,7 +107,8 @@ def draw_back(
     if done <= 0:
         return
     if done == 1:
-        crossings.crossed[i] = wp.where(crossings.way_back[i][3] > 0, 1, 0)
+        contacts.crossed[i] = wp.where(crossings.way_back[i][3] > 0, 1, 0)
+        crossings.way_led[i] = way_of_vertex(i, 1.0, crossings)
     if done <= FIRM_ROUNDS and closed(i, mesh, joints, hands):
         return
     middle = wp.vec3(0.0)
@@ -148,19 +156,22 @@ def end_round(mesh: Mesh, balloons: Balloons, crossings: Crossings):
 
 
 @wp.kernel
-def end_untangling(mesh: Mesh, balloons: Balloons, hands: Hands, crossings: Crossings, state: State):
-    """Let every vertex be where it was led; where walls still cross it goes there by and by."""
+def end_untangling(
+    mesh: Mesh, balloons: Balloons, hands: Hands, contacts: Contacts, crossings: Crossings, state: State
+):
+    """Let every vertex be where it was led; where walls still cross it goes a step on the way found first."""
     i = wp.tid()
     crossings.way_back[i] = wp.vec4i(0)
     done = round_of(i, mesh, balloons, crossings)
     shift = crossings.x_apart[i] - state.x[i]
     far = wp.length(shift)
     if done == APART:
-        crossings.crossed[i] = 0
-    elif far > 0.0:
+        contacts.crossed[i] = 0
+    elif done == FAILED:
         balloon = mesh.vertex_balloon[i]
-        most = crossings.safe_seconds[balloons.balloon_world[balloon]] * hands.leading[balloon]
-        shift *= wp.min(most / far, 1.0)
+        seconds = crossings.safe_seconds[balloons.balloon_world[balloon]]
+        shift = seconds * hands.leading[balloon] * crossings.way_led[i]
+        far = wp.length(shift)
     if far > 0.0:
         segment = mesh.quad_segment[wp.max(mesh.corners[i][0], 0) // 4]
         wp.atomic_max(crossings.segment_shift, segment, wp.length(shift))
