@@ -136,16 +136,6 @@ def test_walls_that_would_cross_are_slow_and_watched_for_a_while(pair):
     assert pair.scene.slowness.numpy().max() < 0.5 / SLOW
 
 
-def test_hands_that_lead_open_rings_yield_where_walls_would_cross(pair):
-    pair.untangling.end_frame()
-    assert not pair.scene.hand_yield.numpy().any()
-    pair.push()
-    pair.untangling.end_frame()
-    yielding = pair.scene.hand_yield.numpy()
-    assert yielding.max() > 0.9
-    assert not yielding[pair.scene.joint_parts.numpy() == 1].any()
-
-
 def test_what_keeps_walls_apart_gives_the_same_bits_again(pair):
     found = []
     for _ in range(2):

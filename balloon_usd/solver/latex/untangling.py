@@ -13,7 +13,6 @@ from balloon_usd.solver.kernels.physics.keeping_apart import (
     begin_moves,
     end_keeping_apart,
     go_on_watching,
-    let_hands_yield,
     move_together,
 )
 from balloon_usd.solver.kernels.physics.piercing_walls import box_walls, find_piercing_walls
@@ -55,7 +54,7 @@ class Untangling:
     def leave(self) -> None:
         """Let walls be wherever they are at the end of a frame."""
         s = self._launcher.scene
-        for array in (s.crossed, s.watched, s.slowness, s.hand_yield, s.any_watched):
+        for array in (s.crossed, s.watched, s.slowness, s.any_watched):
             array.zero_()
         self.start()
 
@@ -86,7 +85,6 @@ class Untangling:
         s.tangled.zero_()
         launch(begin_untangling, worlds, frame_ends=frame_ends)
         wp.capture_if(s.tangled, self._untangle)
-        launch(let_hands_yield, len(s.joint_first))
         s.any_watched.zero_()
         between = self._between_searches
         launch(go_on_watching, worlds, frame_ends=frame_ends, between_searches=between)

@@ -126,9 +126,6 @@ class Hands:
         "joints", meaning="unit direction in which it does not hold; 0: none"
     )
     hand_force: wp.array[float] = array("joints", unit="N", meaning="largest force of a leading hand")
-    hand_yield: wp.array[float] = array(
-        "joints", meaning="share of that force that it lets go, where it pulls walls through each other"
-    )
     hand_stiffness: wp.array[float] = array("joints", unit="N/m", meaning="stiffness of a leading hand")
     hand_load: wp.array[wp.vec3] = array("joints", unit="N", meaning="force that the hand feels")
     radius_from: wp.array[float] = array("joints", unit="m", meaning="radius at the start; 0: not closed")

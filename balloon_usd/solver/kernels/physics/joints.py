@@ -203,7 +203,7 @@ def move_joint(
     inside = coherent_float(chambers.pressure, side, shared)
     outside = coherent_float(chambers.pressure, beside[1], shared)
     heavy = float_at(joints.joint_mass, j)
-    grip = float_at(hands.hand_force, j) * (1.0 - float_at(hands.hand_yield, j))
+    grip = float_at(hands.hand_force, j)
     stiffness = float_at(hands.hand_stiffness, j)
     free = vec3_at(hands.hand_free, j)
     touching = int_at(balloons.touching, int_at(mesh.vertex_balloon, first))

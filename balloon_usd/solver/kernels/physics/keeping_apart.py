@@ -8,7 +8,7 @@ from balloon_usd.solver.kernels.arrays.latex import Crossings
 from balloon_usd.solver.kernels.arrays.shared import Balloons, Contacts, Hands, Joints, Mesh, State
 from balloon_usd.solver.kernels.device.array_access import float_at, int_at, vec3_at, vec4i_at
 from balloon_usd.solver.kernels.physics.joints import held
-from balloon_usd.solver.kernels.physics.motion import SLOW
+from balloon_usd.solver.kernels.physics.motion import LYING, SLOW
 from balloon_usd.solver.kernels.physics.piercing_edge import PER_METRE
 from balloon_usd.solver.kernels.physics.surface import velocity_of_spin
 from balloon_usd.solver.kernels.physics.untangling import (
@@ -30,8 +30,6 @@ FASTEST_LEFT = wp.constant(100.0)
 """Largest speed from which on there is none, m/s."""
 WATCHED_FRAMES = wp.constant(12)
 """Frames for which walls of a sculpture are kept apart at every search, not only at the end of the frame."""
-MOST_YIELDED = wp.constant(0.97)
-"""Largest share of its force that a leading hand lets go."""
 
 
 @wp.kernel
@@ -97,7 +95,8 @@ def motion_about(i: int, mesh: Mesh, crossings: Crossings):
 def move_together(mesh: Mesh, balloons: Balloons, joints: Joints, hands: Hands, crossings: Crossings):
     """Write where every vertex goes after a round: what would cross moves as one, what is beside it nearly.
 
-    Closed rings stay what they are, and where hands hold them; the others first move as without this.
+    What lies does not move at all where it would cross. Closed rings stay what they are, and where hands hold
+    them; the others first move as without this.
     """
     i = wp.tid()
     crossings.smoothing_next[i] = 0.0
@@ -125,6 +124,8 @@ def move_together(mesh: Mesh, balloons: Balloons, joints: Joints, hands: Hands, 
     smoothing *= SPREAD
     if crossing > 0:
         smoothing = 1.0
+        if int_at(balloons.touching, int_at(mesh.vertex_balloon, i)) == LYING:
+            motion = wp.vec3(0.0)
     else:
         motion += wp.min(MORE * float(done), MOST_SMOOTHED) * smoothing * (about - motion)
     crossings.smoothing_next[i] = smoothing
@@ -147,13 +148,13 @@ def end_keeping_apart(
     world = int_at(balloons.balloon_world, int_at(mesh.vertex_balloon, i))
     if crossings.untangling_round[world] == NOT_LOOKED:
         return
-    if crossings.smoothing[i] > LEAST:
+    if wp.length_sq(crossings.x_apart[i] - state.x[i]) > 0.0:
         way = crossings.x_apart[i] - crossings.x_safe[i]
+        state.x[i] = crossings.x_apart[i]
+        # Turns by hands are no part of the velocity.
+        state.v[i] = way / crossings.safe_seconds[world] - velocity_of_spin(i, state.x[i], hands)
+    if crossings.smoothing[i] > LEAST:
         state.slowness[i] = 1.0 / SLOW
-        if wp.length_sq(crossings.x_apart[i] - state.x[i]) > 0.0:
-            state.x[i] = crossings.x_apart[i]
-            # Turns by hands are no part of the velocity.
-            state.v[i] = way / crossings.safe_seconds[world] - velocity_of_spin(i, state.x[i], hands)
     elif state.slowness[i] > 0.0:
         slowness = FADING * state.slowness[i]
         state.slowness[i] = wp.where(slowness * FASTEST_LEFT > 1.0, slowness, 0.0)
@@ -163,17 +164,6 @@ def end_keeping_apart(
     elif crossings.crossed_count[world] == 0:
         contacts.crossed[i] = 0
     crossings.x_safe[i] = state.x[i]
-
-
-@wp.kernel
-def let_hands_yield(joints: Joints, hands: Hands, slowness: wp.array[float]):
-    """Let hands that lead open rings let go of most of their force where that pulls walls through others."""
-    j = wp.tid()
-    if joints.joint_parts[j] == 0:
-        most = float(0.0)
-        for i in range(joints.joint_first[j], joints.joint_first[j] + joints.joint_around[j]):
-            most = wp.max(most, slowness[i])
-        hands.hand_yield[j] = MOST_YIELDED * wp.min(SLOW * most, 1.0)
 
 
 @wp.kernel
