@@ -33,7 +33,7 @@ LEAD = wp.constant(LEAD_MODE)
 CLASP = wp.constant(CLASP_MODE)
 """Hand mode: as a grip, and the closed ring does not turn."""
 
-MERGING = wp.constant(4.0)
+MERGING = wp.constant(16.0)
 """Speed at which necks that are far apart as they are joined come together, m/s: walls in between hold hands
 up, and at once they would come with 50 m/s (ears of a 646 flew apart).
 """
