@@ -29,3 +29,11 @@ class DisjointSets(Generic[T]):
         for other in others:
             if (below := self.root(other)) != root:
                 self._parent[below] = root
+
+
+def roots_of(count: int, groups: Iterable[Iterable[int]]) -> list[int]:
+    """Return for each of so many things the one that stands for all that become one with it by groups."""
+    sets: DisjointSets[int] = DisjointSets()
+    for group in groups:
+        sets.merge(group)
+    return [sets.root(thing) for thing in range(count)]

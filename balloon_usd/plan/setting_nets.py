@@ -7,7 +7,7 @@ from dataclasses import replace
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from balloon_usd.operations.disjoint_sets import DisjointSets
+from balloon_usd.operations.disjoint_sets import DisjointSets, roots_of
 from balloon_usd.operations.moves import Bring, Gather, LeadIn, Move, Pinch, SetNet, Weld
 from balloon_usd.operations.score import SETTLE_SECONDS
 
@@ -169,11 +169,9 @@ class _Made:
         """Return the ring, one with this or itself, beyond which lies what is left of a balloon; None if
         there is none.
         """
-        joints: DisjointSets[int] = DisjointSets()
-        for weld in self._welds:
-            joints.merge(weld)
+        joints = roots_of(len(self._rings), self._welds)
         last = {self._rings[k].balloon: k for k in sorted(self._closed)}
-        ends = [k for k in self._closed if k in last.values() and joints.root(k) == joints.root(ring)]
+        ends = [k for k in self._closed if k in last.values() and joints[k] == joints[ring]]
         return ends[-1] if ends else None
 
     def onward(self, end: int, net: Net) -> Vector | None:

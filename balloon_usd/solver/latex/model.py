@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from balloon_usd.balloon.tube_theory import maxwell_state
-from balloon_usd.operations.disjoint_sets import DisjointSets
+from balloon_usd.operations.disjoint_sets import roots_of
 from balloon_usd.operations.moves import Inflate, Weld
 from balloon_usd.plan.meshing import joint_places
 from balloon_usd.plan.parking import parked
@@ -169,12 +169,13 @@ class LatexModel(Model):
 
 def _join_necks(scene: LatexScene, sculptures: Sequence[LatexSculpture]) -> None:
     """Tell of every joint which one it is meant to become: where they meet rubber is folded up."""
-    meant: DisjointSets[int] = DisjointSets()
-    for sculpture in sculptures:
-        for move in sculpture.plan.choreography.moves:
-            if isinstance(move, Weld):
-                meant.merge([sculpture.joints[ring] for ring in move.rings])
-    leaders = [meant.root(joint) for joint in range(len(scene.joint_first))]
+    welds = (
+        [sculpture.joints[ring] for ring in move.rings]
+        for sculpture in sculptures
+        for move in sculpture.plan.choreography.moves
+        if isinstance(move, Weld)
+    )
+    leaders = roots_of(len(scene.joint_first), welds)
     scene.joint_meant.assign(np.array(leaders, dtype=np.int32))
 
 

@@ -4,12 +4,8 @@ from __future__ import annotations
 
 from functools import lru_cache
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
-from balloon_usd.operations.disjoint_sets import DisjointSets
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+from balloon_usd.operations.disjoint_sets import DisjointSets, roots_of
 
 
 @lru_cache(maxsize=4096)
@@ -27,7 +23,7 @@ def hanging_on(
         balloons: balloon of every ring, in order along the balloons.
         welds: rings that are one joint.
     """
-    joint = _joints(len(balloons), welds)
+    joint = roots_of(len(balloons), welds)
     holder = {joint[ring]: k for k, ring in reversed(list(enumerate(held)))}
     pieces: DisjointSets[int] = DisjointSets()
     beside: list[tuple[int, int]] = []
@@ -60,7 +56,7 @@ def folded_between(
 
     `first`, `last`: rings of one balloon; `balloons`, `welds`: as of `hanging_on`.
     """
-    joint = _joints(len(balloons), welds)
+    joint = roots_of(len(balloons), welds)
     closed = joint[first]
     pieces: DisjointSets[int] = DisjointSets()
     for before, after in pairwise(range(len(balloons))):
@@ -76,11 +72,3 @@ def folded_between(
     if inside & outside:
         return ()
     return tuple(ring for ring, at in enumerate(joint) if at != closed and pieces.root(at) in inside)
-
-
-def _joints(rings: int, welds: Iterable[Sequence[int]]) -> list[int]:
-    """Return for every ring the one that stands for all that are one joint with it."""
-    joints: DisjointSets[int] = DisjointSets()
-    for weld in welds:
-        joints.merge(weld)
-    return [joints.root(ring) for ring in range(rings)]

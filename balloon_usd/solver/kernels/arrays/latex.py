@@ -148,7 +148,7 @@ class Crossings:
     pierced_count: wp.array[int] = array("sculptures", meaning="edges found that pierce a face")
     crossed_count: wp.array[int] = array("sculptures", meaning="those that did before already")
     untangling_round: wp.array[int] = array(
-        "sculptures", meaning="its round, from 1; 0: not yet; -1: none is left; -2: walls still cross"
+        "sculptures", meaning="its round, from 1; 0: not yet; below: as `untangling` says"
     )
     untangling: wp.array[int] = array(1, meaning="1 while any sculpture needs another round")
     tangled: wp.array[int] = array(1, meaning="1 where walls of any sculpture still cross")

@@ -6,7 +6,7 @@ import warp as wp
 
 from balloon_usd.solver.kernels.arrays.latex import Crossings
 from balloon_usd.solver.kernels.arrays.shared import Balloons, Contacts, Hands, Joints, Mesh, State
-from balloon_usd.solver.kernels.device.array_access import float_at, int_at, vec3_at, vec4i_at
+from balloon_usd.solver.kernels.device.array_access import int_at, vec3_at
 from balloon_usd.solver.kernels.physics.joints import held
 from balloon_usd.solver.kernels.physics.motion import LYING, SLOW
 from balloon_usd.solver.kernels.physics.piercing_edge import PER_METRE
@@ -18,6 +18,7 @@ from balloon_usd.solver.kernels.physics.untangling import (
     MOST_SMOOTHED,
     NOT_LOOKED,
     SPREAD,
+    about,
     closed,
     round_of,
 )
@@ -25,7 +26,7 @@ from balloon_usd.solver.kernels.physics.untangling import (
 MORE = wp.constant(0.02)
 """How much more a vertex moves as its neighbours do in every round, as a share of the difference."""
 FADING = wp.constant(0.95)
-"""Share of the slowness that is left after each such interval."""
+"""Share of the slowness that is left each time that walls are kept apart."""
 FASTEST_LEFT = wp.constant(100.0)
 """Largest speed from which on there is none, m/s."""
 WATCHED_FRAMES = wp.constant(12)
@@ -69,28 +70,6 @@ def motion_of(i: int, crossings: Crossings):
     return vec3_at(crossings.x_apart, i) - vec3_at(crossings.x_safe, i)
 
 
-@wp.func
-def motion_about(i: int, mesh: Mesh, crossings: Crossings):
-    """Return how the neighbours of a vertex move in the mean (m), and the most that one is smoothed."""
-    motion = wp.vec3(0.0)
-    smoothing = float(0.0)
-    count = float(0.0)
-    row = int(i)
-    while row >= 0:
-        slots = vec4i_at(mesh.corners, row)
-        for k in range(4):
-            if slots[k] >= 0:
-                c = vec4i_at(mesh.quads, slots[k] // 4)
-                # Every neighbour is met twice, in the quads on both sides of the edge to it.
-                for side in range(2):
-                    other = c[(slots[k] + 1 + 2 * side) % 4]
-                    motion += vec3_at(crossings.x_apart, other) - vec3_at(crossings.x_safe, other)
-                    smoothing = wp.max(smoothing, float_at(crossings.smoothing, other))
-                    count += 1.0
-        row = -2 - slots[3]
-    return motion / count, smoothing
-
-
 @wp.kernel
 def move_together(mesh: Mesh, balloons: Balloons, joints: Joints, hands: Hands, crossings: Crossings):
     """Write where every vertex goes after a round: what would cross moves as one, what is beside it nearly.
@@ -112,22 +91,22 @@ def move_together(mesh: Mesh, balloons: Balloons, joints: Joints, hands: Hands, 
         first = int_at(joints.joint_first, joint)
         around = int_at(joints.joint_around, joint)
     motion = wp.vec3(0.0)
-    about = wp.vec3(0.0)
+    beside = wp.vec3(0.0)
     smoothing = float(0.0)
     crossing = int(0)
     for v in range(first, first + around):
         motion += motion_of(v, crossings) / float(around)
         crossing = wp.max(crossing, crossings.way_back[v][3])
-        beside, smoothed = motion_about(v, mesh, crossings)
-        about += beside / float(around)
-        smoothing = wp.max(smoothing, wp.max(smoothed, float_at(crossings.smoothing, v)))
+        _, beside_one, smoothed = about(v, mesh, crossings)
+        beside += beside_one / float(around)
+        smoothing = wp.max(smoothing, smoothed)
     smoothing *= SPREAD
     if crossing > 0:
         smoothing = 1.0
         if int_at(balloons.touching, int_at(mesh.vertex_balloon, i)) == LYING:
             motion = wp.vec3(0.0)
     else:
-        motion += wp.min(MORE * float(done), MOST_SMOOTHED) * smoothing * (about - motion)
+        motion += wp.min(MORE * float(done), MOST_SMOOTHED) * smoothing * (beside - motion)
     crossings.smoothing_next[i] = smoothing
     crossings.x_coming[i] = vec3_at(crossings.x_safe, i) + motion
 

@@ -20,7 +20,7 @@ PER_UNIT = wp.constant(65536.0)
 """Integers to 1 in sums of ways: added as integers they do not depend on the order of threads."""
 PER_METRE = wp.constant(1.0e7)
 """Integers to 1 m in sums of motions."""
-FASTEST = wp.constant(0.1)
+FARTHEST_MOVED = wp.constant(0.1)
 """Farthest that a vertex is taken to have moved since walls were last kept apart, m: sums never overflow."""
 
 
@@ -75,9 +75,9 @@ def moved(i: int, crossings: Crossings):
     """Return how far a vertex goes since walls were last kept apart (m)."""
     way = vec3_at(crossings.x_apart, i) - vec3_at(crossings.x_safe, i)
     return wp.vec3(
-        wp.clamp(way[0], -FASTEST, FASTEST),
-        wp.clamp(way[1], -FASTEST, FASTEST),
-        wp.clamp(way[2], -FASTEST, FASTEST),
+        wp.clamp(way[0], -FARTHEST_MOVED, FARTHEST_MOVED),
+        wp.clamp(way[1], -FARTHEST_MOVED, FARTHEST_MOVED),
+        wp.clamp(way[2], -FARTHEST_MOVED, FARTHEST_MOVED),
     )
 
 

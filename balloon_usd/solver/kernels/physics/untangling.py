@@ -69,6 +69,36 @@ def closed(i: int, mesh: Mesh, joints: Joints, hands: Hands):
     return int_at(joints.joint_parts, joint) == 1 and float_at(hands.radius_to, joint) > 0.0
 
 
+@wp.func
+def about(i: int, mesh: Mesh, crossings: Crossings):
+    """Return where the neighbours of a vertex are kept apart in the mean (m), how they have moved there (m),
+    and the most that it or one of them is smoothed.
+    """
+    place = wp.vec3(0.0)
+    motion = wp.vec3(0.0)
+    smoothing = float_at(crossings.smoothing, i)
+    count = float(0.0)
+    row = int(i)
+    while row >= 0:
+        slots = vec4i_at(mesh.corners, row)
+        for k in range(4):
+            if slots[k] >= 0:
+                c = vec4i_at(mesh.quads, slots[k] // 4)
+                # Every neighbour is met twice, in the quads on both sides of the edge to it.
+                before = c[(slots[k] + 3) % 4]
+                after = c[(slots[k] + 1) % 4]
+                place_before = vec3_at(crossings.x_apart, before)
+                place_after = vec3_at(crossings.x_apart, after)
+                place += place_before + place_after
+                motion += place_after - vec3_at(crossings.x_safe, after)
+                motion += place_before - vec3_at(crossings.x_safe, before)
+                smoothing = wp.max(smoothing, float_at(crossings.smoothing, before))
+                smoothing = wp.max(smoothing, float_at(crossings.smoothing, after))
+                count += 2.0
+        row = -2 - slots[3]
+    return place / count, motion / count, smoothing
+
+
 @wp.kernel
 def begin_untangling(frame_ends: int, crossings: Crossings):
     """Let walls be led apart that still cross; where they did before already, once a frame."""
@@ -111,23 +141,7 @@ def draw_back(
         crossings.way_led[i] = way_of_vertex(i, 1.0, crossings)
     if done <= FIRM_ROUNDS and closed(i, mesh, joints, hands):
         return
-    middle = wp.vec3(0.0)
-    count = float(0.0)
-    smoothing = float_at(crossings.smoothing, i)
-    row = int(i)
-    while row >= 0:
-        slots = vec4i_at(mesh.corners, row)
-        for k in range(4):
-            if slots[k] >= 0:
-                c = vec4i_at(mesh.quads, slots[k] // 4)
-                # Every neighbour is met twice, in the quads on both sides of the edge to it.
-                before = c[(slots[k] + 3) % 4]
-                after = c[(slots[k] + 1) % 4]
-                middle += vec3_at(crossings.x_apart, before) + vec3_at(crossings.x_apart, after)
-                count += 2.0
-                smoothing = wp.max(smoothing, float_at(crossings.smoothing, before))
-                smoothing = wp.max(smoothing, float_at(crossings.smoothing, after))
-        row = -2 - slots[3]
+    middle, _, smoothing = about(i, mesh, crossings)
     smoothing *= SPREAD
     offset = float_at(balloons.contact_offset, int_at(mesh.vertex_balloon, i))
     shift = wp.vec3(0.0)
@@ -137,7 +151,7 @@ def draw_back(
     crossings.smoothing_next[i] = smoothing
     share = wp.clamp(MORE * float(done - UNSMOOTHED_ROUNDS), 0.0, MOST_SMOOTHED)
     apart = vec3_at(crossings.x_apart, i)
-    apart += shift + share * smoothing * (middle / count - apart)
+    apart += shift + share * smoothing * (middle - apart)
     off = apart - vec3_at(state.x, i)
     most = FARTHEST * offset
     crossings.x_coming[i] = vec3_at(state.x, i) + off * wp.min(most / wp.max(wp.length(off), most), 1.0)
@@ -164,16 +178,15 @@ def end_untangling(
     crossings.way_back[i] = wp.vec4i(0)
     done = round_of(i, mesh, balloons, crossings)
     shift = crossings.x_apart[i] - state.x[i]
-    far = wp.length(shift)
     if done == APART:
         contacts.crossed[i] = 0
     elif done == FAILED:
         balloon = mesh.vertex_balloon[i]
         seconds = crossings.safe_seconds[balloons.balloon_world[balloon]]
         shift = seconds * hands.leading[balloon] * crossings.way_led[i]
-        far = wp.length(shift)
+    far = wp.length(shift)
     if far > 0.0:
         segment = mesh.quad_segment[wp.max(mesh.corners[i][0], 0) // 4]
-        wp.atomic_max(crossings.segment_shift, segment, wp.length(shift))
+        wp.atomic_max(crossings.segment_shift, segment, far)
         state.x[i] = state.x[i] + shift
         crossings.x_safe[i] = state.x[i]
