@@ -203,6 +203,11 @@ class LetGo(Move):
 
 
 @dataclass(frozen=True)
+class Loosen(Move):
+    """Loosen the grip of all hands until they hold nothing any more."""
+
+
+@dataclass(frozen=True)
 class Hold(Move):
     """Put the finished sculpture down and look at it."""
 

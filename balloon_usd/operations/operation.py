@@ -37,6 +37,8 @@ class Operation(Entries):
     """Whether it twists the two ends of each of them together."""
     folds: ClassVar[bool] = False
     """Whether it lays the two halves of each of them side by side."""
+    gas: ClassVar[float] = 1.0
+    """Share of the gas of its length that hands leave in each of them: soft ones keep less."""
     guides: ClassVar[tuple[float, ...]] = (0.5,)
     """Where hands lead each of them, as shares of its length."""
     by_bubble: ClassVar[bool] = False

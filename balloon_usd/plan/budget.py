@@ -113,13 +113,13 @@ def budget_of(strip: Strip) -> Budget:
     volume = tube.volume
     twists: list[TwistEntry] = []
     for bubble in strip.bubbles[:-1]:
-        _, tube = tube.pinched(bubble.length)
+        _, tube = tube.pinched(bubble.twisted)
         state = tube.state
         pressure = gauge_pressure(strip.size, state.p_star)
         energy = float(rubber.energy(state.a, state.b))
         left = tube.inflated_length, tube.tail
         twists.append(TwistEntry(bubble.name, bubble.step, *left, pressure, state.a, energy))
-    room = tail_range(strip.size, rubber, [bubble.length for bubble in strip.bubbles[:-1]])
+    room = tail_range(strip.size, rubber, [bubble.twisted for bubble in strip.bubbles[:-1]])
     maxwell = maxwell_state(rubber)
     return Budget(
         balloon=strip.balloon,

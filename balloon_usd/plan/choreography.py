@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from balloon_usd.operations.inflate import Inflate as InflateStep
 from balloon_usd.operations.modifiers import Timed
-from balloon_usd.operations.moves import Choreography, Hold, Inflate, LetGo, Move, SetDown
+from balloon_usd.operations.moves import Choreography, Hold, Inflate, LetGo, Loosen, Move, Pinch, SetDown
 from balloon_usd.operations.score import Score
 from balloon_usd.operations.tempo import PACES
 from balloon_usd.plan.laid_out import LaidOut
@@ -39,6 +39,8 @@ POSING: dict[str, tuple[str, str]] = {
 }
 """What hands do to pose a figure, and what it does then."""
 
+LOOSEN_SECONDS = 1.2
+"""Time in which hands let go of a finished figure, s: at once, and it would jump."""
 FEWEST_FRAMES = 6
 """Frames in which a balloon can be blown up: the pump's flow changes from frame to frame."""
 ROUNDING = 1e-9
@@ -65,6 +67,11 @@ def choreograph(recipe: Recipe, strips: Mapping[str, Strip], table: RingTable) -
             score.retime(first, begin, step.seconds)
     timed = {k for k, each in enumerate(recipe.steps) if getattr(each, "seconds", None) is not None}
     set_nets(score, nets_of(recipe.piece, strips, table), table, len(recipe.steps), timed)
+    held = any(isinstance(move, Pinch) for move in score.moves)
+    if held and not blown_up and recipe.physics.gravity == 0.0:
+        while isinstance(score.moves[-1], LetGo):
+            score.moves.pop()
+        score.add(Loosen(score.now, LOOSEN_SECONDS, len(recipe.steps), "loosen the grip"))
     score.add(LetGo(score.now, 0.0, len(recipe.steps), "let go", for_good=True))
     score.add(Hold(score.now, recipe.physics.hold, len(recipe.steps), "hold"))
     if (recipe.pose, recipe.front) != ("as made", "forward"):

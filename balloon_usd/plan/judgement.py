@@ -128,13 +128,13 @@ def _tail(recipe: Recipe, strip: Strip, budget: Budget) -> Iterator[Caution]:
 
 def _more_tail(recipe: Recipe, strip: Strip, budget: Budget) -> str:
     """What to do about a balloon whose twists use up its tail, in the words in which it is filled."""
-    lengths = [bubble.length for bubble in strip.bubbles[:-1]]
+    bubbles = [bubble.twisted for bubble in strip.bubbles[:-1]]
     full, needed = budget.longest_inflation, budget.tail_needed
     remedy = ""
     if needed + MILLIMETRE > budget.most_tail:
-        share = roomy_share(strip.size, strip.rubber, lengths)
-        shorter, lengths = shortened(lengths, share)
-        needed = tail_range(strip.size, strip.rubber, lengths).least
+        share = roomy_share(strip.size, strip.rubber, bubbles)
+        shorter, bubbles = shortened(bubbles, share)
+        needed = tail_range(strip.size, strip.rubber, bubbles).least
         full = budget.full_length * (1.0 - needed / budget.flat_length)
         remedy = f"make the bubbles shorter by {at_least(shorter)} in all, and "
     if recipe.balloons[strip.balloon].inflated is not None:

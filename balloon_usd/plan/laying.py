@@ -14,6 +14,7 @@ from balloon_usd.plan.capsule import capsule_bubbles
 from balloon_usd.plan.laying_shapes import overlap_problems, shaped_strip
 from balloon_usd.plan.open_tube import (
     OpenTube,
+    Twisted,
     end_rest_length,
     fitting_length,
     fitting_share,
@@ -99,8 +100,9 @@ def _tube(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> Strip
     bubbles: list[PlannedBubble] = []
     along, rest_along = 0.0, 0.0
     bent = {each for step in recipe.steps if isinstance(step, Bend) for each in step.names}
-    for index, kind, bubble, length in _made(recipe, name):
-        shape, left = tube.pinched(length)
+    for made in _made(recipe, name):
+        index, kind, bubble, length, gas = made
+        shape, left = tube.pinched(made.twisted)
         if not left.blown_up:
             path: Path = ("steps", index, recipe.steps[index].word, bubble)
             raise RecipeError([recipe.problem(path, _misfit(recipe, name, tail, bubble, length, tube))])
@@ -108,7 +110,7 @@ def _tube(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> Strip
         place = along, along + length, rest_along, rest_end
         pressure = shape.pressure * gauge_pressure(size, maxwell_state(tube.rubber).p_star)
         planned = PlannedBubble(bubble, name, kind, length, *place, shape.volume, index, pressure)
-        bubbles.append(replace(planned, bent=bubble in bent))
+        bubbles.append(replace(planned, bent=bubble in bent, gas=gas))
         tube, along, rest_along = left, along + length, rest_end
     rest = _rest_of_tube(recipe, name, tube, along, rest_along)
     bubbles.append(replace(rest, bent=rest.name in bent))
@@ -125,7 +127,7 @@ def _tail(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> float
         return max(size.length * (1.0 - balloon.inflated / full), 0.0)
     tail, most = balloon.tail or 0.0, size.length - end_rest_length(size, softened(rubber))
     if tail >= most:
-        fitting = fitting_tail(size, rubber, [made.length for made in _made(recipe, name)])
+        fitting = fitting_tail(size, rubber, [made.twisted for made in _made(recipe, name)])
         most = most if fitting is None else min(fitting, most)
         text = f"a tail of {cm(tail)} leaves nothing of a {size.name}, expected at most {at_most(most)}"
         raise RecipeError([recipe.problem(("balloons", name, "tail"), text)])
@@ -143,7 +145,7 @@ def _made(recipe: Recipe, name: str) -> list[Made]:
         index = recipe.piece.bubbles[bubble].step
         step = recipe.steps[index]
         assert step.bubble_kind is not None, "a step that makes bubbles says of which kind"
-        found.append(Made(index, step.bubble_kind, bubble, step.lengths[bubble]))
+        found.append(Made(index, step.bubble_kind, bubble, step.lengths[bubble], step.gas))
     return found
 
 
@@ -175,8 +177,8 @@ def _rest_of_tube(
 
 def _misfit(recipe: Recipe, name: str, tail: float, bubble: str, length: float, tube: OpenTube) -> str:
     text = f"{quoted(bubble)} of {cm(length)} does not fit: {cm(tube.inflated_length)} of {name} is left"
-    lengths = [made.length for made in _made(recipe, name)]
-    fitting = fitting_tail(tube.size, tube.rubber, lengths)
+    wanted = [made.twisted for made in _made(recipe, name)]
+    fitting = fitting_tail(tube.size, tube.rubber, wanted)
     inflated = recipe.balloons[name].inflated
     if fitting is not None and inflated is None:
         return f"{text}, expected a tail of at most {at_most(fitting)}"
@@ -184,17 +186,17 @@ def _misfit(recipe: Recipe, name: str, tail: float, bubble: str, length: float, 
     if fitting is not None:
         least = full * (1.0 - fitting / tube.size.length)
         return f"{text}, expected inflated: at least {at_least(least)}"
-    return f"{text}, expected {_shorter(tube.size, tube.rubber, tail, lengths, by_tail=inflated is None)}"
+    return f"{text}, expected {_shorter(tube.size, tube.rubber, tail, wanted, by_tail=inflated is None)}"
 
 
 def _shorter(
-    size: BalloonSize, rubber: Rubber, tail: float, lengths: Sequence[float], *, by_tail: bool
+    size: BalloonSize, rubber: Rubber, tail: float, wanted: Sequence[Twisted], *, by_tail: bool
 ) -> str:
     """What to do about bubbles that fit with no tail; `by_tail`: whether the recipe tells the tail."""
-    share, filling = fitting_share(size, rubber, tail, lengths), ""
+    share, filling = fitting_share(size, rubber, tail, wanted), ""
     if share < LEAST_SHARE:
-        share = roomy_share(size, rubber, lengths)
-        fitting = fitting_tail(size, rubber, shortened(lengths, share)[1])
+        share = roomy_share(size, rubber, wanted)
+        fitting = fitting_tail(size, rubber, shortened(wanted, share)[1])
         if share < LEAST_SHARE or fitting is None:
             return "fewer bubbles"
         least = size.length * maxwell_state(rubber).bulged.b * (1.0 - fitting / size.length)
@@ -203,6 +205,6 @@ def _shorter(
         )
         filling = f", and {filled}"
     elif by_tail:
-        longer = fitting_length(size, rubber, tail, lengths)
+        longer = fitting_length(size, rubber, tail, wanted)
         filling = f", or a balloon with length: at least {at_least(longer)}"
-    return f"bubbles shorter by {at_least(shortened(lengths, share)[0])} in all{filling}"
+    return f"bubbles shorter by {at_least(shortened(wanted, share)[0])} in all{filling}"

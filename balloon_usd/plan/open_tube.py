@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from balloon_usd.balloon.bubble_shape import (
     BubbleShape,
@@ -22,7 +22,7 @@ from balloon_usd.balloon.rubber import Softening
 from balloon_usd.balloon.tube_theory import TubeState, bulged_state_of_volume, maxwell_state
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Sequence
 
     from balloon_usd.balloon.rubber import Rubber
     from balloon_usd.balloon.sizes import BalloonSize
@@ -31,6 +31,19 @@ MILLIMETRE = 1e-3
 """Step in which tails are told, m."""
 SHARE = 1e-3
 """Accuracy of the share by which bubbles have to be shorter."""
+
+
+class Twisted(NamedTuple):
+    """A bubble that is twisted off."""
+
+    length: float
+    """Inflated length, m."""
+    gas: float = 1.0
+    """Share of the gas of that length that hands leave in it: a soft one keeps less."""
+
+    def scaled(self, share: float) -> Twisted:
+        """Return a bubble of a share of its length."""
+        return Twisted(share * self.length, self.gas)
 
 
 @dataclass(frozen=True)
@@ -76,18 +89,18 @@ class OpenTube:
         full = self.volume + 0.5 * pinch_volume(self.size, self.rubber)
         return bulged_state_of_volume(self.rubber, max(full / unstressed, bulged.volume_ratio))
 
-    def pinched(self, length: float) -> tuple[BubbleShape, OpenTube]:
-        """Twist off a bubble of this inflated length (m); return it and what stays open.
+    def pinched(self, bubble: Twisted) -> tuple[BubbleShape, OpenTube]:
+        """Twist off a bubble; return it and what stays open.
 
         From a tube blown harder than the Maxwell pressure, the same length takes less rubber and more gas.
         """
         bulged, now = maxwell_state(self.rubber).bulged, self.state
-        shape = bubble_of_length(self.size, self.rubber, length)
+        shape = bubble_of_length(self.size, self.rubber, bubble.length)
         shape = replace(
             shape,
             rest_length=shape.rest_length * bulged.b / now.b,
             diameter=shape.diameter * now.a / bulged.a,
-            volume=shape.volume * (now.a / bulged.a) ** 2,
+            volume=bubble.gas * shape.volume * (now.a / bulged.a) ** 2,
             pressure=shape.pressure * now.p_star / bulged.p_star,
         )
         left = replace(
@@ -139,8 +152,8 @@ def end_rest_length(size: BalloonSize, rubber: Rubber) -> float:
     return 0.5 * pinch_volume(size, rubber) / tube_volume_per_rest_length(size, rubber)
 
 
-def tail_range(size: BalloonSize, rubber: Rubber, lengths: Iterable[float]) -> TailRange:
-    """Return the flat tails with which bubbles of these inflated lengths (m) can be made.
+def tail_range(size: BalloonSize, rubber: Rubber, bubbles: Sequence[Twisted]) -> TailRange:
+    """Return the flat tails with which bubbles can be made.
 
     Raises:
         ValueError: the rubber has no bulged phase.
@@ -148,74 +161,75 @@ def tail_range(size: BalloonSize, rubber: Rubber, lengths: Iterable[float]) -> T
     rubber = softened(rubber)
     bulged = tube_volume_per_rest_length(size, rubber)
     gained = bulged - tail_volume_per_rest_length(size, rubber)
-    shapes = [bubble_of_length(size, rubber, length) for length in lengths]
-    used = sum(bulged * shape.rest_length - shape.volume for shape in shapes) / gained
+    shapes = [bubble_of_length(size, rubber, bubble.length) for bubble in bubbles]
+    gas = sum(bubble.gas * shape.volume for bubble, shape in zip(bubbles, shapes, strict=True))
+    used = (bulged * sum(shape.rest_length for shape in shapes) - gas) / gained
     taken = sum(shape.rest_length for shape in shapes) + end_rest_length(size, rubber)
     return TailRange(used, size.length - taken + used)
 
 
-def fitting_tail(size: BalloonSize, rubber: Rubber, lengths: Sequence[float]) -> float | None:
-    """Return the longest flat tail (m, to a millimetre) with which bubbles of these inflated lengths (m) fit,
-    also where they use it up and blow up what is left harder; None where they fit with none.
+def fitting_tail(size: BalloonSize, rubber: Rubber, bubbles: Sequence[Twisted]) -> float | None:
+    """Return the longest flat tail (m, to a millimetre) with which bubbles fit, also where they use it up and
+    blow up what is left harder; None where they fit with none.
     """
-    if not _fit(inflated_tube(size, rubber, 0.0), lengths):
+    if not _fit(inflated_tube(size, rubber, 0.0), bubbles):
         return None
     low, high = 0, math.ceil(size.length / MILLIMETRE)
     while high - low > 1:
         middle = (low + high) // 2
-        fits = _fit(inflated_tube(size, rubber, middle * MILLIMETRE), lengths)
+        fits = _fit(inflated_tube(size, rubber, middle * MILLIMETRE), bubbles)
         low, high = (middle, high) if fits else (low, middle)
     return low * MILLIMETRE
 
 
-def fitting_share(size: BalloonSize, rubber: Rubber, tail: float, lengths: Sequence[float]) -> float:
-    """Return the share of their inflated lengths (m) with which bubbles fit beside a flat tail (m)."""
+def fitting_share(size: BalloonSize, rubber: Rubber, tail: float, bubbles: Sequence[Twisted]) -> float:
+    """Return the share of their inflated lengths with which bubbles fit beside a flat tail (m)."""
     low, high = 0.0, 1.0
     tube = inflated_tube(size, rubber, tail)
     while high - low > SHARE:
         middle = 0.5 * (low + high)
-        fits = _fit(tube, [middle * length for length in lengths])
+        fits = _fit(tube, [bubble.scaled(middle) for bubble in bubbles])
         low, high = (middle, high) if fits else (low, middle)
     return low
 
 
-def fitting_length(size: BalloonSize, rubber: Rubber, tail: float, lengths: Sequence[float]) -> float:
-    """Return the least flat length of a balloon (m, to a millimetre) in which bubbles of these inflated
-    lengths (m) fit beside a flat tail (m).
+def fitting_length(size: BalloonSize, rubber: Rubber, tail: float, bubbles: Sequence[Twisted]) -> float:
+    """Return the least flat length of a balloon (m, to a millimetre) in which bubbles fit beside a flat tail
+    (m).
     """
     tube = inflated_tube(size, rubber, tail)
     gained = tube_volume_per_rest_length(size, tube.rubber)
-    low, high = 0, math.ceil(sum(lengths) / MILLIMETRE)
+    low, high = 0, math.ceil(sum(bubble.length for bubble in bubbles) / MILLIMETRE)
     while high - low > 1:
         middle = (low + high) // 2
         more = middle * MILLIMETRE
         longer = replace(tube, rest_length=tube.rest_length + more, volume=tube.volume + more * gained)
-        low, high = (low, middle) if _fit(longer, lengths) else (middle, high)
+        low, high = (low, middle) if _fit(longer, bubbles) else (middle, high)
     return size.length + high * MILLIMETRE
 
 
-def roomy_share(size: BalloonSize, rubber: Rubber, lengths: Sequence[float]) -> float:
-    """Return the share of their inflated lengths (m) with which bubbles fit and leave a flat tail."""
+def roomy_share(size: BalloonSize, rubber: Rubber, bubbles: Sequence[Twisted]) -> float:
+    """Return the share of their inflated lengths with which bubbles fit and leave a flat tail."""
     low, high = 0.0, 1.0
     while high - low > SHARE:
         middle = 0.5 * (low + high)
-        room = tail_range(size, rubber, [middle * length for length in lengths])
+        room = tail_range(size, rubber, [bubble.scaled(middle) for bubble in bubbles])
         low, high = (middle, high) if room.least + MILLIMETRE <= room.most else (low, middle)
     return low
 
 
-def shortened(lengths: Sequence[float], share: float) -> tuple[float, list[float]]:
-    """Return by how much lengths (m) are shorter in all at a share of them, up to a millimetre, and what they
-    are then.
+def shortened(bubbles: Sequence[Twisted], share: float) -> tuple[float, list[Twisted]]:
+    """Return by how much bubbles are shorter in all (m, up to a millimetre) at a share of their lengths, and
+    what they are then.
     """
-    total = sum(lengths)
+    total = sum(bubble.length for bubble in bubbles)
     shorter = math.ceil((1.0 - share) * total / MILLIMETRE) * MILLIMETRE
-    return shorter, [length * (1.0 - shorter / total) for length in lengths]
+    return shorter, [bubble.scaled(1.0 - shorter / total) for bubble in bubbles]
 
 
-def _fit(tube: OpenTube, lengths: Sequence[float]) -> bool:
-    for length in lengths:
-        _, tube = tube.pinched(length)
+def _fit(tube: OpenTube, bubbles: Sequence[Twisted]) -> bool:
+    for bubble in bubbles:
+        _, tube = tube.pinched(bubble)
         if not tube.blown_up:
             return False
     return True

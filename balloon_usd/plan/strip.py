@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from balloon_usd.balloon.bubble_shape import pinch_length, shortest_stable_bubble
 from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.plan.necks import wall_place
-from balloon_usd.plan.open_tube import softened
+from balloon_usd.plan.open_tube import Twisted, softened
 
 if TYPE_CHECKING:
     from balloon_usd.balloon.rubber import Rubber
@@ -26,6 +26,13 @@ class Made(NamedTuple):
     bubble: str
     length: float
     """Inflated length, m."""
+    gas: float = 1.0
+    """Share of the gas of that length that hands leave in it."""
+
+    @property
+    def twisted(self) -> Twisted:
+        """What it takes of a tube."""
+        return Twisted(self.length, self.gas)
 
 
 @dataclass(frozen=True)
@@ -53,6 +60,13 @@ class PlannedBubble:
     """Gauge pressure at which it is twisted off, Pa; only of bubbles of tubes."""
     bent: bool = False
     """Whether a step bends it: hands then hold it at more places."""
+    gas: float = 1.0
+    """Share of the gas of its length that hands leave in it: below 1 of a soft one."""
+
+    @property
+    def twisted(self) -> Twisted:
+        """What it takes of a tube."""
+        return Twisted(self.length, self.gas)
 
     @property
     def rest_length(self) -> float:

@@ -58,7 +58,7 @@ MEASURES = _table(
     Measure("gas", "1", 0.10, 4, "largest difference of a bubble's volume from the plan, as a share of it"),
     Measure("tail", "m", 0.01, 5, "largest difference of the flat tail left after a twist from the plan"),
     Measure("speed", "m/s", 0.005, 5, "largest speed of a vertex in the last half second"),
-    Measure("creep", "m", 0.01, 5, "largest way of a vertex from the moment the hands let go to the end"),
+    Measure("creep", "m", 0.005, 5, "largest way of a vertex from the moment the hands let go to the end"),
     Measure("joints", "1", 0, 0, "joints that were meant to hold and do not"),
     Measure("crossings", "1", 0, 0, "pairs of an edge and a face that it pierces, but for those in one neck"),
     Measure("depth", "m", 0.001, 6, "depth of the deepest vertex at such a pair that lies inside a wall"),

@@ -9,7 +9,7 @@ import networkx as nx
 import numpy as np
 import pytest
 
-from balloon_usd.operations.moves import Bring, Gather, LetGo, SetNet, Weld
+from balloon_usd.operations.moves import Bring, Gather, LetGo, Loosen, SetNet, Weld
 from balloon_usd.plan import plan
 from balloon_usd.plan.nets import embed, nets_of
 from balloon_usd.plan.setting_nets import SETTING_SPEED
@@ -97,12 +97,14 @@ def test_two_balloons_meet_before_their_net_is_set():
 
 def test_a_net_is_set_once_more_before_the_hands_let_go_for_good():
     made = planned("book/octahedron.yaml").choreography.moves
-    setting, settling, let_go = made[-4:-1]
+    setting, settling, loosening, let_go = made[-5:-1]
     assert isinstance(setting, SetNet)
     assert setting.moving is None
     assert isinstance(let_go, LetGo)
     assert let_go.for_good
-    assert let_go.start == pytest.approx(settling.end)
+    assert isinstance(loosening, Loosen)
+    assert loosening.start == pytest.approx(settling.end)
+    assert let_go.start == pytest.approx(loosening.end)
 
 
 def test_what_is_brought_to_a_net_is_carried_as_a_whole():

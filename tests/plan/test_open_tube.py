@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from balloon_usd.balloon.rubber import rubber_named
 from balloon_usd.balloon.sizes import size_named
 from balloon_usd.balloon.tube_theory import gauge_pressure
-from balloon_usd.plan.open_tube import inflated_tube, tail_range
+from balloon_usd.plan.open_tube import Twisted, inflated_tube, tail_range
 
 SIZE, LATEX = size_named("260"), rubber_named("ogden")
 
@@ -33,7 +33,7 @@ def test_a_balloon_without_tail_hardens_as_tabulated():
 def test_twisting_neither_makes_nor_loses_rubber_or_gas():
     tube = inflated_tube(SIZE, LATEX, 0.0)
     for length in (0.03, 0.1, 0.25):
-        shape, left = tube.pinched(length)
+        shape, left = tube.pinched(Twisted(length))
         assert left.rest_length + shape.rest_length == pytest.approx(tube.rest_length)
         assert left.volume + shape.volume == pytest.approx(tube.volume)
         tube = left
@@ -42,20 +42,31 @@ def test_twisting_neither_makes_nor_loses_rubber_or_gas():
 def test_a_hard_tube_gives_less_rubber_and_more_gas_for_the_same_length():
     soft = inflated_tube(SIZE, LATEX, 0.1)
     hard = replace(soft, volume=1.4 * inflated_tube(SIZE, LATEX, 0.0).volume)
-    (shape, _), (harder, _) = soft.pinched(0.1), hard.pinched(0.1)
+    (shape, _), (harder, _) = soft.pinched(Twisted(0.1)), hard.pinched(Twisted(0.1))
     assert harder.length == pytest.approx(shape.length)
     assert harder.rest_length < shape.rest_length
     assert harder.volume > shape.volume
 
 
+def test_a_soft_bubble_takes_as_much_rubber_and_leaves_gas_that_fills_more_of_the_tail():
+    tube = inflated_tube(SIZE, LATEX, 0.1)
+    (firm, after_firm), (soft, after_soft) = (tube.pinched(Twisted(0.05, gas)) for gas in (1.0, 0.75))
+    assert soft.volume == pytest.approx(0.75 * firm.volume)
+    assert soft.rest_length == firm.rest_length
+    assert after_soft.volume - after_firm.volume == pytest.approx(0.25 * firm.volume)
+    assert after_soft.tail < after_firm.tail
+    least = [tail_range(SIZE, LATEX, [Twisted(0.05, gas)]).least for gas in (1.0, 0.75)]
+    assert least[1] - least[0] == pytest.approx(after_firm.tail - after_soft.tail)
+
+
 def test_the_tail_range_bounds_what_can_be_made():
     lengths = [0.1] * 6
-    room = tail_range(SIZE, LATEX, lengths)
+    room = tail_range(SIZE, LATEX, [Twisted(length) for length in lengths])
     assert room.least == pytest.approx(6 * 9.21e-3, abs=1e-4)
     for tail, left in ((room.least, 0.0), (room.most, None)):
         tube = inflated_tube(SIZE, LATEX, tail)
         for length in lengths:
-            _, tube = tube.pinched(length)
+            _, tube = tube.pinched(Twisted(length))
         if left is None:
             assert tube.inflated_rest_length == pytest.approx(4.6e-3, abs=0.1e-3)
             assert tube.inflated_length == pytest.approx(9.3e-3, abs=0.2e-3)
@@ -69,7 +80,7 @@ def test_whatever_is_twisted_tail_and_pressure_stay_sound(tail, lengths):
     tube = inflated_tube(SIZE, LATEX, tail)
     for length in lengths:
         before = tube
-        _, tube = tube.pinched(length)
+        _, tube = tube.pinched(Twisted(length))
         if not tube.blown_up:
             break
         assert 0.0 <= tube.tail <= before.tail

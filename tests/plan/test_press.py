@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from balloon_usd.operations.moves import LetGo, Press
+from balloon_usd.operations.moves import LetGo, Loosen, Press
 from balloon_usd.recipe import RecipeError
 
 CM = 0.01
@@ -48,7 +48,8 @@ def test_hands_hold_on_while_the_shape_returns_and_then_let_go(planned):
     at = next(k for k, move in enumerate(moves) if isinstance(move, Press))
     assert moves[at + 1].seconds == pytest.approx(0.8)
     assert moves[at + 1].start == pytest.approx(moves[at].end)
-    assert isinstance(moves[at + 2], LetGo)
+    assert isinstance(moves[at + 2], Loosen)
+    assert isinstance(moves[at + 3], LetGo)
 
 
 @pytest.mark.parametrize(

@@ -119,14 +119,14 @@ def test_the_creep_is_the_way_since_the_hands_let_go_and_the_second_half_of_it_i
     def creeps(frame):
         far = (
             0.1 * (frame.time_code >= code)
-            + 0.004 * (frame.time_code > code)
-            + 0.003 * (frame.time_code > half)
+            + 0.002 * (frame.time_code > code)
+            + 0.001 * (frame.time_code > half)
         )
         return replace(frame, points=(frame.points[0] + np.float32([0, 0, far]),))
 
     creep = quality_of(figure, creeps)["creep"]
-    assert creep["value"] == pytest.approx(0.007, rel=1e-3)
-    assert creep["second_half"] == pytest.approx(0.003, rel=1e-3)
+    assert creep["value"] == pytest.approx(0.003, rel=1e-3)
+    assert creep["second_half"] == pytest.approx(0.001, rel=1e-3)
     assert creep["verdict"] == "good"
 
 

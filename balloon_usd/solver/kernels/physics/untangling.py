@@ -19,8 +19,10 @@ MOST_ROUNDS = wp.constant(96)
 """Rounds after which walls that still cross are left as they are."""
 FIRM_ROUNDS = wp.constant(40)
 """Rounds in which closed rings stay where they are: joints shall not come apart."""
-FARTHEST = wp.constant(6.0)
-"""How far a vertex is led at most, in distances at which walls begin to press: half a bubble's radius."""
+FARTHEST = wp.constant(2.0)
+"""How far a vertex is led at most, in distances at which walls begin to press: with 6 ears lose half of their
+gas's volume for a frame.
+"""
 STEP = wp.constant(1.0 / 6.0)
 """How far a vertex is led in a round, in the same."""
 UNDECIDED = wp.constant(1.0e-3)

@@ -1,6 +1,8 @@
-"""Holding a short bubble at its length while its neck closes, and pushing out the gas that it must not keep.
+"""Holding a short or soft bubble at its length while its neck closes, and pushing out the gas that it must
+not keep.
 
-Open to the tube, and with its first neck free to slide, so short a bubble runs empty.
+Open to the tube, and with its first neck free to slide, so short a bubble runs empty; so does one that what
+lies beside it presses harder than the tube does.
 """
 
 from __future__ import annotations
@@ -23,13 +25,14 @@ HELD = 1.2
 def squeezed_ball(sculpture: LatexSculpture, ring: int) -> SqueezedBall | None:
     """Return the bubble that a ring of the plan ends, if it has to be held while the ring closes."""
     strip, name = sculpture.strip_of(ring), sculpture.plan.table.rings[ring].bubble
-    held = (strip.bubbles[k] for k in strip.balls(HELD))
-    short = next((bubble for bubble in held if bubble.name == name), None)
-    return None if short is None else SqueezedBall(sculpture, ring, short)
+    short = strip.balls(HELD)
+    held = (b for k, b in enumerate(strip.bubbles) if b.name == name and (k in short or b.gas < 1.0))
+    bubble = next(held, None)
+    return None if bubble is None else SqueezedBall(sculpture, ring, bubble)
 
 
 class SqueezedBall:
-    """A short bubble between two necks that hands bring to its length while the second one closes."""
+    """A short or soft bubble between two necks that hands bring to its length while the second one closes."""
 
     def __init__(self, sculpture: LatexSculpture, ring: int, bubble: PlannedBubble) -> None:
         """Take hold of its first neck, and of what hangs on it."""

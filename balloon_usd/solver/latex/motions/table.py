@@ -10,6 +10,7 @@ from balloon_usd.solver.latex.motions.hold import Hold
 from balloon_usd.solver.latex.motions.inflate import Inflate
 from balloon_usd.solver.latex.motions.lead_in import LatexLeadIn
 from balloon_usd.solver.latex.motions.let_go import LatexLetGo
+from balloon_usd.solver.latex.motions.loosen import Loosen
 from balloon_usd.solver.latex.motions.pinch import Pinch
 from balloon_usd.solver.latex.motions.set_net import LatexSetNet
 from balloon_usd.solver.latex.motions.spin import Spin
@@ -38,6 +39,7 @@ LATEX_MOTIONS: Motions = {
     moves.Weld: Weld,
     moves.TurnFold: TurnFold,
     moves.SetDown: SetDown,
+    moves.Loosen: Loosen,
     moves.LetGo: LatexLetGo,
     moves.Hold: Hold,
 }
