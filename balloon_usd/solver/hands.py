@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from balloon_usd.plan.welding import MOST_WELDED
 from balloon_usd.solver.kernels.physics.joints import CLASP_MODE, GRIP_MODE, LEAD_MODE
-from balloon_usd.solver.kernels.physics.motion import LYING_MODE
+from balloon_usd.solver.kernels.physics.motion import LEADING_SPEED, LYING_MODE
 from balloon_usd.solver.motions.chains import pose_chains
 from balloon_usd.solver.upload import ArrayUpload, BatchedUpload
 
@@ -35,8 +35,6 @@ LEAD_FORCE = 6.0
 """Largest force of a hand that leads a bubble, N: a light push."""
 LEAD_STIFFNESS = 800.0
 """Stiffness of that hand, N/m, where the time step allows it."""
-LEADING_SPEED = 0.024
-"""Speed at which walls are led out of others while hands work, m/s: 1 mm a frame at 24 frames/s."""
 STEP_STIFFNESS = 0.1
 """Largest stiffness on a ring, in ring masses per squared time step."""
 

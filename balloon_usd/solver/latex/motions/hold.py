@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from balloon_usd.solver.hands import LEADING_SPEED
 from balloon_usd.solver.motions.motion import Motion
 
 if TYPE_CHECKING:
@@ -18,11 +17,7 @@ of 2 Hz critically.
 """
 MOST_DRAG = 400.0
 """Drag on what has been put down, 1/s: at 2 mm/s it takes 0.8 N from each kg of the mesh, 5 Pa off a wall."""
-LED_SECONDS = 0.2
-"""Time in which the speed fades by a factor of e at which walls of what lies are led out of others, s."""
-LEAST_LEADING = 5.0e-4
-"""What is left of that speed, m/s: what cannot be led out stays calm."""
-LIES_AFTER = 1.0
+LIES_AFTER = 0.5
 """Time after which a sculpture lies and sticks to what it lies on, s."""
 
 
@@ -38,6 +33,7 @@ class Hold(Motion):
         physics = sculpture.plan.recipe.physics
         self._bodies = list(sculpture.bodies)
         self._put_down, self._leaks = physics.gravity == 0.0, physics.leak is not None
+        self._drag = float(sculpture.hands.drag[self._bodies[0]])
         self._seconds = 0.0
         """Time since nothing comes undone any more."""
 
@@ -47,9 +43,7 @@ class Hold(Motion):
         if not self._put_down or sculpture.unwinding is not None:
             return
         self._seconds += sculpture.frame.end - sculpture.frame.begin
-        growing = sculpture.scene.settings.drag * math.exp(self._seconds / PUT_DOWN_SECONDS)
+        growing = self._drag * math.exp(self._seconds / PUT_DOWN_SECONDS)
         sculpture.hands.drag[self._bodies] = min(growing, MOST_DRAG)
         if self._seconds >= LIES_AFTER and not self._leaks:
             sculpture.hands.lay(self._bodies)
-            fading = LEADING_SPEED * math.exp((LIES_AFTER - self._seconds) / LED_SECONDS)
-            sculpture.hands.leading[self._bodies] = max(fading, LEAST_LEADING)

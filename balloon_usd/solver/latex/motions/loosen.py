@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from balloon_usd.solver.kernels.physics.motion import LEADING_SPEED
 from balloon_usd.solver.motions.motion import Motion
 
 if TYPE_CHECKING:
@@ -15,8 +16,12 @@ if TYPE_CHECKING:
 
 LOOSE_FORCE = 0.6
 """Force with which hands go on leading every ring at first, N: few rings need more than a tenth of it."""
-DECAYS = 10.0
-"""How often that decays by a factor of e in all: what still moves comes to rest in the second half."""
+DECAYS = 5.0
+"""How often that decays by a factor of e in the first half; what still moves comes to rest in the second."""
+LEAST_LEADING = 5.0e-4
+"""What is left of the speed at which walls are led out of others, m/s: what cannot be led out stays calm."""
+MOST_BRAKED = 10.0
+"""Drag at the end, in that while hands work."""
 
 
 class Loosen(Motion):
@@ -33,7 +38,17 @@ class Loosen(Motion):
             self._hands.lead(int(joint), middle)
         self._joints = joints
         sculpture.struts.hold(sculpture.friction.pairs(sculpture.hands))
+        self._bodies = list(sculpture.bodies)
+        self._drag = sculpture.scene.settings.drag
+        self._puts_down = not sculpture.plan.loose
 
     def advance(self, share: float) -> None:
-        """Loosen the grip by a share."""
-        self._hands.force[self._joints] = LOOSE_FORCE * math.exp(-DECAYS * share)
+        """Loosen the grip by a share; in the second half what moves is braked more and more, unless it is to
+        untwist.
+        """
+        loosened, lying = 2.0 * share, 2.0 * share - 1.0
+        self._hands.force[self._joints] = LOOSE_FORCE * math.exp(-DECAYS * loosened)
+        left = (LEAST_LEADING / LEADING_SPEED) ** min(loosened, 1.0)
+        self._hands.leading[self._bodies] = LEADING_SPEED * left
+        if self._puts_down and lying > 0.0:
+            self._hands.drag[self._bodies] = self._drag * MOST_BRAKED**lying
