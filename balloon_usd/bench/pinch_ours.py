@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import statistics
-import time
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from balloon_usd.balloon.rubber import rubber_named
+from balloon_usd.bench.frame_clock import clock_frames
 from balloon_usd.bench.pinch_task import FPS, GAUGE, PINCHED, RADIUS, PinchRun
 from balloon_usd.bench.pinch_wall import blown_up, rest_points, wall_thickness
 from balloon_usd.solver.body import RingSpec
@@ -96,7 +95,7 @@ def tube_body(task: PinchTask) -> LatexBody:
     nearest = np.abs(mesh.along[:, None] - mesh.ring_along[None, :]).argmin(axis=1)
     return LatexBody(
         points=mesh.points,
-        rest=rest_points(task),
+        rest=rest_points(mesh),
         quads=mesh.quads,
         thickness=np.full(faces, wall_thickness()),
         rubber=rubber,
@@ -127,12 +126,5 @@ def run_ours(task: PinchTask, substeps: int, device: str) -> PinchRun:
         tube.advance()
     start = tube.points()
     tube.take_hold()
-    wall, cpu = [], []
-    for frame in range(task.frames):
-        clocks = time.perf_counter(), time.process_time()
-        tube.act(frame)
-        wall.append(time.perf_counter() - clocks[0])
-        cpu.append(time.process_time() - clocks[1])
-    return PinchRun(
-        start, tube.points(), substeps, 1e3 * statistics.median(wall), 1e3 * statistics.median(cpu)
-    )
+    seconds = clock_frames(tube.act, task.frames)
+    return PinchRun(start, tube.points(), substeps, *seconds)

@@ -11,7 +11,7 @@ import numpy as np
 from balloon_usd.bench.pierced import pierced_triangles
 
 if TYPE_CHECKING:
-    from balloon_usd.bench.pinch_task import Floats, PinchRun, PinchTask
+    from balloon_usd.bench.pinch_task import Floats, Ints, PinchRun, PinchTask
 
 RECOVERED = 0.8
 """Share of its first girth at which the tube counts as whole again: the neck ends there."""
@@ -36,16 +36,16 @@ class PinchShape:
 def shape_of(task: PinchTask, run: PinchRun) -> PinchShape:
     """Measure the end of a run."""
     return PinchShape(
-        volume_ratio=volume(run.end, task) / volume(run.start, task),
+        volume_ratio=volume(run.end, task.triangles) / volume(run.start, task.triangles),
         neck=neck_height(task, run.start, run.end),
         turns=wound_turns(task, run.end),
         crossings=pierced_triangles(run.end, task.triangles),
     )
 
 
-def volume(points: Floats, task: PinchTask) -> float:
-    """Return the volume (m3) inside the triangles of closed walls at `points` (V, 3), m."""
-    a, b, c = (points[task.triangles[:, k]] for k in range(3))
+def volume(points: Floats, triangles: Ints) -> float:
+    """Return the volume (m3) inside the triangles (T, 3) of closed walls at `points` (V, 3), m."""
+    a, b, c = (points[triangles[:, k]] for k in range(3))
     return float(np.einsum("ti,ti->", a, np.cross(b, c))) / 6.0
 
 

@@ -11,9 +11,12 @@ import numpy as np
 from balloon_usd.balloon.air import ATMOSPHERE
 from balloon_usd.balloon.rubber import rubber_named
 from balloon_usd.balloon.tube_theory import closed_tube_state
+from balloon_usd.bench.held import Held
 from balloon_usd.bench.pinch_task import GAUGE, RADIUS
+from balloon_usd.bench.walls import Walls
 
 if TYPE_CHECKING:
+    from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.balloon.tube_theory import TubeState
     from balloon_usd.bench.pinch_task import Floats, Ints, PinchTask
 
@@ -30,10 +33,10 @@ def blown_up() -> TubeState:
     return closed_tube_state(rubber_named(), HOOP_STRETCH)
 
 
-def rest_points(task: PinchTask) -> Floats:
-    """Return the unstressed vertices, (V, 3), m."""
+def rest_points(mesh: BalloonMesh) -> Floats:
+    """Return the unstressed vertices of a tube along the x axis, (V, 3), m."""
     state = blown_up()
-    return np.asarray(task.mesh.points.astype(np.float64) / np.array([state.b, state.a, state.a]))
+    return np.asarray(mesh.points.astype(np.float64) / np.array([state.b, state.a, state.a]))
 
 
 def wall_thickness() -> float:
@@ -42,14 +45,20 @@ def wall_thickness() -> float:
     return GAUGE * RADIUS / (state.a * state.p_star)
 
 
-def springs(task: PinchTask) -> Ints:
-    """Return the ends of all springs: sides and both diagonals of the faces, (S, 2)."""
-    quads = task.mesh.quads.astype(np.int64)
-    pairs = quads[:, [[0, 1], [1, 2], [2, 3], [3, 0], [0, 2], [1, 3]]].reshape(-1, 2)
+def springs(faces: Ints) -> Ints:
+    """Return the ends of all springs: sides and both diagonals of the faces (Q, 4), (S, 2)."""
+    pairs = faces.astype(np.int64)[:, [[0, 1], [1, 2], [2, 3], [3, 0], [0, 2], [1, 3]]].reshape(-1, 2)
     return np.unique(np.sort(pairs, axis=1), axis=0)
 
 
-class HeldVertices:
+def walls_of_pinch(task: PinchTask) -> Walls:
+    """Return the walls of the task of pinch and turn."""
+    start, held = task.mesh.points.astype(np.float64), HeldVertices(task)
+    quads, rest = task.mesh.quads.astype(np.int64), rest_points(task.mesh)
+    return Walls(start, rest, quads, task.triangles[None], held, task.frames)
+
+
+class HeldVertices(Held):
     """Vertices that hands hold: the caps, and the rings between the fingers.
 
     These stay at their places along the tube and share out the turn among them: solvers without hands know no
@@ -60,23 +69,13 @@ class HeldVertices:
         first, last = task.ends
         rings = [task.ring(k) for k in task.pinched]
         shares = np.linspace(-0.5, 0.5, len(rings) + 2)[1:-1]
+        super().__init__(np.concatenate([first, last, *rings]), task.mesh.points.astype(np.float64))
         self.task = task
-        self.index = np.concatenate([first, last, *rings]).astype(np.int32)
         ends = np.repeat([-0.5, 0.5], [len(first), len(last)])
         self._side = np.concatenate([ends, np.repeat(shares, task.mesh.around)])
         self._pinched = np.arange(len(self.index)) >= len(ends)
 
     def at(self, frame: float) -> tuple[Floats, Floats]:
-        """Return the radius, in radii at the start, and the turn (radians) of every one at a time in frames,
-        (H,) each; 0 is before the first frame.
-        """
+        """Return how far every one is pinched and turned."""
         pinch = np.where(self._pinched, self.task.pinch_at(frame - 1.0), 1.0)
         return pinch, self._side * self.task.turn_at(frame - 1.0)
-
-    def places(self, frame: float) -> Floats:
-        """Return where they are at a time in frames, (H, 3), m."""
-        pinch, turn = self.at(frame)
-        start = self.task.mesh.points[self.index].astype(np.float64)
-        c, s = np.cos(turn), np.sin(turn)
-        y, z = c * start[:, 1] - s * start[:, 2], s * start[:, 1] + c * start[:, 2]
-        return np.column_stack([start[:, 0], pinch * y, pinch * z])

@@ -6,6 +6,7 @@ import click
 from click.core import ParameterSource
 
 from balloon_usd.cli.bench_batch import bench_batch
+from balloon_usd.cli.bench_crowd import bench_crowd
 from balloon_usd.cli.bench_peers import PINCHES, VERTICES, bench_peers, peer_names
 from balloon_usd.cli.bench_rows import (
     bench_first_frame,
@@ -27,6 +28,7 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     "mixed": ("detail", "frames"),
     "first_frame": ("detail",),
     "processes": ("detail", "frames"),
+    "crowd": ("peers",),
     "peers": ("vertices", "pinch"),
     "stage": ("frames",),
     "batch": ("detail", "copies", "frames"),
@@ -57,6 +59,11 @@ OPTIONS: dict[str, tuple[str, ...]] = {
 )
 @click.option("--stage", is_flag=True, help="Writing, checking and comparing stages instead.")
 @click.option("--batch", is_flag=True, help="Whole runs instead, from recipes to verified stages on disk.")
+@click.option(
+    "--crowd",
+    is_flag=True,
+    help="Seven tubes turned into a rope instead, with what goes through what; with --peer beside others.",
+)
 @click.option(
     "--peer",
     "peers",
@@ -90,6 +97,7 @@ def bench(
     processes: int | None,
     stage: bool,
     batch: bool,
+    crowd: bool,
     peers: tuple[str, ...] | None,
     vertices: str,
     pinch: str,
@@ -106,7 +114,9 @@ def bench(
         bench_stage(frames)
         return
     with compiling():
-        if peers is not None:
+        if crowd:
+            bench_crowd(peers or (), used)
+        elif peers is not None:
             bench_peers(peers, int(vertices), pinch, used)
         elif mixed:
             bench_mixed(detail, used, frames)
@@ -128,9 +138,12 @@ def _refuse_what_does_not_apply() -> None:
     }
     flags = {option.name: option.opts[0] for option in context.command.params}
     chosen = [name for name in OPTIONS if name in given]
+    if chosen == ["crowd", "peers"]:
+        chosen.pop()
     if len(chosen) > 1:
         raise Failure(
-            "--mixed, --first-frame, --processes, --stage, --batch and --peer are measured one at a time",
+            "--mixed, --first-frame, --processes, --stage, --batch, --crowd and --peer are measured one at a "
+            "time",
             ExitCode.BAD_INPUT,
         )
     used = OPTIONS[chosen[0]] if chosen else TABLE

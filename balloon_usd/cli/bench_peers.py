@@ -33,6 +33,16 @@ def peer_names(_context: click.Context, _option: click.Parameter, text: str | No
     return tuple(name for name in names if name != NONE)
 
 
+def expect_installed(names: tuple[str, ...]) -> None:
+    """Expect peers to be installed; raises `Failure` where one is not."""
+    from balloon_usd.bench.peers import HOW_TO_INSTALL, PEERS  # noqa: PLC0415
+
+    missing = [name for name in names if not PEERS[name].installed]
+    if missing:
+        verb = "is" if len(missing) == 1 else "are"
+        raise Failure(f"{' and '.join(missing)} {verb} not installed: {HOW_TO_INSTALL}", ExitCode.BAD_INPUT)
+
+
 def bench_peers(names: tuple[str, ...], vertices: int, pinch: str, device: str) -> None:
     """Pinch and twist the tube with our solver, with twice its substeps, and with the peers on the CPU.
 
@@ -42,14 +52,11 @@ def bench_peers(names: tuple[str, ...], vertices: int, pinch: str, device: str) 
         Failure: a peer is not installed; nothing was run.
     """
     from balloon_usd.bench.machine import machine  # noqa: PLC0415
-    from balloon_usd.bench.peers import HOW_TO_INSTALL, PEERS  # noqa: PLC0415
+    from balloon_usd.bench.peers import PEERS  # noqa: PLC0415
     from balloon_usd.bench.pinch_ours import run_ours, substeps_for  # noqa: PLC0415
     from balloon_usd.bench.pinch_task import FINGERS, PinchTask  # noqa: PLC0415
 
-    missing = [name for name in names if not PEERS[name].installed]
-    if missing:
-        verb = "is" if len(missing) == 1 else "are"
-        raise Failure(f"{' and '.join(missing)} {verb} not installed: {HOW_TO_INSTALL}", ExitCode.BAD_INPUT)
+    expect_installed(names)
     task = PinchTask(vertices, FINGERS if pinch == PINCHES[0] else 0.0)
     what = f"pinch by {pinch} and one turn, {vertices} vertices, {task.frames} frames"
     click.echo(f"{what} on {machine(device)}")
@@ -60,7 +67,7 @@ def bench_peers(names: tuple[str, ...], vertices: int, pinch: str, device: str) 
         name = "balloon_usd" if factor == 1 else "twice as fine"
         _print_row(name, task, run_ours(task, factor * steps, device), promised=factor == 1)
     for name in names:
-        _print_row(PEERS[name].title, task, PEERS[name].run(task), promised=False)
+        _print_row(PEERS[name].title, task, PEERS[name].pinch(task), promised=False)
 
 
 def _print_row(name: str, task: PinchTask, run: PinchRun, *, promised: bool) -> None:

@@ -8,7 +8,7 @@ import pytest
 from balloon_usd.quality.crossing_counter import CrossingCounter
 from balloon_usd.quality.walls import walls_of
 from balloon_usd.solver.kernels.physics.keeping_apart import WATCHED_FRAMES
-from balloon_usd.solver.kernels.physics.motion import SLOW
+from balloon_usd.solver.kernels.physics.motion import LEADING_SPEED, SLOW
 from balloon_usd.solver.simulation import simulate_many
 from tests.solver.locked_pair import locked_pair
 
@@ -29,6 +29,7 @@ class Pair:
         self._model = simulation.model
         self.scene, self.untangling = self._model.scene, self._model.stepper._untangling
         self.scene.touching.assign(np.ones(len(self.scene.bodies), dtype=np.int32))
+        self.scene.leading.fill_(LEADING_SPEED)
         self._counter = CrossingCounter(walls_of(planned, simulation.meshes[0]), 1)
         self.made = self.scene.x.numpy().copy()
 

@@ -105,8 +105,9 @@ def test_a_loop_as_long_is_an_open_ring():
 
 def test_an_ear_is_a_bean_beside_its_balloon_and_no_disc_within_it(verify):
     ear = shown("ear", 5)
-    # A bean that lies with its dent at the joint: what goes through itself there stands out farther.
-    verify("V28", "ear of 5 cm, how far it stands out, in its half thickness", ear.out_of_itself, 1.0, 0.15)
+    # A bean with its dent at the joint: 1 where it touches that; what goes through itself there, or is pressed
+    # flat, stands out more than twice as far as it is thick.
+    verify("V28", "ear of 5 cm, how far it stands out, in its half thickness", ear.out_of_itself, 1.5, 0.2)
     assert ear.out > 0.3
 
 

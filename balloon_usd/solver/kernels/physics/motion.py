@@ -20,7 +20,7 @@ SLOW = wp.constant(1.0)
 the next search. With 0.3 m/s necks stay shut that should open, and bubbles turn inside out.
 """
 SLOW_PER_LEADING = wp.constant(SLOW / LEADING_SPEED)
-"""The same in the speed at which walls are led apart: both fade as hands let go, or crowded walls never rest."""
+"""The same in the speed at which walls are led apart: both fade as hands let go, else a crowd never rests."""
 
 
 @wp.func

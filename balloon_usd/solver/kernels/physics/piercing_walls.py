@@ -11,6 +11,8 @@ from balloon_usd.solver.kernels.physics.surface import FAR
 
 BENT = wp.constant(0.9)
 """Cosine between the normals of a quad's halves below which its diagonal may pierce what is beside it."""
+FOLDED = wp.constant(0.85)
+"""Cosine between the normals of two quads at a corner below which they may pierce each other."""
 
 
 @wp.func
@@ -183,7 +185,9 @@ def may_pierce(
         return False
     if not share_corner(c, d) or int_at(quad_bent, q) == 1:
         return True
-    return wp.dot(vec3_at(quad_area, q), vec3_at(quad_area, r)) < 0.0
+    own = vec3_at(quad_area, q)
+    beside = vec3_at(quad_area, r)
+    return wp.dot(own, beside) < FOLDED * wp.sqrt(wp.dot(own, own) * wp.dot(beside, beside))
 
 
 @wp.func

@@ -19,9 +19,9 @@ MOST_ROUNDS = wp.constant(96)
 """Rounds after which walls that still cross are left as they are."""
 FIRM_ROUNDS = wp.constant(40)
 """Rounds in which closed rings stay where they are: joints shall not come apart."""
-FARTHEST = wp.constant(2.0)
-"""How far a vertex is led at most, in distances at which walls begin to press: with 6 ears lose half of their
-gas's volume for a frame.
+FARTHEST = wp.constant(4.0)
+"""How far a vertex is led at most, in distances at which walls begin to press. Of three ears in a row on a 260,
+with 6 one loses half of its volume for a frame; with 2 walls cross in 38 frames, with 4 in none.
 """
 STEP = wp.constant(1.0 / 6.0)
 """How far a vertex is led in a round, in the same."""

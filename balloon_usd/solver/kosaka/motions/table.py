@@ -35,6 +35,7 @@ KOSAKA_MOTIONS: Motions = {
     moves.Press: Press,
     moves.Weld: KosakaWeld,
     moves.SetDown: SetDown,
+    moves.Loosen: Wait,
     moves.LetGo: LetGo,
     moves.Hold: Wait,
 }

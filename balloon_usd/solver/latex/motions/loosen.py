@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from balloon_usd.solver.hands import LEAD_FORCE
 from balloon_usd.solver.kernels.physics.motion import LEADING_SPEED
 from balloon_usd.solver.motions.motion import Motion
 
@@ -14,10 +15,10 @@ if TYPE_CHECKING:
     from balloon_usd.operations import moves
     from balloon_usd.solver.latex.sculpture import LatexSculpture
 
-LOOSE_FORCE = 0.6
-"""Force with which hands go on leading every ring at first, N: few rings need more than a tenth of it."""
-DECAYS = 5.0
-"""How often that decays by a factor of e in the first half; what still moves comes to rest in the second."""
+DECAYS = 8.0
+"""How often the force of the hands decays by a factor of e in the first half: what they hold in the end takes
+a thousandth of a newton to some newtons. What still moves comes to rest in the second half.
+"""
 LEAST_LEADING = 5.0e-4
 """What is left of the speed at which walls are led out of others, m/s: what cannot be led out stays calm."""
 MOST_BRAKED = 10.0
@@ -47,7 +48,7 @@ class Loosen(Motion):
         untwist.
         """
         loosened, lying = 2.0 * share, 2.0 * share - 1.0
-        self._hands.force[self._joints] = LOOSE_FORCE * math.exp(-DECAYS * loosened)
+        self._hands.force[self._joints] = LEAD_FORCE * math.exp(-DECAYS * loosened)
         left = (LEAST_LEADING / LEADING_SPEED) ** min(loosened, 1.0)
         self._hands.leading[self._bodies] = LEADING_SPEED * left
         if self._puts_down and lying > 0.0:
