@@ -57,6 +57,12 @@ def test_joints_that_are_not_in_the_net_yet_do_not_mirror_it():
     assert turned == pytest.approx(TURNED, abs=0.02)
 
 
+def test_a_net_of_one_joint_so_far_has_no_gap_to_look_for():
+    began = np.array([(0.0, 0, 0), (0.02, 0, 0)])
+    path = opening_path(began, np.zeros((2, 3)), [(0, 1)], np.array([0.0, 1.0, 0.0]))
+    assert np.isfinite(path).all()
+
+
 @pytest.mark.parametrize("angle", [0.0, 1e-7, 0.5, 3.1, np.pi])
 def test_a_rotation_is_found_again_up_to_half_a_turn(angle):
     matrix = rotation(angle * np.array([0.6, 0.0, -0.8]))

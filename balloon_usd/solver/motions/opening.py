@@ -95,7 +95,7 @@ def _aim(shape: Floats, ahead: Floats, here: Floats, pairs: NDArray[np.int64]) -
     others = net[far > 1e-6] / far[far > 1e-6, None]
     onward = ONWARD * (ways @ ahead) / max(float(np.linalg.norm(ahead)), 1e-9)
     # What is more than a quarter of a turn off is out of the way.
-    near = np.maximum((ways @ others.T).max(axis=1), 0.0)
+    near = (ways @ others.T).max(axis=1, initial=0.0)
     way = ways[np.argmin(near - onward - UNTURNED * ways[:, 0])]
     forward = _turning(way, np.array([1.0, 0.0, 0.0]))
     _, y, z = (shape @ forward.T).T

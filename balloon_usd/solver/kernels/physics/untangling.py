@@ -20,8 +20,8 @@ MOST_ROUNDS = wp.constant(96)
 FIRM_ROUNDS = wp.constant(40)
 """Rounds in which closed rings stay where they are: joints shall not come apart."""
 FARTHEST = wp.constant(4.0)
-"""How far a vertex is led at most, in distances at which walls begin to press. Of three ears in a row on a 260,
-with 6 one loses half of its volume for a frame; with 2 walls cross in 38 frames, with 4 in none.
+"""How far a vertex is led at most, in distances at which walls begin to press. Of three ears in a row on a
+260, with 6 one loses half of its volume for a frame; with 2 walls cross in 38 frames, with 4 in none.
 """
 STEP = wp.constant(1.0 / 6.0)
 """How far a vertex is led in a round, in the same."""
