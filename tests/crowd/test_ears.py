@@ -1,12 +1,11 @@
-"""Ears that are folded small: their walls never go through themselves."""
+"""Ears that are folded small: their walls never go through themselves, nor through each other."""
 
 from __future__ import annotations
 
-from balloon_usd.plan import plan
-from balloon_usd.quality.watch import QualityWatch
+import pytest
+
 from balloon_usd.recipe import Recipe
-from balloon_usd.solver.frame import Frame
-from balloon_usd.solver.simulation import simulate_many
+from tests.crowd.watched import crossings, watched
 
 EAR = """
 format: 1
@@ -19,18 +18,34 @@ steps:
   - ear: {ear: 4}
   - rest: rest
 """
-
-
-def crossings(text: str) -> list[int]:
-    """Crossings of every frame of a recipe."""
-    planned = plan(Recipe.parse(text))
-    simulation = simulate_many([planned], detail="draft", device="cpu")
-    quality = QualityWatch(planned, simulation.meshes[0], range(1, planned.frame_count + 1))
-    for (frame,) in simulation.frames():
-        assert isinstance(frame, Frame), frame
-        quality.add(frame)
-    return [count.count for count in quality.crossings.frames.values()]
+IN_A_ROW = """
+format: 1
+name: in_a_row
+units: cm
+balloons:
+  main: {{size: {size}, inflated: {inflated}}}
+steps:
+  - bubbles: {{body: {body}}}
+  - ear: {{first: {ear}}}
+  - ear: {{second: {ear}}}
+  - ear: {{third: {ear}}}
+  - rest: rest
+"""
 
 
 def test_an_ear_as_long_as_wide_never_goes_through_itself():
-    assert not any(crossings(EAR))
+    assert not crossings(watched(Recipe.parse(EAR)))
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("size", "inflated", "body", "ear"),
+    [(160, 48, 6, 3), (260, 54, 8, 4), (350, 60, 10, 5), (646, 60, 18, 9)],
+)
+def test_three_ears_in_a_row_never_go_through_each_other(size, inflated, body, ear):
+    text = IN_A_ROW.format(size=size, inflated=inflated, body=body, ear=ear)
+    quality = watched(Recipe.parse(text))
+    assert not crossings(quality)
+    found = quality.data()
+    assert found is not None
+    assert found["joints"]["lost"] == []

@@ -11,6 +11,7 @@ from balloon_usd.solver.kernels.physics.keeping_apart import (
     begin_keeping_apart,
     begin_move_rounds,
     begin_moves,
+    count_put_back,
     end_keeping_apart,
     go_on_watching,
     move_together,
@@ -81,12 +82,13 @@ class Untangling:
         self._find(together=1)
         launch(begin_move_rounds, worlds, frame_ends=frame_ends)
         wp.capture_while(s.untangling, self._move_round)
-        launch(end_keeping_apart, vertices)
+        between = self._between_searches
+        launch(end_keeping_apart, vertices, between_searches=between)
+        launch(count_put_back, worlds, between_searches=between)
         s.tangled.zero_()
         launch(begin_untangling, worlds, frame_ends=frame_ends)
         wp.capture_if(s.tangled, self._untangle)
         s.any_watched.zero_()
-        between = self._between_searches
         launch(go_on_watching, worlds, frame_ends=frame_ends, between_searches=between)
 
     def _move_round(self) -> None:

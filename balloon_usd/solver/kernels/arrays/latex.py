@@ -141,7 +141,7 @@ class Crossings:
     way_back: wp.array[wp.vec4i] = array(
         "vertices",
         meaning="how it is led out of walls that it has gone through, and its share, 65536 to 1; or motions "
-        "that it shares, 10 million to 1 m, and how many",
+        "that it shares, 100 million to 1 m, and how many",
     )
     smoothing: wp.array[float] = array("vertices", meaning="how much it is smoothed; 1 at a crossing")
     smoothing_next: wp.array[float] = array("vertices", meaning="scratch: that in the coming round")
@@ -149,6 +149,9 @@ class Crossings:
     crossed_count: wp.array[int] = array("sculptures", meaning="those that did before already")
     untangling_round: wp.array[int] = array(
         "sculptures", meaning="its round, from 1; 0: not yet; below: as `untangling` says"
+    )
+    put_back: wp.array[int] = array(
+        "sculptures", meaning="times in a row that it was put back to where its walls were last apart"
     )
     untangling: wp.array[int] = array(1, meaning="1 while any sculpture needs another round")
     tangled: wp.array[int] = array(1, meaning="1 where walls of any sculpture still cross")

@@ -29,6 +29,8 @@ FADING = wp.constant(0.95)
 """Share of the slowness that is left each time that walls are kept apart."""
 FASTEST_LEFT = wp.constant(100.0)
 """Largest speed from which on there is none, m/s."""
+MOST_PUT_BACK = wp.constant(8)
+"""How often in a row a sculpture is put back."""
 WATCHED_FRAMES = wp.constant(12)
 """Frames for which walls of a sculpture are kept apart at every search, not only at the end of the frame."""
 
@@ -72,7 +74,8 @@ def motion_of(i: int, crossings: Crossings):
 
 @wp.kernel
 def move_together(mesh: Mesh, balloons: Balloons, joints: Joints, hands: Hands, crossings: Crossings):
-    """Write where every vertex goes after a round: what would cross moves as one, what is beside it nearly.
+    """Write where every vertex goes after a round: what would cross moves as one, what is beside it nearly;
+    what would have crossed in an earlier round goes on as it did then.
 
     What lies does not move at all where it would cross. Closed rings stay what they are, and where hands hold
     them; the others first move as without this.
@@ -94,9 +97,11 @@ def move_together(mesh: Mesh, balloons: Balloons, joints: Joints, hands: Hands, 
     beside = wp.vec3(0.0)
     smoothing = float(0.0)
     crossing = int(0)
+    crossed = int(0)
     for v in range(first, first + around):
         motion += motion_of(v, crossings) / float(around)
         crossing = wp.max(crossing, crossings.way_back[v][3])
+        crossed = wp.max(crossed, wp.where(crossings.smoothing[v] == 1.0, 1, 0))
         _, beside_one, smoothed = about(v, mesh, crossings)
         beside += beside_one / float(around)
         smoothing = wp.max(smoothing, smoothed)
@@ -105,14 +110,27 @@ def move_together(mesh: Mesh, balloons: Balloons, joints: Joints, hands: Hands, 
         smoothing = 1.0
         if int_at(balloons.touching, int_at(mesh.vertex_balloon, i)) == LYING:
             motion = wp.vec3(0.0)
+    elif crossed == 1:
+        smoothing = 1.0
     else:
         motion += wp.min(MORE * float(done), MOST_SMOOTHED) * smoothing * (beside - motion)
     crossings.smoothing_next[i] = smoothing
     crossings.x_coming[i] = vec3_at(crossings.x_safe, i) + motion
 
 
+@wp.func
+def is_put_back(world: int, between_searches: float, crossings: Crossings):
+    """Return whether a sculpture goes back to where its walls were last apart: nothing kept them so since."""
+    return (
+        crossings.untangling_round[world] == FAILED
+        and crossings.put_back[world] < MOST_PUT_BACK
+        and crossings.safe_seconds[world] == between_searches
+    )
+
+
 @wp.kernel
 def end_keeping_apart(
+    between_searches: float,
     mesh: Mesh,
     balloons: Balloons,
     hands: Hands,
@@ -126,6 +144,11 @@ def end_keeping_apart(
     i = wp.tid()
     world = int_at(balloons.balloon_world, int_at(mesh.vertex_balloon, i))
     if crossings.untangling_round[world] == NOT_LOOKED:
+        return
+    if is_put_back(world, between_searches, crossings):
+        crossings.way_back[i] = wp.vec4i(0)
+        state.x[i] = crossings.x_safe[i]
+        state.v[i] = -velocity_of_spin(i, state.x[i], hands)
         return
     if wp.length_sq(crossings.x_apart[i] - state.x[i]) > 0.0:
         way = crossings.x_apart[i] - crossings.x_safe[i]
@@ -157,3 +180,13 @@ def go_on_watching(
         contacts.watched[world] = left
     crossings.safe_seconds[world] = wp.where(left > 0, between_searches, frame_seconds)
     wp.atomic_max(crossings.any_watched, 0, left)
+
+
+@wp.kernel
+def count_put_back(between_searches: float, crossings: Crossings):
+    """Count how often in a row every sculpture was put back."""
+    world = wp.tid()
+    if is_put_back(world, between_searches, crossings):
+        crossings.put_back[world] += 1
+    elif crossings.untangling_round[world] != NOT_LOOKED:
+        crossings.put_back[world] = 0

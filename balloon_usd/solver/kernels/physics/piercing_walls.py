@@ -9,7 +9,7 @@ from balloon_usd.solver.kernels.device.warp_reduce import lowest_bit, warp_ballo
 from balloon_usd.solver.kernels.physics.piercing_edge import LONGER, answer_edge, neck_at, share_corner
 from balloon_usd.solver.kernels.physics.surface import FAR
 
-BENT = wp.constant(0.9)
+BENT = wp.constant(0.97)
 """Cosine between the normals of a quad's halves below which its diagonal may pierce what is beside it."""
 FOLDED = wp.constant(0.85)
 """Cosine between the normals of two quads at a corner below which they may pierce each other."""
@@ -177,13 +177,13 @@ def may_pierce(
     quad_area: wp.array[wp.vec3],
 ):
     """Return whether edges of quad q may pierce quad r: neighbours do only where the wall is folded over,
-    or q itself is.
+    or one of them is.
 
     `c`, `d`: their corners; `neck`: that in which both lie, -1 for none.
     """
     if neck >= 0:
         return False
-    if not share_corner(c, d) or int_at(quad_bent, q) == 1:
+    if not share_corner(c, d) or int_at(quad_bent, q) + int_at(quad_bent, r) > 0:
         return True
     own = vec3_at(quad_area, q)
     beside = vec3_at(quad_area, r)

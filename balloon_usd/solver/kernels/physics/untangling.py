@@ -175,7 +175,9 @@ def end_round(mesh: Mesh, balloons: Balloons, crossings: Crossings):
 def end_untangling(
     mesh: Mesh, balloons: Balloons, hands: Hands, contacts: Contacts, crossings: Crossings, state: State
 ):
-    """Let every vertex be where it was led; where walls still cross it goes a step on the way found first."""
+    """Let every vertex be where it was led; where walls still cross it goes a step on the way found first, but
+    stays where it was put back to: there walls are only too near.
+    """
     i = wp.tid()
     crossings.way_back[i] = wp.vec4i(0)
     done = round_of(i, mesh, balloons, crossings)
@@ -184,7 +186,11 @@ def end_untangling(
         contacts.crossed[i] = 0
     elif done == FAILED:
         balloon = mesh.vertex_balloon[i]
-        seconds = crossings.safe_seconds[balloons.balloon_world[balloon]]
+        world = balloons.balloon_world[balloon]
+        seconds = crossings.safe_seconds[world]
+        if crossings.put_back[world] > 0 and crossings.crossed_count[world] == 0:
+            contacts.crossed[i] = 0
+            seconds = 0.0
         shift = seconds * hands.leading[balloon] * crossings.way_led[i]
     far = wp.length(shift)
     if far > 0.0:
