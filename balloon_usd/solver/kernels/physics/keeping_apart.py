@@ -25,6 +25,12 @@ from balloon_usd.solver.kernels.physics.untangling import (
 
 MORE = wp.constant(0.02)
 """How much more a vertex moves as its neighbours do in every round, as a share of the difference."""
+HELD_ROUNDS = wp.constant(64)
+"""Rounds in which closed rings go where hands bring them, whatever is in the way."""
+MOVED_ROUNDS = wp.constant(72)
+"""Rounds in which what would cross moves as one in a sculpture that was just put back; after them it stays where
+it was. Done in all, it holds gas and hands up: bubbles turned inside out.
+"""
 FADING = wp.constant(0.95)
 """Share of the slowness that is left each time that walls are kept apart."""
 FASTEST_LEFT = wp.constant(100.0)
@@ -77,8 +83,10 @@ def move_together(mesh: Mesh, balloons: Balloons, joints: Joints, hands: Hands, 
     """Write where every vertex goes after a round: what would cross moves as one, what is beside it nearly;
     what would have crossed in an earlier round goes on as it did then.
 
-    What lies does not move at all where it would cross. Closed rings stay what they are, and where hands hold
-    them; the others first move as without this.
+    What lies does not move at all where it would cross; of a sculpture that was just put back nothing does in the
+    last rounds, which always ends. A closed ring moves as those of its vertices that would
+    cross: as the mean of all, it took a hundred rounds. Closed rings stay what they are, and move first as
+    without this, longest where hands hold them.
     """
     i = wp.tid()
     crossings.smoothing_next[i] = 0.0
@@ -89,26 +97,34 @@ def move_together(mesh: Mesh, balloons: Balloons, joints: Joints, hands: Hands, 
     around = int(1)
     if closed(i, mesh, joints, hands):
         joint = int_at(mesh.vertex_joint, i)
-        if held(int_at(hands.hand, joint)) == 1 or done <= FIRM_ROUNDS:
+        if done <= wp.where(held(int_at(hands.hand, joint)) == 1, HELD_ROUNDS, FIRM_ROUNDS):
             return
         first = int_at(joints.joint_first, joint)
         around = int_at(joints.joint_around, joint)
     motion = wp.vec3(0.0)
+    led = wp.vec3(0.0)
+    crossing = float(0.0)
     beside = wp.vec3(0.0)
     smoothing = float(0.0)
-    crossing = int(0)
     crossed = int(0)
     for v in range(first, first + around):
-        motion += motion_of(v, crossings) / float(around)
-        crossing = wp.max(crossing, crossings.way_back[v][3])
-        crossed = wp.max(crossed, wp.where(crossings.smoothing[v] == 1.0, 1, 0))
+        own = motion_of(v, crossings)
+        motion += own / float(around)
+        if crossings.way_back[v][3] > 0:
+            led += own
+            crossing += 1.0
+        if crossings.smoothing[v] == 1.0:
+            crossed = 1
         _, beside_one, smoothed = about(v, mesh, crossings)
         beside += beside_one / float(around)
         smoothing = wp.max(smoothing, smoothed)
     smoothing *= SPREAD
-    if crossing > 0:
+    if crossing > 0.0:
         smoothing = 1.0
-        if int_at(balloons.touching, int_at(mesh.vertex_balloon, i)) == LYING:
+        motion = led / crossing
+        lies = int_at(balloons.touching, int_at(mesh.vertex_balloon, i)) == LYING
+        stuck = crossings.put_back[int_at(balloons.balloon_world, int_at(mesh.vertex_balloon, i))] > 0
+        if lies or (stuck and done > MOVED_ROUNDS):
             motion = wp.vec3(0.0)
     elif crossed == 1:
         smoothing = 1.0

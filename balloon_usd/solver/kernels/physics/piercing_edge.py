@@ -18,6 +18,8 @@ SHORTER = wp.constant(1.0 / 80.0)
 """How much of that is left out in every round of motions that are shared: where hands hold a wall as near as
 this, rounds never ended (7 of 8 sculptures put back had only such edges).
 """
+SHORTER_PUT_BACK = wp.constant(1.0 / 20.0)
+"""The same where a sculpture was put back and is led apart."""
 LEAST_LONGER = wp.constant(0.1)
 """Least share of it."""
 LEAST_RISE = wp.constant(1.0e-20)
@@ -150,11 +152,13 @@ def answer_edge(
         return
     if not counts(ends, d, neck, crossings.joint_meant, mesh):
         return
-    if together == 1:
+    shorter = wp.where(together == 1, SHORTER, SHORTER_PUT_BACK)
+    if together == 1 or int_at(crossings.put_back, world) > 0:
         beside = wp.max(wp.max(-share, share - 1.0), -wp.min(wp.min(first, second), third))
         done = float(int_at(crossings.untangling_round, world))
-        if beside > LONGER * wp.max(1.0 - SHORTER * done, LEAST_LONGER):
+        if beside > LONGER * wp.max(1.0 - shorter * done, LEAST_LONGER):
             return
+    if together == 1:
         share_motion(ends, other, world, contacts, crossings)
         return
     wp.atomic_add(crossings.pierced_count, world, 1)
