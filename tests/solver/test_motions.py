@@ -16,6 +16,7 @@ from balloon_usd.recipe import Recipe
 from balloon_usd.solver.kernels.physics.joints import GRIP_MODE, LEAD_MODE
 from balloon_usd.solver.kosaka.motions.draw import CLOSED_EARLY, Draw
 from balloon_usd.solver.kosaka.motions.table import KOSAKA_MOTIONS
+from balloon_usd.solver.latex.motions.loosen import Loosen
 from balloon_usd.solver.latex.motions.pinch import Pinch
 from balloon_usd.solver.latex.motions.spin import Spin
 from balloon_usd.solver.latex.motions.table import LATEX_MOTIONS
@@ -119,7 +120,7 @@ def test_every_move_of_a_plan_has_a_motion(motions):
 def test_hands_wait_while_nothing_moves_and_in_model_kosaka_where_nothing_is_blown_up_or_wound():
     assert [kind for kind, motion in LATEX_MOTIONS.items() if motion is Wait] == [moves.Move]
     waits = {kind for kind, motion in KOSAKA_MOTIONS.items() if motion is Wait}
-    assert waits == {moves.Move, moves.Inflate, moves.Spin, moves.TurnFold, moves.Hold}
+    assert waits == {moves.Move, moves.Inflate, moves.Spin, moves.TurnFold, moves.Loosen, moves.Hold}
 
 
 def test_a_chain_begins_to_close_where_it_is():
@@ -518,3 +519,20 @@ def test_moves_at_the_same_time_end_each_at_its_own():
 def test_a_motion_with_something_left_to_do_goes_on_when_its_move_is_over():
     told = performed((0.0, 0.0, "lasting"), frames=6)
     assert told.count(("lasting", 1.0)) == 4
+
+
+def test_a_loosened_grip_fades_steadily_and_what_is_to_untwist_is_not_braked():
+    room = Room()
+    room.gather().advance(1.0)
+    loosen = Loosen(moves.Loosen(**DONE), room.sculpture)
+    held = [room.joint("left.end"), room.joint("right.end")]
+    drag, grips = room.hands.drag.copy(), []
+    for share in (0.0, 0.1, 0.3, 0.5):
+        loosen.advance(share)
+        grips.append(room.hands.force[held].max())
+    assert (room.hands.mode[held] == LEAD_MODE).all()
+    assert all(earlier > later for earlier, later in pairwise(grips))
+    assert grips[-1] < 1e-3 * grips[0]
+    loosen.advance(1.0)
+    assert room.plan.loose
+    assert np.array_equal(room.hands.drag, drag)

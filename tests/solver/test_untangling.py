@@ -7,7 +7,7 @@ import pytest
 
 from balloon_usd.quality.crossing_counter import CrossingCounter
 from balloon_usd.quality.walls import walls_of
-from balloon_usd.solver.kernels.physics.keeping_apart import WATCHED_FRAMES
+from balloon_usd.solver.kernels.physics.keeping_apart import MOST_PUT_BACK, WATCHED_FRAMES
 from balloon_usd.solver.kernels.physics.motion import LEADING_SPEED, SLOW
 from balloon_usd.solver.simulation import simulate_many
 from tests.solver.locked_pair import locked_pair
@@ -58,6 +58,12 @@ class Pair:
         self.scene.x.assign(pushed)
         assert self.crossings() > 30
         return pushed
+
+    def watch_soon(self) -> None:
+        """Let it be looked at between two searches."""
+        for array in (self.scene.watched, self.scene.any_watched):
+            array.fill_(WATCHED_FRAMES)
+        self.scene.safe_seconds.fill_(self.untangling._between_searches)
 
     def closed(self) -> np.ndarray:
         """Whether each vertex is of a closed ring."""
@@ -145,3 +151,28 @@ def test_what_keeps_walls_apart_gives_the_same_bits_again(pair):
         pair.untangling.end_frame()
         found.append(pair.scene.x.numpy().copy())
     assert np.array_equal(*found)
+
+
+def test_what_nothing_keeps_apart_is_put_back_at_rest_and_led_apart_there(pair):
+    pushed = pair.push()
+    pair.untangling.leave()
+    # All goes on as one already, and crosses all the same.
+    pair.scene.x.assign(pushed + np.float32(0.05))
+    pair.scene.v.fill_(1.0)
+    pair.watch_soon()
+    pair.untangling.watch()
+    assert pair.scene.put_back.numpy() == [1]
+    assert not pair.scene.v.numpy().any()
+    assert pair.crossings() == 0
+    assert np.linalg.norm(pair.scene.x.numpy() - pushed, axis=1).max() < 2.0 * PUSHED
+
+
+def test_what_is_put_back_too_often_in_a_row_goes_on(pair):
+    pushed = pair.push()
+    pair.untangling.leave()
+    pair.scene.put_back.fill_(MOST_PUT_BACK)
+    pair.scene.x.assign(pushed + np.float32(0.05))
+    pair.watch_soon()
+    pair.untangling.watch()
+    assert pair.scene.put_back.numpy() == [0]
+    assert np.linalg.norm(pair.scene.x.numpy() - pushed, axis=1).max() > 0.05

@@ -28,8 +28,8 @@ MORE = wp.constant(0.02)
 HELD_ROUNDS = wp.constant(64)
 """Rounds in which closed rings go where hands bring them, whatever is in the way."""
 MOVED_ROUNDS = wp.constant(72)
-"""Rounds in which what would cross moves as one in a sculpture that was just put back; after them it stays where
-it was. Done in all, it holds gas and hands up: bubbles turned inside out.
+"""Rounds in which what would cross moves as one in a sculpture that was just put back; after them it stays
+where it was. Done in all, it holds gas and hands up: bubbles turned inside out.
 """
 FADING = wp.constant(0.95)
 """Share of the slowness that is left each time that walls are kept apart."""
@@ -83,10 +83,10 @@ def move_together(mesh: Mesh, balloons: Balloons, joints: Joints, hands: Hands, 
     """Write where every vertex goes after a round: what would cross moves as one, what is beside it nearly;
     what would have crossed in an earlier round goes on as it did then.
 
-    What lies does not move at all where it would cross; of a sculpture that was just put back nothing does in the
-    last rounds, which always ends. A closed ring moves as those of its vertices that would
-    cross: as the mean of all, it took a hundred rounds. Closed rings stay what they are, and move first as
-    without this, longest where hands hold them.
+    What lies does not move at all where it would cross; of a sculpture that was just put back nothing does
+    in the last rounds, which always ends. A closed ring moves as those of its vertices that would cross: as
+    the mean of all, it took a hundred rounds. Closed rings stay what they are, and move first as without
+    this, longest where hands hold them.
     """
     i = wp.tid()
     crossings.smoothing_next[i] = 0.0

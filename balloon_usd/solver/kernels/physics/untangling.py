@@ -175,8 +175,8 @@ def end_round(mesh: Mesh, balloons: Balloons, crossings: Crossings):
 def end_untangling(
     mesh: Mesh, balloons: Balloons, hands: Hands, contacts: Contacts, crossings: Crossings, state: State
 ):
-    """Let every vertex be where it was led; where walls still cross it goes a step on the way found first, but
-    stays where it was put back to: there walls are only too near.
+    """Let every vertex be where it was led; where walls still cross it goes a step on the way found first,
+    but stays where it was put back to: there walls are only too near.
     """
     i = wp.tid()
     crossings.way_back[i] = wp.vec4i(0)
