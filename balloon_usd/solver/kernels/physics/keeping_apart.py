@@ -27,9 +27,11 @@ MORE = wp.constant(0.02)
 """How much more a vertex moves as its neighbours do in every round, as a share of the difference."""
 HELD_ROUNDS = wp.constant(64)
 """Rounds in which closed rings go where hands bring them, whatever is in the way."""
+STUCK = wp.constant(2)
+"""How often in a row a sculpture is put back until it sticks."""
 MOVED_ROUNDS = wp.constant(72)
-"""Rounds in which what would cross moves as one in a sculpture that was just put back; after them it stays
-where it was. Done in all, it holds gas and hands up: bubbles turned inside out.
+"""Rounds in which what would cross moves as one in a sculpture that sticks; after them it stays where it was.
+Done sooner, it holds gas and hands up: a trunk turned inside out.
 """
 FADING = wp.constant(0.95)
 """Share of the slowness that is left each time that walls are kept apart."""
@@ -83,8 +85,8 @@ def move_together(mesh: Mesh, balloons: Balloons, joints: Joints, hands: Hands, 
     """Write where every vertex goes after a round: what would cross moves as one, what is beside it nearly;
     what would have crossed in an earlier round goes on as it did then.
 
-    What lies does not move at all where it would cross; of a sculpture that was just put back nothing does
-    in the last rounds, which always ends. A closed ring moves as those of its vertices that would cross: as
+    What lies does not move at all where it would cross; of a sculpture that sticks nothing does in the last
+    rounds, which always ends. A closed ring moves as those of its vertices that would cross: as
     the mean of all, it took a hundred rounds. Closed rings stay what they are, and move first as without
     this, longest where hands hold them.
     """
@@ -123,7 +125,7 @@ def move_together(mesh: Mesh, balloons: Balloons, joints: Joints, hands: Hands, 
         smoothing = 1.0
         motion = led / crossing
         lies = int_at(balloons.touching, int_at(mesh.vertex_balloon, i)) == LYING
-        stuck = crossings.put_back[int_at(balloons.balloon_world, int_at(mesh.vertex_balloon, i))] > 0
+        stuck = crossings.put_back[int_at(balloons.balloon_world, int_at(mesh.vertex_balloon, i))] > STUCK
         if lies or (stuck and done > MOVED_ROUNDS):
             motion = wp.vec3(0.0)
     elif crossed == 1:
