@@ -162,7 +162,7 @@ def test_peers_do_the_task_of_ours_and_are_measured_alike(cli, monkeypatch):
         points = task.mesh.points.astype(np.float64)
         return PinchRun(points, points, 7, 1.0, 2.0)
 
-    monkeypatch.setattr(peers.Peer, "run", leave_alone)
+    monkeypatch.setattr(peers.Peer, "pinch", leave_alone)
     rows = rows_of(cli("bench", "--peer", "blender", "--device", "cpu"))
     assert [row[0] for row in rows] == ["balloon_usd", "twice", "Blender"]
     assert "kept" in rows[0][-1]

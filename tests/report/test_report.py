@@ -145,6 +145,7 @@ def test_steps_are_marked_where_they_begin_by_what_they_do():
         "lock: nose, middle",
         "bend: tail",
         "wait: 1.5 s",
+        "loosen the grip",
         "hold",
     ]
     codes = [mark.time_code for mark in step_marks(flat()[0])]

@@ -27,6 +27,11 @@ MORE = wp.constant(0.02)
 """How much more a vertex moves as its neighbours do in every round, as a share of the difference."""
 HELD_ROUNDS = wp.constant(64)
 """Rounds in which closed rings go where hands bring them, whatever is in the way."""
+SMOOTHED_ROUNDS = wp.constant(32)
+"""Rounds in which what would have crossed in an earlier one moves nearly as what is beside it again. After
+them it goes on as it did then, else some pairs never agree; from the first on, that stretched creases thirty
+times.
+"""
 STUCK = wp.constant(2)
 """How often in a row a sculpture is put back until it sticks."""
 MOVED_ROUNDS = wp.constant(72)
@@ -83,7 +88,7 @@ def motion_of(i: int, crossings: Crossings):
 @wp.kernel
 def move_together(mesh: Mesh, balloons: Balloons, joints: Joints, hands: Hands, crossings: Crossings):
     """Write where every vertex goes after a round: what would cross moves as one, what is beside it nearly;
-    what would have crossed in an earlier round goes on as it did then.
+    what would have crossed in an earlier round goes on as it did then, after some rounds.
 
     What lies does not move at all where it would cross; of a sculpture that sticks nothing does in the last
     rounds, which always ends. A closed ring moves as those of its vertices that would cross: as
@@ -128,7 +133,7 @@ def move_together(mesh: Mesh, balloons: Balloons, joints: Joints, hands: Hands, 
         stuck = crossings.put_back[int_at(balloons.balloon_world, int_at(mesh.vertex_balloon, i))] > STUCK
         if lies or (stuck and done > MOVED_ROUNDS):
             motion = wp.vec3(0.0)
-    elif crossed == 1:
+    elif crossed == 1 and done > SMOOTHED_ROUNDS:
         smoothing = 1.0
     else:
         motion += wp.min(MORE * float(done), MOST_SMOOTHED) * smoothing * (beside - motion)
