@@ -22,6 +22,10 @@ SHORTER_PUT_BACK = wp.constant(1.0 / 20.0)
 """The same where a sculpture was put back and is led apart."""
 LEAST_LONGER = wp.constant(0.1)
 """Least share of it."""
+NEARER = wp.constant(0.98)
+"""How near an edge that was as near as this already may come to piercing in one go, in how near it was: what
+stays where it was is kept apart at once.
+"""
 LEAST_RISE = wp.constant(1.0e-20)
 """Height of an edge's one end over the other, times an area, from which on it may pierce, m3."""
 PER_UNIT = wp.constant(65536.0)
@@ -112,6 +116,40 @@ def share_motion(ends: wp.vec2i, other: wp.vec3i, world: int, contacts: Contacts
 
 
 @wp.func
+def beside_face(p: wp.vec3, q: wp.vec3, a: wp.vec3, b: wp.vec3, c: wp.vec3):
+    """Return how far an edge from `p` to `q` goes beside a triangle, in lengths of either; below 0 through it."""
+    across = wp.cross(b - a, c - a)
+    below = wp.dot(across, p - a)
+    rise = below - wp.dot(across, q - a)
+    share = below / wp.where(wp.abs(rise) < LEAST_RISE, LEAST_RISE, rise)
+    place = p + share * (q - p)
+    size = wp.max(wp.dot(across, across), 1.0e-30)
+    first = wp.dot(wp.cross(b - place, c - place), across) / size
+    second = wp.dot(wp.cross(c - place, a - place), across) / size
+    least = wp.min(wp.min(first, second), 1.0 - first - second)
+    return wp.max(wp.max(-share, share - 1.0), -least)
+
+
+@wp.func
+def nearest_allowed(ends: wp.vec2i, other: wp.vec3i, together: int, world: int, crossings: Crossings):
+    """Return how far beside a triangle an edge has to go, in this round."""
+    done = float(int_at(crossings.untangling_round, world))
+    shorter = wp.where(together == 1, SHORTER, SHORTER_PUT_BACK)
+    nearest = LONGER * wp.max(1.0 - shorter * done, LEAST_LONGER)
+    if together == 1:
+        before = beside_face(
+            vec3_at(crossings.x_safe, ends[0]),
+            vec3_at(crossings.x_safe, ends[1]),
+            vec3_at(crossings.x_safe, other[0]),
+            vec3_at(crossings.x_safe, other[1]),
+            vec3_at(crossings.x_safe, other[2]),
+        )
+        if before > 0.0:
+            nearest = wp.min(nearest, NEARER * before)
+    return nearest
+
+
+@wp.func
 def answer_edge(
     ends: wp.vec2i,
     p: wp.vec3,
@@ -152,11 +190,9 @@ def answer_edge(
         return
     if not counts(ends, d, neck, crossings.joint_meant, mesh):
         return
-    shorter = wp.where(together == 1, SHORTER, SHORTER_PUT_BACK)
     if together == 1 or int_at(crossings.put_back, world) > 0:
         beside = wp.max(wp.max(-share, share - 1.0), -wp.min(wp.min(first, second), third))
-        done = float(int_at(crossings.untangling_round, world))
-        if beside > LONGER * wp.max(1.0 - shorter * done, LEAST_LONGER):
+        if beside > nearest_allowed(ends, other, together, world, crossings):
             return
     if together == 1:
         share_motion(ends, other, world, contacts, crossings)
