@@ -25,11 +25,13 @@ def step_marks(plan: Plan) -> tuple[StepMark, ...]:
     """Return when each step of a plan begins, in time; steps that take no time have none."""
     steps = plan.recipe.steps
     marks: list[StepMark] = []
-    begun: int | None = None
+    begun: tuple[int, str] | None = None
     for move in plan.choreography.moves:
-        if move.seconds <= 0.0 or move.step == begun:
+        # Hands loosen their grip and then hold after the last step: two marks.
+        begins = move.step, move.text if move.step >= len(steps) else ""
+        if move.seconds <= 0.0 or begins == begun:
             continue
-        begun = move.step
+        begun = begins
         # Before the first step the hands blow up, after the last one they hold: only the move says so.
         inside = 0 <= move.step < len(steps)
         text = steps[move.step].label if inside else move.text

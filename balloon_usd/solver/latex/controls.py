@@ -124,6 +124,12 @@ class LatexControls(Hands):
         self.amount[run] = self.amount[run].sum() * volume / volume.sum()
         self._due["amount"] = self.amount
 
+    def amount_before(self, joint: int) -> float:
+        """Return the gas (mol) of the chamber before a joint."""
+        first, last = self.chambers()
+        beside = self.beside[joint, 0]
+        return float(self.amount[first[beside] : last[beside] + 1].sum())
+
     def lose_gas(self, bubbles: NDArray[np.int64], lost: NDArray[np.float64]) -> None:
         """Take gas out of some segments, both (bubbles,), mol."""
         self.amount[bubbles] -= lost

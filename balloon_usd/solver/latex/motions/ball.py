@@ -52,7 +52,7 @@ class SqueezedBall:
         self._began = float(np.linalg.norm(along))
         self._along = along / max(self._began, 1e-9)
         self._gas = float(hands.amount[hands.beside[self._end, 0]])
-        self._wanted = _amount(sculpture, bubble)
+        self._wanted = amount_of(sculpture, bubble)
         self._left = self._gas
 
     def squeeze(self, share: float) -> None:
@@ -66,8 +66,8 @@ class SqueezedBall:
         self._left = left
 
 
-def _amount(sculpture: LatexSculpture, bubble: PlannedBubble) -> float:
-    """Return the gas (mol) that a bubble has to keep."""
+def amount_of(sculpture: LatexSculpture, bubble: PlannedBubble) -> float:
+    """Return the gas (mol) that a bubble is to keep."""
     scene = sculpture.scene
     n = int(scene.bodies[sculpture.body[bubble.balloon]].rings[0].around)
     volume = bubble.volume * polygon_share(n)
