@@ -26,6 +26,10 @@ NEARER = wp.constant(0.98)
 """How near an edge that was as near as this already may come to piercing in one go, in how near it was: what
 stays where it was is kept apart at once.
 """
+SLIDING_ROUNDS = wp.constant(16)
+"""Rounds in which an edge and a triangle that it would pierce may slide on each other: after them they move as
+one. So folds come loose: three ears in a row take half the time, and keep more of their gas.
+"""
 LEAST_RISE = wp.constant(1.0e-20)
 """Height of an edge's one end over the other, times an area, from which on it may pierce, m3."""
 PER_UNIT = wp.constant(65536.0)
@@ -94,9 +98,48 @@ def moved(i: int, crossings: Crossings):
 
 
 @wp.func
+def normal_between(p: wp.vec3, q: wp.vec3, a: wp.vec3, b: wp.vec3, c: wp.vec3):
+    """Return the unit normal of where an edge from `p` to `q` would touch a triangle that it goes beside: that
+    of the face under its nearer end, or that of it and the edge of the triangle that it would cross.
+    """
+    across = wp.cross(b - a, c - a)
+    below = wp.dot(across, p - a)
+    rise = below - wp.dot(across, q - a)
+    share = below / wp.where(wp.abs(rise) < LEAST_RISE, LEAST_RISE, rise)
+    place = p + share * (q - p)
+    size = wp.max(wp.dot(across, across), 1.0e-30)
+    first = wp.dot(wp.cross(b - place, c - place), across) / size
+    second = wp.dot(wp.cross(c - place, a - place), across) / size
+    third = 1.0 - first - second
+    least = wp.min(wp.min(first, second), third)
+    normal = wp.normalize(across)
+    if wp.max(-share, share - 1.0) < -least:
+        side = b - a
+        if first == least:
+            side = c - b
+        elif second == least:
+            side = a - c
+        edges = wp.cross(wp.normalize(q - p), wp.normalize(side))
+        if wp.length(edges) > FLATTEST:
+            normal = wp.normalize(edges)
+    return normal
+
+
+@wp.func
+def add_motion(i: int, motion: wp.vec3, crossings: Crossings):
+    """Add to the motions (m) that a vertex shares."""
+    m = PER_METRE * motion
+    wp.atomic_add(
+        crossings.way_back,
+        i,
+        wp.vec4i(int(wp.round(m[0])), int(wp.round(m[1])), int(wp.round(m[2])), 1),
+    )
+
+
+@wp.func
 def share_motion(ends: wp.vec2i, other: wp.vec3i, world: int, contacts: Contacts, crossings: Crossings):
-    """Count an edge that pierces a triangle, and add the mean of how both moved to the motions of both; where
-    one crossed before already they are only counted apart.
+    """Count an edge that pierces a triangle, and let both move as one across where they would touch, first only
+    there; where one crossed before already they are only counted apart.
     """
     before = int_at(contacts.crossed, ends[0]) + int_at(contacts.crossed, ends[1])
     for k in range(3):
@@ -107,17 +150,33 @@ def share_motion(ends: wp.vec2i, other: wp.vec3i, world: int, contacts: Contacts
     wp.atomic_add(crossings.pierced_count, world, 1)
     edge = 0.5 * (moved(ends[0], crossings) + moved(ends[1], crossings))
     face = moved(other[0], crossings) + moved(other[1], crossings) + moved(other[2], crossings)
-    mean = PER_METRE * (0.5 * edge + face / 6.0)
-    whole = wp.vec4i(int(wp.round(mean[0])), int(wp.round(mean[1])), int(wp.round(mean[2])), 1)
-    wp.atomic_add(crossings.way_back, ends[0], whole)
-    wp.atomic_add(crossings.way_back, ends[1], whole)
-    for k in range(3):
-        wp.atomic_add(crossings.way_back, other[k], whole)
+    mean = 0.5 * edge + face / 6.0
+    slides = int_at(crossings.untangling_round, world) < SLIDING_ROUNDS
+    normal = wp.vec3(0.0)
+    if slides:
+        normal = normal_between(
+            vec3_at(crossings.x_safe, ends[0]),
+            vec3_at(crossings.x_safe, ends[1]),
+            vec3_at(crossings.x_safe, other[0]),
+            vec3_at(crossings.x_safe, other[1]),
+            vec3_at(crossings.x_safe, other[2]),
+        )
+    for k in range(5):
+        i = int(0)
+        if k < 2:
+            i = ends[k]
+        else:
+            i = other[k - 2]
+        motion = mean
+        if slides:
+            motion = moved(i, crossings)
+            motion += wp.dot(mean - motion, normal) * normal
+        add_motion(i, motion, crossings)
 
 
 @wp.func
 def beside_face(p: wp.vec3, q: wp.vec3, a: wp.vec3, b: wp.vec3, c: wp.vec3):
-    """Return how far an edge from `p` to `q` goes beside a triangle, in lengths of either; below 0 through it."""
+    """Return how far an edge from `p` to `q` goes beside a triangle, in lengths of either: below 0 through it."""
     across = wp.cross(b - a, c - a)
     below = wp.dot(across, p - a)
     rise = below - wp.dot(across, q - a)

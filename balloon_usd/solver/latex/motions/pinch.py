@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from balloon_usd.solver.latex.sculpture import LatexSculpture
 
 LEAST_KEPT = 0.9
-"""Gas at which fingers shut a bubble's neck before it is all pinched, in what the bubble is to keep: what lies
-beside it would press out the rest, and did so to bubbles of 3 cm at a joint of five.
+"""Gas at which fingers shut a bubble's neck before it is all pinched, in what the bubble is to keep: what
+lies beside it would press out the rest, and did so to bubbles of 3 cm at a joint of five.
 """
 
 
