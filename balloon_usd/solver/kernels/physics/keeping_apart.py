@@ -13,7 +13,6 @@ from balloon_usd.solver.kernels.physics.piercing_edge import PER_METRE
 from balloon_usd.solver.kernels.physics.surface import velocity_of_spin
 from balloon_usd.solver.kernels.physics.untangling import (
     FAILED,
-    FIRM_ROUNDS,
     LEAST,
     MOST_SMOOTHED,
     NOT_LOOKED,
@@ -26,9 +25,11 @@ from balloon_usd.solver.kernels.physics.untangling import (
 MORE = wp.constant(0.02)
 """How much more a vertex moves as its neighbours do in every round, as a share of the difference."""
 HELD_ROUNDS = wp.constant(12)
-"""Rounds in which closed rings go where hands bring them, whatever is in the way. With 64 an ear of a 160 loses
-nine tenths of its gas and others jam; with none creases beside them are stretched twelve times.
+"""Rounds in which closed rings go where hands bring them, whatever is in the way. With 64 an ear of a 160
+loses nine tenths of its gas and others jam; with none creases beside them are stretched twelve times.
 """
+FREE_ROUNDS = wp.constant(6)
+"""The same where no hand holds them exactly."""
 SMOOTHED_ROUNDS = wp.constant(32)
 """Rounds in which what would have crossed in an earlier one moves nearly as what is beside it again. After
 them it goes on as it did then, else some pairs never agree; from the first on, that stretched creases thirty
@@ -106,7 +107,7 @@ def move_together(mesh: Mesh, balloons: Balloons, joints: Joints, hands: Hands, 
     around = int(1)
     if closed(i, mesh, joints, hands):
         joint = int_at(mesh.vertex_joint, i)
-        if done <= wp.where(held(int_at(hands.hand, joint)) == 1, HELD_ROUNDS, FIRM_ROUNDS):
+        if done <= wp.where(held(int_at(hands.hand, joint)) == 1, HELD_ROUNDS, FREE_ROUNDS):
             return
         first = int_at(joints.joint_first, joint)
         around = int_at(joints.joint_around, joint)

@@ -27,8 +27,8 @@ NEARER = wp.constant(0.98)
 stays where it was is kept apart at once.
 """
 SLIDING_ROUNDS = wp.constant(16)
-"""Rounds in which an edge and a triangle that it would pierce may slide on each other: after them they move as
-one. So folds come loose: three ears in a row take half the time, and keep more of their gas.
+"""Rounds in which an edge and a triangle that it would pierce may slide on each other: after them they move
+as one. So folds come loose: three ears in a row take half the time, and keep more of their gas.
 """
 LEAST_RISE = wp.constant(1.0e-20)
 """Height of an edge's one end over the other, times an area, from which on it may pierce, m3."""
@@ -98,26 +98,49 @@ def moved(i: int, crossings: Crossings):
 
 
 @wp.func
-def normal_between(p: wp.vec3, q: wp.vec3, a: wp.vec3, b: wp.vec3, c: wp.vec3):
-    """Return the unit normal of where an edge from `p` to `q` would touch a triangle that it goes beside: that
-    of the face under its nearer end, or that of it and the edge of the triangle that it would cross.
+def shares_of_face(place: wp.vec3, a: wp.vec3, b: wp.vec3, c: wp.vec3, across: wp.vec3):
+    """Return the barycentric coordinates of a point in the plane of a triangle; `across`: its normal, twice
+    its area long.
+    """
+    size = wp.max(wp.dot(across, across), 1.0e-30)
+    first = wp.dot(wp.cross(b - place, c - place), across) / size
+    second = wp.dot(wp.cross(c - place, a - place), across) / size
+    return wp.vec3(first, second, 1.0 - first - second)
+
+
+@wp.func
+def where_pierced(p: wp.vec3, q: wp.vec3, a: wp.vec3, b: wp.vec3, c: wp.vec3):
+    """Return where the line from `p` to `q` goes through the plane of a triangle: its share of the way, and
+    the barycentric coordinates there.
     """
     across = wp.cross(b - a, c - a)
     below = wp.dot(across, p - a)
     rise = below - wp.dot(across, q - a)
     share = below / wp.where(wp.abs(rise) < LEAST_RISE, LEAST_RISE, rise)
-    place = p + share * (q - p)
-    size = wp.max(wp.dot(across, across), 1.0e-30)
-    first = wp.dot(wp.cross(b - place, c - place), across) / size
-    second = wp.dot(wp.cross(c - place, a - place), across) / size
-    third = 1.0 - first - second
-    least = wp.min(wp.min(first, second), third)
-    normal = wp.normalize(across)
+    return share, shares_of_face(p + share * (q - p), a, b, c, across)
+
+
+@wp.func
+def beside_face(share: float, on_face: wp.vec3):
+    """Return how far an edge goes beside a triangle, in lengths of either, below 0 through it, from where its
+    line is pierced.
+    """
+    return wp.max(wp.max(-share, share - 1.0), -wp.min(on_face))
+
+
+@wp.func
+def normal_between(p: wp.vec3, q: wp.vec3, a: wp.vec3, b: wp.vec3, c: wp.vec3):
+    """Return the unit normal of where an edge from `p` to `q` would touch a triangle that it goes beside:
+    that of the face under its nearer end, or that of it and the edge of the triangle that it would cross.
+    """
+    share, on_face = where_pierced(p, q, a, b, c)
+    normal = wp.normalize(wp.cross(b - a, c - a))
+    least = wp.min(on_face)
     if wp.max(-share, share - 1.0) < -least:
         side = b - a
-        if first == least:
+        if on_face[0] == least:
             side = c - b
-        elif second == least:
+        elif on_face[1] == least:
             side = a - c
         edges = wp.cross(wp.normalize(q - p), wp.normalize(side))
         if wp.length(edges) > FLATTEST:
@@ -128,18 +151,15 @@ def normal_between(p: wp.vec3, q: wp.vec3, a: wp.vec3, b: wp.vec3, c: wp.vec3):
 @wp.func
 def add_motion(i: int, motion: wp.vec3, crossings: Crossings):
     """Add to the motions (m) that a vertex shares."""
-    m = PER_METRE * motion
-    wp.atomic_add(
-        crossings.way_back,
-        i,
-        wp.vec4i(int(wp.round(m[0])), int(wp.round(m[1])), int(wp.round(m[2])), 1),
-    )
+    way = PER_METRE * motion
+    whole = wp.vec4i(int(wp.round(way[0])), int(wp.round(way[1])), int(wp.round(way[2])), 1)
+    wp.atomic_add(crossings.way_back, i, whole)
 
 
 @wp.func
 def share_motion(ends: wp.vec2i, other: wp.vec3i, world: int, contacts: Contacts, crossings: Crossings):
-    """Count an edge that pierces a triangle, and let both move as one across where they would touch, first only
-    there; where one crossed before already they are only counted apart.
+    """Count an edge that pierces a triangle, and let both move as one, first only along the normal of where
+    they would touch; where one crossed before already they are only counted apart.
     """
     before = int_at(contacts.crossed, ends[0]) + int_at(contacts.crossed, ends[1])
     for k in range(3):
@@ -162,31 +182,12 @@ def share_motion(ends: wp.vec2i, other: wp.vec3i, world: int, contacts: Contacts
             vec3_at(crossings.x_safe, other[2]),
         )
     for k in range(5):
-        i = int(0)
-        if k < 2:
-            i = ends[k]
-        else:
-            i = other[k - 2]
+        i = wp.where(k < 2, ends[k % 2], other[wp.max(k - 2, 0)])
         motion = mean
         if slides:
             motion = moved(i, crossings)
             motion += wp.dot(mean - motion, normal) * normal
         add_motion(i, motion, crossings)
-
-
-@wp.func
-def beside_face(p: wp.vec3, q: wp.vec3, a: wp.vec3, b: wp.vec3, c: wp.vec3):
-    """Return how far an edge from `p` to `q` goes beside a triangle, in lengths of either: below 0 through it."""
-    across = wp.cross(b - a, c - a)
-    below = wp.dot(across, p - a)
-    rise = below - wp.dot(across, q - a)
-    share = below / wp.where(wp.abs(rise) < LEAST_RISE, LEAST_RISE, rise)
-    place = p + share * (q - p)
-    size = wp.max(wp.dot(across, across), 1.0e-30)
-    first = wp.dot(wp.cross(b - place, c - place), across) / size
-    second = wp.dot(wp.cross(c - place, a - place), across) / size
-    least = wp.min(wp.min(first, second), 1.0 - first - second)
-    return wp.max(wp.max(-share, share - 1.0), -least)
 
 
 @wp.func
@@ -196,13 +197,14 @@ def nearest_allowed(ends: wp.vec2i, other: wp.vec3i, together: int, world: int, 
     shorter = wp.where(together == 1, SHORTER, SHORTER_PUT_BACK)
     nearest = LONGER * wp.max(1.0 - shorter * done, LEAST_LONGER)
     if together == 1:
-        before = beside_face(
+        share, on_face = where_pierced(
             vec3_at(crossings.x_safe, ends[0]),
             vec3_at(crossings.x_safe, ends[1]),
             vec3_at(crossings.x_safe, other[0]),
             vec3_at(crossings.x_safe, other[1]),
             vec3_at(crossings.x_safe, other[2]),
         )
+        before = beside_face(share, on_face)
         if before > 0.0:
             nearest = wp.min(nearest, NEARER * before)
     return nearest
@@ -241,23 +243,19 @@ def answer_edge(
         return
     place = p + share * (q - p)
     across = wp.cross(b - a, c - a)
-    size = wp.max(wp.dot(across, across), 1.0e-30)
-    first = wp.dot(wp.cross(b - place, c - place), across) / size
-    second = wp.dot(wp.cross(c - place, a - place), across) / size
-    third = 1.0 - first - second
-    if wp.min(wp.min(first, second), third) < -LONGER:
+    on_face = shares_of_face(place, a, b, c, across)
+    if wp.min(on_face) < -LONGER:
         return
     if not counts(ends, d, neck, crossings.joint_meant, mesh):
         return
     if together == 1 or int_at(crossings.put_back, world) > 0:
-        beside = wp.max(wp.max(-share, share - 1.0), -wp.min(wp.min(first, second), third))
-        if beside > nearest_allowed(ends, other, together, world, crossings):
+        if beside_face(share, on_face) > nearest_allowed(ends, other, together, world, crossings):
             return
     if together == 1:
         share_motion(ends, other, world, contacts, crossings)
         return
     wp.atomic_add(crossings.pierced_count, world, 1)
-    normal = across / wp.sqrt(size)
+    normal = across / wp.sqrt(wp.max(wp.dot(across, across), 1.0e-30))
     along = wp.normalize(q - p)
     into = inward - p
     into = into - wp.dot(into, along) * along
@@ -269,6 +267,6 @@ def answer_edge(
     way = wp.normalize(contour - (wp.dot(along, contour) / steep) * normal)
     lead_back(ends[0], 1.0 - share, way, crossings)
     lead_back(ends[1], share, way, crossings)
-    lead_back(other[0], -first, way, crossings)
-    lead_back(other[1], -second, way, crossings)
-    lead_back(other[2], -third, way, crossings)
+    lead_back(other[0], -on_face[0], way, crossings)
+    lead_back(other[1], -on_face[1], way, crossings)
+    lead_back(other[2], -on_face[2], way, crossings)

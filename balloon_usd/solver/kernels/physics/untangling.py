@@ -17,7 +17,7 @@ APART = wp.constant(-3)
 """Round of a sculpture whose walls do not cross."""
 MOST_ROUNDS = wp.constant(96)
 """Rounds after which walls that still cross are left as they are."""
-FIRM_ROUNDS = wp.constant(6)
+FIRM_ROUNDS = wp.constant(40)
 """Rounds in which closed rings stay where they are: joints shall not come apart."""
 FARTHEST = wp.constant(4.0)
 """How far a vertex is led at most, in distances at which walls begin to press. Of three ears in a row on a
