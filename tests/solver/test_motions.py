@@ -16,8 +16,9 @@ from balloon_usd.recipe import Recipe
 from balloon_usd.solver.kernels.physics.joints import GRIP_MODE, LEAD_MODE
 from balloon_usd.solver.kosaka.motions.draw import CLOSED_EARLY, Draw
 from balloon_usd.solver.kosaka.motions.table import KOSAKA_MOTIONS
+from balloon_usd.solver.latex.motions.ball import amount_of
 from balloon_usd.solver.latex.motions.loosen import Loosen
-from balloon_usd.solver.latex.motions.pinch import Pinch
+from balloon_usd.solver.latex.motions.pinch import LEAST_KEPT, Pinch
 from balloon_usd.solver.latex.motions.spin import Spin
 from balloon_usd.solver.latex.motions.table import LATEX_MOTIONS
 from balloon_usd.solver.motions.bring import Bring
@@ -346,6 +347,24 @@ def test_a_pinched_neck_closes_and_all_that_hangs_on_its_knots_side_is_steadied(
         assert room.hands.mode[room.joint(name)] == LEAD_MODE
         assert room.hands.free[room.joint(name)] == pytest.approx(ALONG)
     assert not room.hands.mode[room.joint("right.end")]
+
+
+@pytest.mark.parametrize(("left", "shut"), [(1.0, False), (0.5, True)])
+def test_fingers_shut_a_neck_once_its_bubble_has_less_gas_than_it_has_to_keep(left, shut):
+    room = Room()
+    pinch = Pinch(moves.Pinch(**DONE, ring=room.ring("left.end")), room.sculpture)
+    joint = room.joint("left.end")
+    (bubble,) = [b for b in room.plan.bubbles if b.name == "left"]
+    enough = amount_of(room.sculpture, bubble)
+    before = room.hands.beside[joint, 0]
+    room.hands.amount[before] = enough
+    pinch.advance(0.2)
+    assert room.hands.passage[joint] > 0.0
+    room.hands.amount[before] = left * enough
+    pinch.advance(0.4)
+    assert (room.hands.passage[joint] == room.hands.passage_goal[joint] == 0.0) == shut
+    pushed_back = -room.hands.neck_flow[joint] / 24.0
+    assert pushed_back == pytest.approx((LEAST_KEPT - left) * enough if shut else 0.0)
 
 
 def test_a_pump_starts_and_stops_gently_and_is_taken_off_in_the_end():

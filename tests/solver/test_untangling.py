@@ -14,6 +14,8 @@ from tests.solver.locked_pair import locked_pair
 
 PUSHED = 0.003
 """How far one bubble is pushed into the other, m."""
+SLID = 0.001
+"""How far it is moved along the other besides, m."""
 FRAME = 1.0 / 12.0
 """Time of a frame of the pair, s."""
 
@@ -108,6 +110,23 @@ def test_walls_that_cross_already_are_led_apart(pair):
     assert far.max() < 2.0 * PUSHED
     assert (far == 0.0).mean() > 0.5
     assert pair.scene.segment_shift.numpy().max() == pytest.approx(far.max(), rel=1e-3)
+
+
+def test_walls_that_touch_slide_on_each_other(pair):
+    left, right = pair.of(1), pair.of(2)
+    way = pair.made[right].mean(axis=0) - pair.made[left].mean(axis=0)
+    sideways = np.cross(way, [0.0, 0.0, 1.0])
+    sideways /= np.linalg.norm(sideways)
+    pushed = pair.push()
+    pushed[left] += (SLID * sideways).astype(np.float32)
+    pair.scene.x.assign(pushed)
+    pair.untangling.end_frame()
+    x = pair.scene.x.numpy()
+    assert pair.crossings() == 0
+    held = left & (np.linalg.norm(x - pushed, axis=1) > 0.0)
+    slid = (x - pair.made)[held] @ sideways
+    # What moves as one with a wall that lies goes half as far.
+    assert slid.mean() > 0.75 * SLID
 
 
 @pytest.mark.parametrize("crossing_already", [False, True])
