@@ -357,6 +357,7 @@ def test_fingers_shut_a_neck_once_its_bubble_has_less_gas_than_it_has_to_keep(le
     (bubble,) = [b for b in room.plan.bubbles if b.name == "left"]
     enough = amount_of(room.sculpture, bubble)
     before = room.hands.beside[joint, 0]
+    room.hands.amount[:before] = 0.0
     room.hands.amount[before] = enough
     pinch.advance(0.2)
     assert room.hands.passage[joint] > 0.0
