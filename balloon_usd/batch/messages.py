@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from balloon_usd.batch.facts import Facts, Refusal
     from balloon_usd.batch.order import Order
+    from balloon_usd.solver.status import Status
 
 
 class Role(Enum):
@@ -157,8 +158,8 @@ class Frames:
     """Time code of the first of them."""
     count: int
     doing: str
-    undone: dict[int, dict[int, tuple[str, ...]]] = field(default_factory=dict)
-    """What has come undone, by time code and place, where that is news."""
+    statuses: dict[int, dict[int, Status]] = field(default_factory=dict)
+    """What sculptures do and what of them has come undone, by time code and place, where that is news."""
     failed: dict[int, tuple[int, str]] = field(default_factory=dict)
     """By place: the time code from which on there is nothing, and why."""
 

@@ -17,6 +17,7 @@ from balloon_usd.plan.meshing import mesh_of
 from balloon_usd.quality.watch import QualityWatch, counted_over_time
 from balloon_usd.report import History, write_report
 from balloon_usd.solver.run_summary import RunSummary
+from balloon_usd.solver.status import Status
 from balloon_usd.stage import StageWriter
 from balloon_usd.staging import describe_stage
 
@@ -54,7 +55,7 @@ class Sculpture:
         self._history = History(plan, meshes, self._quality.crossings) if order.report else None
         self._open = ExitStack()
         self._writer = StageWriter(describe_stage(plan, meshes), order.folder, **order.form)
-        self._undone: tuple[str, ...] = ()
+        self._status = Status("")
         self._frames = self._last = 0
         self._begun = time.perf_counter()
 
@@ -68,10 +69,10 @@ class Sculpture:
         with endings_wait():
             self._open.close()
 
-    def undone_at(self, time_code: int, news: Mapping[int, Mapping[int, tuple[str, ...]]]) -> tuple[str, ...]:
-        """Return what has come undone by a time code, after the news by time code and place."""
-        self._undone = news.get(time_code, {}).get(self.part.place, self._undone)
-        return self._undone
+    def status_at(self, time_code: int, news: Mapping[int, Mapping[int, Status]]) -> Status:
+        """Return the status at a time code, after the news by time code and place."""
+        self._status = news.get(time_code, {}).get(self.part.place, self._status)
+        return self._status
 
     def add(self, frame: Frame) -> None:
         """Take the next frame; raises `StageError` when the stage cannot be written."""

@@ -26,6 +26,7 @@ from balloon_usd.batch.reading import RecipeChanged, planned
 from balloon_usd.language.problem import RecipeError
 from balloon_usd.solver import simulation as solver
 from balloon_usd.solver.errors import DeviceUnavailable
+from balloon_usd.solver.status import Status
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -119,8 +120,7 @@ class _Run:
         self._last = np.array([part.last for part in task.parts])
         self._wanted = np.ones(len(task.parts), dtype=np.bool_)
         self._place = {part.job: place for place, part in enumerate(task.parts)}
-        self._doing = [""] * len(task.parts)
-        self._undone: list[tuple[str, ...]] = [()] * len(task.parts)
+        self._status = [Status("")] * len(task.parts)
         self._ring: FrameRing | None = None
         self._free: list[int] = []
         self._slot: _Slot | None = None
@@ -163,18 +163,18 @@ class _Run:
 
     def _note(self, slot: _Slot, code: int, change: Change) -> None:
         place = change.plan
-        self._doing[place] = change.doing
         if change.failed is not None and self._wanted[place]:
             slot.failed[place] = (code, str(change.failed))
-        if change.undone != self._undone[place]:
-            self._undone[place] = change.undone
-            slot.undone.setdefault(code, {})[place] = change.undone
+        status = Status(change.doing, change.undone)
+        if status != self._status[place]:
+            self._status[place] = status
+            slot.statuses.setdefault(code, {})[place] = status
 
     def _told(self, made: NDArray[np.bool_]) -> str:
         """Say what the hands do, of the first sculpture that moves when there are several."""
         if not made.any():
             return ""
-        doing, running = self._doing[int(np.argmax(made))], int(made.sum())
+        doing, running = self._status[int(np.argmax(made))].doing, int(made.sum())
         return doing if len(made) == 1 else f"{running} sculptures, {doing}"
 
     def _attend(self) -> None:
@@ -209,7 +209,7 @@ class _Run:
         """Let the frames travel that are in the open slot."""
         slot, self._slot = self._slot, None
         if slot is not None and slot.count:
-            told = (slot.first, slot.count, slot.doing, slot.undone, slot.failed)
+            told = (slot.first, slot.count, slot.doing, slot.statuses, slot.failed)
             self._connection.send(Frames(self._batch, slot.number, *told))
 
 
@@ -222,7 +222,7 @@ class _Slot:
         """Time code of its first frame."""
         self.count = 0
         self.doing = ""
-        self.undone: dict[int, dict[int, tuple[str, ...]]] = {}
+        self.statuses: dict[int, dict[int, Status]] = {}
         self.failed: dict[int, tuple[int, str]] = {}
         self._opened = time.monotonic()
 

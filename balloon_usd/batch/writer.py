@@ -236,6 +236,6 @@ class _Batch:
         found = []
         for code in range(frames.first, end):
             arrays = self.ring.frame_arrays(frames.slot, code - frames.first)
-            undone = sculpture.undone_at(code, frames.undone)
-            found.append(arrays.frame(self.ring.layout.places[place], code, undone=undone).copy())
+            status = sculpture.status_at(code, frames.statuses)
+            found.append(arrays.frame(self.ring.layout.places[place], code, *status).copy())
         return found

@@ -26,9 +26,8 @@ def _parts(data: Data) -> Iterator[str]:
     for key, unit in (("gas", "%"), ("tail", "cm")):
         if data[key]["verdict"] != Verdict.NONE:
             yield _difference(key, data[key], unit)
-    speed, creep = (f"{MILLI * data[key]['value']:.1f} mm" for key in ("speed", "creep"))
-    yield f"{'moving' if _off(data['speed']) else 'calm'} ({speed}/s)"
-    yield f"{'crept' if _off(data['creep']) else 'stays'} ({creep})"
+    yield f"{'moving' if _off(data['speed']) else 'calm'} ({MILLI * data['speed']['value']:.1f} mm/s)"
+    yield from _creep(data["creep"])
     yield from _joints(data["joints"])
     yield _crossings(data["crossings"], data["depth"])
     yield from _symmetry(data)
@@ -41,6 +40,13 @@ def _off(result: Data) -> bool:
 def _difference(what: str, result: Data, unit: str) -> str:
     amount = f"{CENTI * result['value']:.1f} {unit}"
     return f"{what} {amount} off ({result['worst']})" if _off(result) else f"{what} within {amount}"
+
+
+def _creep(result: Data) -> Iterator[str]:
+    if result["verdict"] == Verdict.NONE:
+        yield f"comes undone ({', '.join(result['undone'])})"
+    else:
+        yield f"{'crept' if _off(result) else 'stays'} ({MILLI * result['value']:.1f} mm)"
 
 
 def _joints(result: Data) -> Iterator[str]:

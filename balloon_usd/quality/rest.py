@@ -8,6 +8,7 @@ import numpy as np
 
 from balloon_usd.operations.moves import LetGo, SetDown
 from balloon_usd.quality.measures import MEASURES
+from balloon_usd.solver.status import COMES_UNDONE
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -39,10 +40,15 @@ class Rest:
         self._kept: dict[int, Floats] = {}
         self._before: Floats | None = None
         self._speed = self._creep = self._creep_late = 0.0
+        self._undone: dict[str, None] = {}
+        """Joints that have come undone, or begun to, in that order."""
 
     def add(self, frame: Frame) -> None:
         """Take the next frame."""
         code = frame.time_code
+        self._undone |= dict.fromkeys(frame.undone)
+        if frame.doing.startswith(COMES_UNDONE):
+            self._undone[frame.doing.removeprefix(COMES_UNDONE)] = None
         kept = (self._let_go, self._half, self._rested)
         if code < self._late and code not in kept:
             return
@@ -58,11 +64,14 @@ class Rest:
 
     def results(self) -> dict[str, dict[str, Any]]:
         """Return speed and creep, once the last frame is taken."""
+        return {"speed": MEASURES["speed"].result(self._speed), "creep": self._creep_found()}
+
+    def _creep_found(self) -> dict[str, Any]:
+        """Return the creep; what comes undone goes where that leads it, which is none."""
         creep = MEASURES["creep"]
-        return {
-            "speed": MEASURES["speed"].result(self._speed),
-            "creep": creep.result(self._creep, {"second_half": round(self._creep_late, creep.digits)}),
-        }
+        if self._undone:
+            return creep.result(None) | {"undone": list(self._undone)}
+        return creep.result(self._creep, {"second_half": round(self._creep_late, creep.digits)})
 
 
 def _farthest(before: Floats, now: Floats) -> float:

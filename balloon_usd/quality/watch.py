@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 from balloon_usd.balloon.ringed_faces import polygon_share
@@ -105,16 +106,25 @@ def counted_over_time(plan: Plan, codes: range) -> list[int]:
 
 
 def _gas(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame) -> dict[str, float]:
-    """Return by which share of it the volume of each bubble differs from the plan."""
+    """Return by which share of it the volume of each bubble differs from the plan; not of those that share
+    their gas across a joint that has come undone.
+    """
     # The plan counts round tubes.
     polygon = {
         name: polygon_share(mesh.around) if strip.has_tail else 1.0
         for (name, strip), mesh in zip(plan.strips.items(), meshes, strict=True)
     }
+    sharing = {
+        bubble.name
+        for strip in plan.strips.values()
+        for before, behind in pairwise(strip.bubbles)
+        if f"{before.name}.end" in frame.undone
+        for bubble in (before, behind)
+    }
     return {
         bubble.name: float(volume) / (polygon[bubble.balloon] * bubble.volume) - 1.0
         for bubble, volume in zip(plan.bubbles, frame.volume, strict=True)
-        if bubble.volume > 0.0
+        if bubble.volume > 0.0 and bubble.name not in sharing
     }
 
 

@@ -74,9 +74,10 @@ class SculptureCheck:
 
     def _impossible(self, frame: Frame) -> str | None:
         """Tell of a bubble that has turned inside out: what follows would be no physics."""
-        for bubble, pressure in zip(self._plan.bubbles, frame.pressure, strict=True):
-            if not pressure > LOWEST_PRESSURE:
-                return f"{bubble.name} has turned inside out ({pressure / 1e3:.0f} kPa): make it longer"
+        for bubble, pressure, volume in zip(self._plan.bubbles, frame.pressure, frame.volume, strict=True):
+            if not (pressure > LOWEST_PRESSURE and volume > 0.0):
+                found = f"{pressure / 1e3:.0f} kPa in {volume * 1e6:.1f} cm3"
+                return f"{bubble.name} has turned inside out ({found}): make it longer"
         return None
 
     def _too_fast(self, frame: Frame) -> str | None:
@@ -143,7 +144,7 @@ class BatchCheck:
         """
         self._last, self._arrays = self._arrays, arrays
         # Comparisons with NaN are false.
-        gas = (arrays.pressure > LOWEST_PRESSURE) & np.isfinite(arrays.volume)
+        gas = (arrays.pressure > LOWEST_PRESSURE) & (arrays.volume > 0.0) & (arrays.volume < np.inf)
         if not suspects.any() and gas.all():
             return []
         return np.flatnonzero((suspects != 0) | ~np.logical_and.reduceat(gas, self._bubble)).tolist()

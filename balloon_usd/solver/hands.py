@@ -71,6 +71,8 @@ class Hands:
         """Air drag of every balloon, 1/s."""
         self.leading = np.full(len(scene.bodies), LEADING_SPEED, dtype=np.float32)
         """Speed at which walls of every balloon are led out of others that they have gone through, m/s."""
+        self.floating = np.zeros(len(scene.bodies), dtype=np.int32)
+        """1 where nothing outside acts on the sculpture of a balloon."""
         self.finger_share = np.zeros(len(scene.x), dtype=np.float32)
         """Share of a finger's force that every vertex takes."""
         self.pressing = False
@@ -253,6 +255,7 @@ class Hands:
             "touching": self.touching,
             "drag": self.drag,
             "leading": self.leading,
+            "floating": self.floating,
         }
 
     def arrived(self) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from balloon_usd.solver.status import Status
+from balloon_usd.solver.status import COMES_UNDONE, Status
 
 if TYPE_CHECKING:
     from balloon_usd.operations.moves import Move
@@ -73,6 +73,6 @@ class Performer:
     def _update_status(self) -> None:
         """Set the status, a new object only where it differs."""
         loose, undone = self.sculpture.unwinding, self.sculpture.undone
-        doing = self._text if loose is None else f"comes undone: {loose}"
+        doing = self._text if loose is None else f"{COMES_UNDONE}{loose}"
         if (doing, undone) != self.status:
             self.status = Status(doing, undone)

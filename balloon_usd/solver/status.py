@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+COMES_UNDONE = "comes undone: "
+"""How what a sculpture is doing begins while a joint comes undone, before the name of the joint."""
+
 
 class Status(NamedTuple):
     """What a sculpture is doing, for messages."""

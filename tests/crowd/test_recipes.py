@@ -25,3 +25,4 @@ def test_no_frame_of_a_figure_has_a_wall_in_a_wall(path):
     found = quality.data()
     assert found is not None
     assert found["joints"]["lost"] == []
+    assert found["creep"]["verdict"] != "off"

@@ -36,3 +36,4 @@ def test_a_random_tree_runs_to_its_end_with_its_joints_and_no_wall_in_a_wall(see
     found = quality.data()
     assert found is not None
     assert found["joints"]["lost"] == []
+    assert found["creep"]["verdict"] != "off"

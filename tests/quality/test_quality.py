@@ -130,6 +130,23 @@ def test_the_creep_is_the_way_since_the_hands_let_go_and_the_second_half_of_it_i
     assert creep["verdict"] == "good"
 
 
+def test_a_figure_that_comes_undone_has_no_creep_and_what_came_undone_is_told(figure, still):
+    creep = quality_of(figure, lambda frame: replace(frame, undone=("neck.end",)))["creep"]
+    assert (creep["value"], creep["verdict"], creep["undone"]) == (None, "none", ["neck.end"])
+    assert "comes undone (neck.end)" in quality_line({**still, "creep": creep})
+
+
+def test_bubbles_that_share_their_gas_across_a_joint_that_came_undone_are_left_out(figure):
+    def joined(frame):
+        volume = frame.volume.copy()
+        volume[0] *= 0.5
+        return replace(frame, volume=volume, undone=("nose.end",))
+
+    gas = quality_of(figure, joined)["gas"]
+    assert gas["verdict"] == "good"
+    assert {"nose", "left_ear"}.isdisjoint(gas["each"])
+
+
 def test_the_joints_that_are_meant_to_hold_are_those_of_the_finished_piece_that_do_not_untwist(figure):
     joints = {joint.name: joint.holds for joint in joints_of(figure[0])}
     assert joints == {"nose.start": False, "nose.end": True, "left_ear.end": True, "neck.end": False}

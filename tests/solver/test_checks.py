@@ -105,9 +105,14 @@ def test_what_is_beyond_measure_has_flown_apart(scene):
     assert scene.check.failure(scene.with_points("nose", 1e20)).startswith("nose has flown apart;")
 
 
-def test_a_bubble_inside_out_is_named(scene):
+def test_a_bubble_that_sucks_has_turned_inside_out(scene):
     scene.frame.pressure[1] = -3e4
-    assert scene.check.failure(scene.frame).startswith("middle has turned inside out (-30 kPa)")
+    assert scene.check.failure(scene.frame).startswith("middle has turned inside out (-30 kPa in ")
+
+
+def test_a_bubble_without_volume_has_turned_inside_out(scene):
+    scene.frame.volume[1] = -1e-6
+    assert " kPa in -1.0 cm3): make it longer" in scene.check.failure(scene.frame)
 
 
 def test_a_burst_stops_the_run_where_that_is_asked_for():

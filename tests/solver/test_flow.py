@@ -10,7 +10,7 @@ from balloon_usd.plan import plan
 from balloon_usd.recipe import Recipe
 from balloon_usd.solver.kernels.arrays.latex import Chambers
 from balloon_usd.solver.kernels.arrays.shared import State
-from balloon_usd.solver.kernels.physics.gas import OPEN_PASSAGE
+from balloon_usd.solver.kernels.physics.gas import HIGHEST_PRESSURE, OPEN_PASSAGE
 from balloon_usd.solver.simulation import simulate_many
 from tests.verification.lone_kernels import balloon_gas
 
@@ -138,3 +138,18 @@ def test_an_edge_may_join_any_two_segments_of_a_balloon(model):
     assert gained[2] < 0.0
     assert gained[5] == pytest.approx(-gained[2], rel=1e-9)
     assert not np.delete(gained, [2, 5]).any()
+
+
+@pytest.mark.parametrize(
+    ("left", "gauge"), [(1.0, 0.0), (0.5, 1.0), (0.1, 1.5e5 / 101325.0), (-0.1, 1.5e5 / 101325.0)]
+)
+def test_gas_pushes_back_what_is_squeezed_and_most_what_is_inside_out(model, left, gauge):
+    scene = model.scene
+    space = scene.volume.numpy()
+    scene.amount.assign(scene.settings.atmosphere * space / float(scene.air.molar_energy))
+    scene.volume.assign(np.float32(left) * space)
+    scene.pressure.zero_()
+    step(model)
+    atmosphere = scene.settings.atmosphere
+    assert scene.pressure.numpy()[1:RED] == pytest.approx(gauge * atmosphere, abs=1e-4 * atmosphere)
+    assert scene.pressure.numpy().max() <= HIGHEST_PRESSURE * (1.0 + 1e-6)

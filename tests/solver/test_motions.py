@@ -18,7 +18,7 @@ from balloon_usd.solver.kosaka.motions.draw import CLOSED_EARLY, Draw
 from balloon_usd.solver.kosaka.motions.table import KOSAKA_MOTIONS
 from balloon_usd.solver.latex.motions.ball import amount_of
 from balloon_usd.solver.latex.motions.loosen import Loosen
-from balloon_usd.solver.latex.motions.pinch import LEAST_KEPT, Pinch
+from balloon_usd.solver.latex.motions.pinch import SHUT, Pinch
 from balloon_usd.solver.latex.motions.spin import Spin
 from balloon_usd.solver.latex.motions.table import LATEX_MOTIONS
 from balloon_usd.solver.motions.bring import Bring
@@ -349,23 +349,43 @@ def test_a_pinched_neck_closes_and_all_that_hangs_on_its_knots_side_is_steadied(
     assert not room.hands.mode[room.joint("right.end")]
 
 
-@pytest.mark.parametrize(("left", "shut"), [(1.0, False), (0.5, True)])
-def test_fingers_shut_a_neck_once_its_bubble_has_less_gas_than_it_has_to_keep(left, shut):
-    room = Room()
+def pinched(room):
+    """Fingers on the neck of a bubble, its joint, the segment before it, and what gas it is to keep."""
     pinch = Pinch(moves.Pinch(**DONE, ring=room.ring("left.end")), room.sculpture)
     joint = room.joint("left.end")
     (bubble,) = [b for b in room.plan.bubbles if b.name == "left"]
-    enough = amount_of(room.sculpture, bubble)
     before = room.hands.beside[joint, 0]
     room.hands.amount[:before] = 0.0
+    return pinch, joint, before, amount_of(room.sculpture, bubble)
+
+
+@pytest.mark.parametrize(("left", "shut"), [(1.5, False), (0.95, False), (0.5, True)])
+def test_fingers_shut_a_neck_early_once_its_bubble_has_less_gas_than_it_has_to_keep(left, shut):
+    room = Room()
+    pinch, joint, before, enough = pinched(room)
     room.hands.amount[before] = enough
     pinch.advance(0.2)
     assert room.hands.passage[joint] > 0.0
     room.hands.amount[before] = left * enough
     pinch.advance(0.4)
     assert (room.hands.passage[joint] == room.hands.passage_goal[joint] == 0.0) == shut
-    pushed_back = -room.hands.neck_flow[joint] / 24.0
-    assert pushed_back == pytest.approx((LEAST_KEPT - left) * enough if shut else 0.0)
+    pressed_in = -room.hands.neck_flow[joint] / 24.0
+    # A quarter of the time that was left has passed.
+    assert pressed_in == pytest.approx(0.25 * (1.0 - left) * enough if shut else 0.0)
+
+
+@pytest.mark.parametrize("had", [1.3, 1.0, 0.95])
+def test_fingers_press_gas_through_a_shut_neck_until_its_bubble_has_what_it_is_to_keep(had):
+    room = Room()
+    pinch, joint, before, enough = pinched(room)
+    gas = had * enough
+    for share in (0.2, 0.6, 0.8, 0.9, 1.0):
+        room.hands.amount[before] = gas
+        pinch.advance(share)
+        assert (room.hands.passage_goal[joint] == 0.0) == (share > SHUT)
+        gas -= room.hands.neck_flow[joint] / 24.0
+        assert (gas == pytest.approx(had * enough)) == (share <= SHUT or had == 1.0)
+    assert gas == pytest.approx(enough)
 
 
 def test_a_pump_starts_and_stops_gently_and_is_taken_off_in_the_end():
@@ -556,3 +576,10 @@ def test_a_loosened_grip_fades_steadily_and_what_is_to_untwist_is_not_braked():
     loosen.advance(1.0)
     assert room.plan.loose
     assert np.array_equal(room.hands.drag, drag)
+
+
+def test_what_hands_loosen_their_grip_on_floats():
+    room = Room()
+    assert not room.hands.floating.any()
+    Loosen(moves.Loosen(**DONE), room.sculpture)
+    assert room.hands.floating[list(room.sculpture.bodies)].all()

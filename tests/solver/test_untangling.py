@@ -32,6 +32,7 @@ class Pair:
         self.scene, self.untangling = self._model.scene, self._model.stepper._untangling
         self.scene.touching.assign(np.ones(len(self.scene.bodies), dtype=np.int32))
         self.scene.leading.fill_(LEADING_SPEED)
+        self.scene.floating.zero_()
         self._counter = CrossingCounter(walls_of(planned, simulation.meshes[0]), 1)
         self.made = self.scene.x.numpy().copy()
 

@@ -23,6 +23,7 @@ from balloon_usd.plan import plan
 from balloon_usd.recipe import Recipe
 from balloon_usd.solver.body import NECK_RADIUS
 from balloon_usd.solver.simulation import simulate_many
+from tests.verification.free_fingers import free_fingers
 from tests.verification.setups import Rig, at_energy_of, polygon_factor, ring_stretches, stretched, tube
 
 SIZE, LATEX = size_named("260"), rubber_named()
@@ -128,10 +129,11 @@ def three(request):
     made = plan(Recipe.parse(THREE.replace("LENGTH", str(length))))
     simulation = simulate_many([made], detail=level, device="cpu")
     before = frame = None
-    for frames in simulation.frames():
-        frame = frames[0]
-        if frame.doing.startswith("inflate"):
-            before = frame
+    with free_fingers():
+        for frames in simulation.frames():
+            frame = frames[0]
+            if frame.doing.startswith("inflate"):
+                before = frame
     gas = frame.volume[:3].astype(float) / polygon_factor(simulation.meshes[0][0].around)
     used = front(simulation, frame) - front(simulation, before)
     return f"bubbles of {length} cm, {level}", gas, made.strips["main"].bubbles[0].volume, used

@@ -12,6 +12,7 @@ import pytest
 from balloon_usd.balloon.bubble_shape import bubble_of_length, tube_diameter
 from balloon_usd.balloon.tube_theory import gauge_pressure, maxwell_state
 from balloon_usd.operations.moves import Pinch
+from tests.verification.free_fingers import free_fingers
 from tests.verification.kosaka_experiments import (
     bubble_diameters,
     bubble_lengths,
@@ -70,7 +71,8 @@ IN_WORDS = (
 
 @pytest.fixture(scope="module")
 def both():
-    return {model: performed(RECIPE.replace("MODEL", model)) for model in MODELS}
+    with free_fingers():
+        return {model: performed(RECIPE.replace("MODEL", model)) for model in MODELS}
 
 
 @pytest.fixture(scope="module")

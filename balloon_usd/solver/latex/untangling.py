@@ -16,6 +16,7 @@ from balloon_usd.solver.kernels.physics.keeping_apart import (
     go_on_watching,
     move_together,
 )
+from balloon_usd.solver.kernels.physics.momentum import measure_momentum, take_momentum
 from balloon_usd.solver.kernels.physics.piercing_walls import box_walls, find_piercing_walls
 from balloon_usd.solver.kernels.physics.untangling import (
     begin_untangling,
@@ -42,8 +43,8 @@ class Untangling:
         self._launcher = launcher
         self._between_searches = between_searches
         self._parts = PARTS if launcher.lanes(WARP) > 1 else 1
-        launcher.load(box_walls, find_piercing_walls, lanes=WARP)
-        launcher.load(begin_keeping_apart, begin_untangling)
+        launcher.load(box_walls, find_piercing_walls, measure_momentum, lanes=WARP)
+        launcher.load(begin_keeping_apart, begin_untangling, take_momentum)
         self.start()
 
     def start(self) -> None:
@@ -88,6 +89,8 @@ class Untangling:
         s.tangled.zero_()
         launch(begin_untangling, worlds, frame_ends=frame_ends)
         wp.capture_if(s.tangled, self._untangle)
+        self._launcher.launch_tiled(measure_momentum, worlds, lanes=WARP)
+        launch(take_momentum, vertices)
         s.any_watched.zero_()
         launch(go_on_watching, worlds, frame_ends=frame_ends, between_searches=between)
 

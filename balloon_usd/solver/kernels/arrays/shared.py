@@ -22,6 +22,9 @@ class Sculptures:
     world_segment: wp.array[int] = array("sculpture starts", meaning="first segment")
     world_joint: wp.array[int] = array("sculpture starts", meaning="first joint")
     world_welds: wp.array[int] = array("sculptures", meaning="number of welds")
+    middle: wp.array[wp.vec3] = array("sculptures", unit="m", meaning="scratch: middle of mass")
+    velocity: wp.array[wp.vec3] = array("sculptures", unit="m/s", meaning="scratch: of that")
+    spin: wp.array[wp.vec3] = array("sculptures", unit="rad/s", meaning="scratch: angular velocity")
     barrier_counts: wp.array[int] = array("sculptures", meaning="blocks that came to a barrier so far")
 
 
@@ -136,6 +139,9 @@ class Hands:
     vertex_spin: wp.array[int] = array("vertices", meaning="the spin that turns it + 1; 0 for none")
     leading: wp.array[float] = array(
         "balloons", unit="m/s", meaning="speed at which its walls are led out of others"
+    )
+    floating: wp.array[int] = array(
+        "balloons", meaning="1 where nothing outside acts on its sculpture, which so has no momentum"
     )
     fingers: wp.array[Finger] = array("balloons", unit="SI", meaning="a finger that presses on its wall")
     finger_share: wp.array[float] = array("vertices", meaning="share of the finger's force")

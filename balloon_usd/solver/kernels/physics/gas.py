@@ -80,12 +80,24 @@ OPEN_PASSAGE = 1.0
 """Passage (m2) of a joint that is not being closed: more than any neck."""
 WIDE_OPEN = 0.5 * OPEN_PASSAGE
 """Passage (m2) from which segments on both sides of a joint form one chamber."""
+HIGHEST_PRESSURE = wp.constant(1.5e5)
+"""Largest gauge pressure of a chamber, Pa, that of gas squeezed to two fifths: what has turned inside out is
+blown up with it again. The air in a knot between joints went below no volume, to minus one atmosphere, and
+the knot was soon larger than the figure.
+"""
 
 
 @wp.func
 def passage_of(joint: int, fraction: float, open_from: wp.array[float], open_to: wp.array[float]):
     """Return the open area (m2) of a joint."""
     return float_at(open_from, joint) + fraction * (float_at(open_to, joint) - float_at(open_from, joint))
+
+
+@wp.func
+def pressure_of(gas: wp.float64, space: float, air: Air):
+    """Return the gauge pressure (Pa) of gas (mol) in a space (m3): ideal, isothermal, p V = n R T."""
+    energy = float(gas * air.molar_energy)
+    return energy / wp.max(space, energy / (air.atmosphere + HIGHEST_PRESSURE)) - air.atmosphere
 
 
 @wp.func
@@ -102,9 +114,9 @@ def press_chamber(
     chambers: Chambers,
     state: State,
 ):
-    """Where a chamber of segments begins, pump gas into it and write its volume (m3) and gauge pressure (Pa):
-    ideal, isothermal, p V = n R T. A chamber without gas of its own is open to the air (the nozzle's lip)
-    and keeps its pressure.
+    """Where a chamber of segments begins, pump gas into it and write its volume (m3) and gauge pressure (Pa).
+
+    A chamber without gas of its own is open to the air (the nozzle's lip) and keeps its pressure.
     """
     space = float_at(state.volume, s)
     gas = chambers.amount[s]
@@ -113,13 +125,13 @@ def press_chamber(
             space += float_at(state.volume, k)
             gas += chambers.amount[k]
         if begin <= into and into <= end and gas < pump_goal:
-            here = float(gas * air.molar_energy) / space - air.atmosphere
+            here = pressure_of(gas, space, air)
             inflow = wp.min(pump_flow, pump_flow * wp.max(pump_limit - here, 0.0) / (0.1 * pump_limit))
             added = wp.min(wp.float64(inflow * dt), pump_goal - gas)
             chambers.amount[into] = chambers.amount[into] + added
             gas += added
         if gas > wp.float64(0.0):
-            now = float(gas * air.molar_energy) / space - air.atmosphere
+            now = pressure_of(gas, space, air)
             for k in range(begin, end + 1):
                 put_float(chambers.pressure, k, now)
         put_float(chambers.chamber_volume, end, space)

@@ -8,7 +8,7 @@ from balloon_usd.solver.kernels.arrays.latex import Crossings
 from balloon_usd.solver.kernels.arrays.shared import Balloons, Contacts, Hands, Joints, Mesh, State
 from balloon_usd.solver.kernels.device.array_access import int_at, vec3_at
 from balloon_usd.solver.kernels.physics.joints import held
-from balloon_usd.solver.kernels.physics.motion import LYING, SLOW_PER_LEADING
+from balloon_usd.solver.kernels.physics.motion import LYING, SLOW
 from balloon_usd.solver.kernels.physics.piercing_edge import PER_METRE
 from balloon_usd.solver.kernels.physics.surface import velocity_of_spin
 from balloon_usd.solver.kernels.physics.untangling import (
@@ -181,8 +181,10 @@ def end_keeping_apart(
         state.x[i] = crossings.x_apart[i]
         # Turns by hands are no part of the velocity.
         state.v[i] = way / crossings.safe_seconds[world] - velocity_of_spin(i, state.x[i], hands)
-    if crossings.smoothing[i] > LEAST:
-        state.slowness[i] = 1.0 / (SLOW_PER_LEADING * hands.leading[mesh.vertex_balloon[i]])
+    if hands.floating[mesh.vertex_balloon[i]] == 1:
+        state.slowness[i] = 0.0
+    elif crossings.smoothing[i] > LEAST:
+        state.slowness[i] = 1.0 / SLOW
     elif state.slowness[i] > 0.0:
         slowness = FADING * state.slowness[i]
         state.slowness[i] = wp.where(slowness * FASTEST_LEFT > 1.0, slowness, 0.0)

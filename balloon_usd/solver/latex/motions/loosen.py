@@ -16,9 +16,13 @@ if TYPE_CHECKING:
     from balloon_usd.solver.latex.sculpture import LatexSculpture
 
 DECAYS = 8.0
-"""How often the force of the hands decays by a factor of e in the first half: what they hold in the end takes
-a thousandth of a newton to some newtons. What still moves comes to rest in the second half.
+"""How often the force of the hands decays by a factor of e until it is faded: what they hold in the end takes
+a thousandth of a newton to some newtons.
 """
+FADED = 0.3
+"""Share of the time after which it is faded. Then creases that it held go where they stay alone."""
+BRAKED = 0.7
+"""Share of the time from which on what still moves is braked more and more."""
 LEAST_LEADING = 5.0e-4
 """What is left of the speed at which walls are led out of others, m/s: what cannot be led out stays calm."""
 MOST_BRAKED = 4.0
@@ -44,12 +48,11 @@ class Loosen(Motion):
         self._bodies = list(sculpture.bodies)
         self._drag = sculpture.scene.settings.drag
         self._puts_down = not sculpture.plan.loose
+        self._hands.floating[self._bodies] = 1
 
     def advance(self, share: float) -> None:
-        """Loosen the grip by a share; in the second half what moves is braked more and more, unless it is to
-        untwist.
-        """
-        loosened, lying = 2.0 * share, 2.0 * share - 1.0
+        """Loosen the grip by a share; in the end brake what moves, unless it is to untwist."""
+        loosened, lying = share / FADED, (share - BRAKED) / (1.0 - BRAKED)
         self._hands.force[self._joints] = LEAD_FORCE * math.exp(-DECAYS * loosened)
         left = (LEAST_LEADING / LEADING_SPEED) ** min(loosened, 1.0)
         self._hands.leading[self._bodies] = LEADING_SPEED * left
