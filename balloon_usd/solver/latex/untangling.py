@@ -89,8 +89,9 @@ class Untangling:
         s.tangled.zero_()
         launch(begin_untangling, worlds, frame_ends=frame_ends)
         wp.capture_if(s.tangled, self._untangle)
-        self._launcher.launch_tiled(measure_momentum, worlds, lanes=WARP)
-        launch(take_momentum, vertices)
+        if frame_ends:
+            self._launcher.launch_tiled(measure_momentum, worlds, lanes=WARP)
+            launch(take_momentum, vertices)
         s.any_watched.zero_()
         launch(go_on_watching, worlds, frame_ends=frame_ends, between_searches=between)
 

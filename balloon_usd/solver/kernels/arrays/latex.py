@@ -136,6 +136,9 @@ class Crossings:
     )
     quad_radius: wp.array[float] = array("quads", unit="m", meaning="from its middle to its farthest corner")
     quad_bent: wp.array[int] = array("quads", meaning="1 where it is bent about its diagonal")
+    restless: wp.array[int] = array("vertices", meaning="1 where it moved in the last round or would cross")
+    quad_restless: wp.array[int] = array("quads", meaning="1 where one of its corners is restless")
+    chunk_restless: wp.array[int] = array("chunks", meaning="1 where one of its quads is restless")
     box_low: wp.array[wp.vec3] = array("chunks", unit="m", meaning="lowest coordinates of its quads")
     box_high: wp.array[wp.vec3] = array("chunks", unit="m", meaning="highest coordinates of its quads")
     way_back: wp.array[wp.vec4i] = array(

@@ -63,9 +63,10 @@ def begin_keeping_apart(frame_ends: int, contacts: Contacts, crossings: Crossing
 
 @wp.kernel
 def begin_moves(crossings: Crossings, x: wp.array[wp.vec3]):
-    """Let every vertex be where it went; nothing is shared yet."""
+    """Let every vertex be where it went; nothing is shared yet, and all have to be looked at."""
     i = wp.tid()
     crossings.x_apart[i] = x[i]
+    crossings.restless[i] = 1
     crossings.smoothing[i] = 0.0
 
 

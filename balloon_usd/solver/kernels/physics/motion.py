@@ -15,7 +15,7 @@ LYING_SPEED = wp.constant(1.0e-3)
 """Largest speed of its wall, m/s: faster it sticks to what it lies on."""
 LEADING_SPEED = 0.024
 """Speed at which walls are led out of others while hands work, m/s: 1 mm a frame at 24 frames/s."""
-SLOW = wp.constant(4.0)
+SLOW = wp.constant(1.0)
 """Largest speed of a wall that would have crossed another while hands work, m/s: without a bound, loops fly
 apart. With 1 m/s crowds take four times as long, with 0.3 m/s necks stay shut that should open. Once hands
 loosen their grip nothing is slowed: walls that cannot move stir the rest of a figure for ever.

@@ -71,13 +71,12 @@ def neck_at(joint: int, joint_meant: wp.array[int]):
 
 
 @wp.func
-def counts(ends: wp.vec2i, d: wp.vec4i, neck: int, joint_meant: wp.array[int], mesh: Mesh):
-    """Return whether an edge may not pierce a quad: it is no neighbour, and not folded up in its neck.
+def counts(ends: wp.vec3i, neck: int, joint_meant: wp.array[int], mesh: Mesh):
+    """Return whether an edge may not pierce a quad beside which it does not end: it is not folded up in its
+    neck.
 
     `neck`: of the quad.
     """
-    if is_corner(ends[0], d) or is_corner(ends[1], d):
-        return False
     if neck < 0:
         return True
     return (
@@ -157,7 +156,7 @@ def add_motion(i: int, motion: wp.vec3, crossings: Crossings):
 
 
 @wp.func
-def share_motion(ends: wp.vec2i, other: wp.vec3i, world: int, contacts: Contacts, crossings: Crossings):
+def share_motion(ends: wp.vec3i, other: wp.vec3i, world: int, contacts: Contacts, crossings: Crossings):
     """Count an edge that pierces a triangle, and let both move as one, first only along the normal of where
     they would touch; where one crossed before already they are only counted apart.
     """
@@ -191,7 +190,7 @@ def share_motion(ends: wp.vec2i, other: wp.vec3i, world: int, contacts: Contacts
 
 
 @wp.func
-def nearest_allowed(ends: wp.vec2i, other: wp.vec3i, together: int, world: int, crossings: Crossings):
+def nearest_allowed(ends: wp.vec3i, other: wp.vec3i, together: int, world: int, crossings: Crossings):
     """Return how far beside a triangle an edge has to go, in this round."""
     done = float(int_at(crossings.untangling_round, world))
     shorter = wp.where(together == 1, SHORTER, SHORTER_PUT_BACK)
@@ -211,18 +210,33 @@ def nearest_allowed(ends: wp.vec2i, other: wp.vec3i, together: int, world: int, 
 
 
 @wp.func
-def answer_edge(
-    ends: wp.vec2i,
+def goes_through(
     p: wp.vec3,
     q: wp.vec3,
-    inward: wp.vec3,
     below: float,
     above: float,
-    d: wp.vec4i,
-    other: wp.vec3i,
     a: wp.vec3,
     b: wp.vec3,
     c: wp.vec3,
+    across: wp.vec3,
+):
+    """Return whether an edge from `p` to `q`, a little longer than it is, goes through a triangle that is a
+    little wider.
+
+    `below`, `above`: heights of its ends above the triangle's plane, times twice its area; `across`: normal
+    of the triangle, twice its area long.
+    """
+    rise = below - above
+    share = below / wp.where(wp.abs(rise) < LEAST_RISE, LEAST_RISE, rise)
+    if share < -LONGER or share > 1.0 + LONGER:
+        return False
+    return wp.min(shares_of_face(p + share * (q - p), a, b, c, across)) >= -LONGER
+
+
+@wp.func
+def answer_edge(
+    ends: wp.vec3i,
+    other: wp.vec3i,
     neck: int,
     together: int,
     world: int,
@@ -233,21 +247,18 @@ def answer_edge(
     """Count an edge that pierces a triangle, and add to the ways of both how the contour in one face of the
     edge becomes shorter (Volino & Magnenat-Thalmann 2006), or the mean of their motions.
 
-    `p`, `q`: ends of the edge, m; `inward`: third corner of its face, m; `below`, `above`: heights of the
-    ends above the triangle's plane, times twice its area; `d`, `neck`: quad of the triangle and its neck;
-    `a`, `b`, `c`: corners of the triangle, m; `together`: 1 for their motions.
+    `ends`: of the edge, and the third corner of its face; `other`: corners of the triangle; `neck`: in which
+    that lies; `together`: 1 for their motions.
     """
-    rise = below - above
-    share = below / wp.where(wp.abs(rise) < LEAST_RISE, LEAST_RISE, rise)
-    if share < -LONGER or share > 1.0 + LONGER:
+    if not counts(ends, neck, crossings.joint_meant, mesh):
         return
-    place = p + share * (q - p)
-    across = wp.cross(b - a, c - a)
-    on_face = shares_of_face(place, a, b, c, across)
-    if wp.min(on_face) < -LONGER:
-        return
-    if not counts(ends, d, neck, crossings.joint_meant, mesh):
-        return
+    p = vec3_at(crossings.x_apart, ends[0])
+    q = vec3_at(crossings.x_apart, ends[1])
+    inward = vec3_at(crossings.x_apart, ends[2])
+    a = vec3_at(crossings.x_apart, other[0])
+    b = vec3_at(crossings.x_apart, other[1])
+    c = vec3_at(crossings.x_apart, other[2])
+    share, on_face = where_pierced(p, q, a, b, c)
     if together == 1 or int_at(crossings.put_back, world) > 0:
         if beside_face(share, on_face) > nearest_allowed(ends, other, together, world, crossings):
             return
@@ -255,6 +266,7 @@ def answer_edge(
         share_motion(ends, other, world, contacts, crossings)
         return
     wp.atomic_add(crossings.pierced_count, world, 1)
+    across = wp.cross(b - a, c - a)
     normal = across / wp.sqrt(wp.max(wp.dot(across, across), 1.0e-30))
     along = wp.normalize(q - p)
     into = inward - p

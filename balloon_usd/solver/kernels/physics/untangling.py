@@ -161,11 +161,14 @@ def draw_back(
 
 @wp.kernel
 def end_round(mesh: Mesh, balloons: Balloons, crossings: Crossings):
-    """Let every vertex that is smoothed be where it goes in a round."""
+    """Let every vertex that is smoothed be where it goes in a round: it, and what would cross, is looked at
+    again.
+    """
     i = wp.tid()
     if round_of(i, mesh, balloons, crossings) > 0:
-        crossings.way_back[i] = wp.vec4i(0)
         smoothing = crossings.smoothing_next[i]
+        crossings.restless[i] = wp.where(crossings.way_back[i][3] > 0 or smoothing > LEAST, 1, 0)
+        crossings.way_back[i] = wp.vec4i(0)
         crossings.smoothing[i] = smoothing
         if smoothing > LEAST:
             crossings.x_apart[i] = crossings.x_coming[i]
