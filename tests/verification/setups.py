@@ -6,13 +6,16 @@ A new case takes a mesh, makes it a `Rig`, settles it and measures:
 - `tube` with `parts=()`: a closed tube, one chamber; with `parts=(k,)`: two chambers with ring k between them.
 - `tube` as it is: an open tube, its gas in chamber 1; with `Rig.hold_length` a piece of an endless one.
 - `revolved`: any other body of rings.
+
+Bodies that touch each other, some of them held, are a `Meeting`.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
-from typing import Any
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import warp as wp
@@ -28,6 +31,9 @@ from balloon_usd.solver.latex.scene import LatexScene, build_scene
 from balloon_usd.solver.latex.stepper import Stepper
 from balloon_usd.solver.settings import SceneSettings
 
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
 Floats = NDArray[np.float64]
 
 wp.config.log_level = wp.LOG_WARNING
@@ -36,6 +42,8 @@ STEP = 1.0e-4
 """Time step of quasi-static cases, s; with scaled masses its size does not matter."""
 SUBSTEPS = 20
 """Substeps between two looks at the kinetic energy."""
+HELD = 1.0e12
+"""Mass of a vertex that is held, in its own."""
 GOSSAMER = 1.0e-4
 """Wall thickness of a tube's end caps, in wall thicknesses: they close the mesh and carry nothing."""
 
@@ -63,6 +71,9 @@ class Mesh:
 class Rig:
     """A mesh of one rubber in a scene of its own, run by the real stepper."""
 
+    touches = False
+    """Whether walls can touch."""
+
     def __init__(
         self,
         mesh: Mesh,
@@ -80,34 +91,19 @@ class Rig:
         scale_mass: bool = True,
         inertia: float = 1.0,
     ) -> None:
-        wp.init()
-        wall = np.full(len(mesh.quads), thickness)
-        wall[np.flatnonzero(mesh.caps)] *= GOSSAMER
-        middles = np.array([mesh.points[f : f + n].mean(axis=0) for f, n in mesh.mesh_rings])
-        nearest = np.linalg.norm(mesh.points[:, None] - middles[None], axis=2).argmin(axis=1)
         self.mesh = mesh
-        self.body = LatexBody(
-            points=mesh.points.astype(np.float32),
-            rest=mesh.points.astype(np.float64),
-            quads=mesh.quads,
-            thickness=wall,
-            rubber=rubber,
-            worked=np.zeros(len(mesh.quads)),
-            radius=mesh.radius,
-            along=mesh.points[:, 0].astype(np.float32),
-            mesh_rings=mesh.mesh_rings,
-            vertex_ring=nearest.astype(np.int32),
-            rings=mesh.rings,
-            segment_ends=np.array(mesh.segment_ends or (len(mesh.quads),), dtype=np.int32),
-            gauge=np.array(gauge, dtype=np.float64),
-            vented=vented,
-            inlet=len(gauge) // 2,
-            neck_radius=neck or mesh.radius,
-        )
+        self.body = body_of(mesh, rubber, thickness, gauge=gauge, vented=vented, neck=neck)
         settings = SceneSettings(
             dt=dt, atmosphere=atmosphere, drag=drag, gravity=gravity, scale_mass=scale_mass
         )
-        self.scene = build_scene([self.body], [0], settings, "cpu", 1, 1)
+        self._build([self.body], settings, substeps, inertia)
+
+    def _build(
+        self, bodies: Sequence[LatexBody], settings: SceneSettings, substeps: int, inertia: float
+    ) -> None:
+        """Put bodies in a scene of their own."""
+        wp.init()
+        self.scene = build_scene(bodies, [0] * len(bodies), settings, "cpu", 1, 1)
         # Masses are scaled for rubber like latex; one that stiffens a hundredfold needs more.
         self.scene.mass.assign((inertia * self.array("mass")).astype(np.float32))
         self.stepper = Stepper(self.scene, substeps)
@@ -158,7 +154,7 @@ class Rig:
     def advance(self) -> None:
         """Advance by one frame of the rig's substeps."""
         self.hands.upload()
-        self.stepper.advance(contact=False)
+        self.stepper.advance(contact=self.touches)
         self.hands.arrived()
 
     def forces(self) -> Floats:
@@ -204,6 +200,112 @@ class Rig:
         )
 
 
+@dataclass(frozen=True)
+class Part:
+    """A body that meets others."""
+
+    mesh: Mesh
+    thickness: float
+    """m"""
+    gauge: float = 0.0
+    """Gauge pressure in its chamber, which keeps it, Pa."""
+    held: NDArray[np.intp] = field(default_factory=lambda: np.arange(0))
+    """Vertices that give way to nothing and go on as they move; a part that is held all over does not fall."""
+
+
+class Meeting(Rig):
+    """Bodies of one rubber whose walls can touch, in a scene of their own."""
+
+    touches = True
+
+    def __init__(
+        self,
+        parts: Sequence[Part],
+        rubber: Rubber,
+        settings: SceneSettings,
+        *,
+        substeps: int = SUBSTEPS,
+        inertia: float = 1.0,
+    ) -> None:
+        self.parts = tuple(parts)
+        counts = np.cumsum([0] + [len(part.mesh.points) for part in parts])
+        self.mesh = Mesh(
+            points=np.concatenate([part.mesh.points for part in parts]),
+            quads=np.concatenate([part.mesh.quads + counts[k] for k, part in enumerate(parts)]),
+            radius=parts[0].mesh.radius,
+        )
+        bodies = [
+            body_of(part.mesh, rubber, part.thickness, gauge=(part.gauge,), vented=(0,)) for part in parts
+        ]
+        self._build(bodies, settings, substeps, inertia)
+        self.vertices = [slice(first, end) for first, end in pairwise(counts)]
+        """Those of every part."""
+        mass, gravity = self.array("mass"), self.array("gravity")
+        for k, part in enumerate(parts):
+            mass[counts[k] + part.held] *= HELD
+            gravity[k] *= len(part.held) < len(part.mesh.points)
+        self.scene.mass.assign(mass.astype(np.float32))
+        self.scene.gravity.assign(gravity.astype(np.float32))
+        self.hands.touch(range(len(parts)))
+
+    def place(self, points: Floats) -> None:
+        """Put all vertices somewhere, at rest; there walls are apart, and chambers start afresh."""
+        super().place(points)
+        self.stepper._untangling.leave()
+
+    def push(self, part: int, other: int) -> Floats:
+        """Force of contact on a part by another, (3,), N, as in the last substep."""
+        whose = self.array("vertex_balloon")
+        # On a CPU the vectors of one vertex lie together.
+        force = self.array("contact_force").reshape(-1, 2, 3)
+        target = self.array("target")
+        touched = np.where(target >= 0, self.array("quad_balloon")[target], -1)
+        on = force[(whose[:, None] == part) & (touched == other)].sum(axis=0)
+        back = force[(whose[:, None] == other) & (touched == part)].sum(axis=0)
+        return on - back
+
+    def hold(self, part: int) -> Floats:
+        """Force that keeps the vertices of a part that are held where they are, (3,), N: what they would gain in
+        momentum.
+        """
+        own = self.vertices[part]
+        return -self.forces()[own][self.parts[part].held].sum(axis=0)
+
+
+def body_of(
+    mesh: Mesh,
+    rubber: Rubber,
+    thickness: float,
+    *,
+    gauge: tuple[float, ...] = (0.0,),
+    vented: tuple[int, ...] = (),
+    neck: float = 0.0,
+) -> LatexBody:
+    """A mesh of one rubber, its wall as thick as that all over (m)."""
+    wall = np.full(len(mesh.quads), thickness)
+    wall[np.flatnonzero(mesh.caps)] *= GOSSAMER
+    middles = np.array([mesh.points[f : f + n].mean(axis=0) for f, n in mesh.mesh_rings])
+    nearest = np.linalg.norm(mesh.points[:, None] - middles[None], axis=2).argmin(axis=1)
+    return LatexBody(
+        points=mesh.points.astype(np.float32),
+        rest=mesh.points.astype(np.float64),
+        quads=mesh.quads,
+        thickness=wall,
+        rubber=rubber,
+        worked=np.zeros(len(mesh.quads)),
+        radius=mesh.radius,
+        along=mesh.points[:, 0].astype(np.float32),
+        mesh_rings=mesh.mesh_rings,
+        vertex_ring=nearest.astype(np.int32),
+        rings=mesh.rings,
+        segment_ends=np.array(mesh.segment_ends or (len(mesh.quads),), dtype=np.int32),
+        gauge=np.array(gauge, dtype=np.float64),
+        vented=vented,
+        inlet=len(gauge) // 2,
+        neck_radius=neck or mesh.radius,
+    )
+
+
 def momentum_of(scene: LatexScene) -> tuple[Floats, Floats]:
     """Momentum (kg m/s) and angular momentum about the centre of mass (kg m2/s) of all there is, (3,) each."""
     mass, x, v = (scene.arrays[name].numpy().astype(np.float64) for name in ("mass", "x", "v"))
@@ -237,6 +339,12 @@ def cube_sphere(radius: float, cells: int) -> Mesh:
     grid = inverse.reshape(6, cells + 1, cells + 1).astype(np.int32)
     quads = np.concatenate([_quads(face) for face in grid])
     return Mesh(radius * every.reshape(-1, 3)[first], quads, radius)
+
+
+def turned(points: Floats, angle: float) -> Floats:
+    """Points turned about the z axis, (V, 3), m; `angle`: radians."""
+    cos, sin = math.cos(angle), math.sin(angle)
+    return points @ np.array([[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]])
 
 
 def tube(radius: float, around: int, stations: Floats, parts: tuple[int, ...] = (0, -1)) -> Mesh:
