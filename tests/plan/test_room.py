@@ -17,7 +17,7 @@ def row(kind: str, count: int, length: float, before: str = "head: 20") -> str:
     """Many bubbles of one kind in a row, which all close at one joint."""
     made = ", ".join(f"b{k}: {length}" for k in range(count))
     return (
-        "balloons: {a: {size: 260, length: 100, tail: 20}}\n"
+        "balloons: {a: {size: 260, length: 200, tail: 20}}\n"
         f"steps:\n  - bubbles: {{{before}}}\n  - {kind}: {{{made}}}\n"
     )
 
@@ -39,7 +39,7 @@ def crowds(figure: Plan) -> list[str]:
 
 @pytest.mark.parametrize(
     ("kind", "count", "length"),
-    [("loop", 8, 22), ("loop", 12, 22), ("fold", 12, 20), ("loop", 6, 8), ("ear", 3, 3), ("ear", 3, 4)],
+    [("loop", 12, 22), ("loop", 26, 22), ("fold", 12, 20), ("loop", 7, 8), ("ear", 3, 3), ("ear", 3, 4)],
 )
 def test_flowers_of_many_petals_and_a_few_ears_are_everyday(planned, kind, count, length):
     assert crowds(planned(row(kind, count, length))) == []
@@ -57,7 +57,7 @@ def test_a_crowd_of_short_ones_is_told_with_how_many_have_room(planned, kind, co
     assert crowds(planned(row(kind, int(found[1]), length))) == []
 
 
-@pytest.mark.parametrize(("kind", "count", "length"), [("ear", 20, 3), ("ear", 30, 2), ("loop", 25, 6)])
+@pytest.mark.parametrize(("kind", "count", "length"), [("ear", 14, 3), ("ear", 30, 2), ("loop", 27, 8)])
 def test_more_than_ever_have_room_are_refused_with_how_many_have(planned, kind, count, length):
     told = rf"figure\.yaml:7:5: steps\[1\]: {count} bubbles of at most {length} cm would meet in one joint, "
     with pytest.raises(RecipeError, match=told) as refused:
