@@ -131,8 +131,11 @@ def _mirror(axis: Floats) -> Floats:
 def _lies_in(one: _Link, other: _Link) -> bool:
     """Whether much of the shorter of two bubbles lies in the other one, nearer than along the row."""
     short, long = sorted((one, other), key=lambda link: link.bubble.length)
-    apart = np.linalg.norm(short.middle[:, None] - long.middle, axis=2)
-    straight = np.abs(short.along[:, None] - long.along)
+    begin, side = long.middle[:-1], np.diff(long.middle, axis=0)
+    squares = np.maximum(np.einsum("sx,sx->s", side, side), 1e-24)
+    share = np.clip(np.einsum("ksx,sx->ks", short.middle[:, None] - begin, side) / squares, 0.0, 1.0)
+    apart = np.linalg.norm(short.middle[:, None] - begin - share[:, :, None] * side, axis=2)
+    straight = np.abs(short.along[:, None] - long.along[:-1] - share * np.diff(long.along))
     inside = apart < np.minimum(INSIDE * 0.5 * (one.width + other.width), 0.5 * straight)
     return bool(inside.any(axis=1).mean() > MUCH)
 
