@@ -2,26 +2,33 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from pydantic import Field
 
+from balloon_usd.language.lengths import at_least, cm
 from balloon_usd.language.names import Name
 from balloon_usd.language.quantities import Angle, angle_entry
+from balloon_usd.operations.caution import Caution
+from balloon_usd.operations.closing import LENIENCE, ROUND
+from balloon_usd.operations.loop import SHORTEST
 from balloon_usd.operations.modifiers import OnBalloon, Pointed, Timed
 from balloon_usd.operations.moves import POINTS
 from balloon_usd.operations.moves import Bend as BendMove
 from balloon_usd.operations.operation import Operation
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator, Mapping
 
     from balloon_usd.language.quantities import Units
-    from balloon_usd.operations.score import Score
+    from balloon_usd.operations.score import Layout, Score
     from balloon_usd.operations.workbench import Place, Workbench
 
 BEND_SECONDS = 0.9
 """Bending one bubble, s."""
+ROUND_OFF = 1e-6
+"""Degrees by which an angle in radians may miss a whole number."""
 
 
 class Bend(OnBalloon, Pointed, Timed, Operation):
@@ -77,6 +84,30 @@ steps:
         for name in cls.uses(value):
             bench.find_whole(name, place, (*place.path, cls.word, name))
 
+    def refusals(self, layout: Layout) -> Iterator[tuple[tuple[str, ...], str]]:
+        """Yield bends that take more turns than a bubble has length for."""
+        for name, angle in self.bend.items():
+            bubble = layout.bubble(name)
+            most = math.tau * bubble.length / (ROUND * bubble.width)
+            least = ROUND * bubble.width * angle / math.tau
+            if bubble.length < least - LENIENCE:
+                text = f"{_degrees(angle)} are too tight for {cm(bubble.length)} of a {bubble.size}"
+                text += f", which is {cm(bubble.width)} wide, expected at most {_degrees(most)}"
+                yield (self.word, name), f"{text}, or a bubble of at least {at_least(least)}"
+
+    def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:
+        """Warn of bends that crease: they are as tight as a loop that is too short."""
+        for name, angle in self.bend.items():
+            bubble = layout.bubble(name)
+            least = SHORTEST * bubble.width * angle / math.tau
+            if bubble.length < least:
+                yield Caution(
+                    index,
+                    f"{name} ({cm(bubble.length)}) is too short to be bent by {_degrees(angle)}",
+                    f"a {bubble.size} is {cm(bubble.width)} wide, so its inner side creases",
+                    f"make it {at_least(least)} or longer, or bend it less",
+                )
+
     def perform(self, score: Score, index: int) -> None:
         """Lead each bubble onto an arc."""
         point = POINTS[self.point or "up"]
@@ -88,3 +119,8 @@ steps:
             seconds = BEND_SECONDS / score.pace.leading
             score.add(BendMove(score.now, seconds, index, f"bend: {bubble}", rings, angle, point, flat))
             score.let_go(index)
+
+
+def _degrees(angle: float) -> str:
+    """Return an angle (rad) in whole degrees, rounded down: `90 degrees`."""
+    return f"{math.floor(math.degrees(angle) + ROUND_OFF)} degrees"

@@ -14,6 +14,7 @@ class Ear(TwistsClosed):
     word: ClassVar[str] = "ear"
     bubble_kind: ClassVar[BubbleKind | None] = "ear"
     pulled: ClassVar[float] = 0.9
+    of_balls: ClassVar[bool] = True
     gas: ClassVar[float] = 0.85
     example: ClassVar[str] = """\
 format: 1

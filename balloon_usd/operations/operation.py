@@ -102,6 +102,10 @@ class Operation(Entries):
     def check(cls, value: object, place: Place, bench: Workbench) -> None:
         """Complain of what makes no sense, and do the rest, as far as the value can be read."""
 
+    def refusals(self, layout: Layout) -> Iterator[tuple[tuple[str, ...], str]]:
+        """Yield what no hands can do: the keys of this step at which it stands, and why not."""
+        yield from ()
+
     def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:
         """Yield what a maker would warn of in a step of this index."""
         yield from ()

@@ -10,7 +10,10 @@ from balloon_usd.balloon.bubble_shape import smallest_ball, softest_ball
 from balloon_usd.language.lengths import at_least, at_most, cm
 from balloon_usd.operations.caution import Caution
 from balloon_usd.operations.modifiers import HOLDING_TURNS, Turned
+from balloon_usd.plan.bent_chains import bends_onto_others
+from balloon_usd.plan.long_sides import long_sides
 from balloon_usd.plan.open_tube import MILLIMETRE, roomy_share, shortened, softened, tail_range
+from balloon_usd.plan.room import room_cautions
 from balloon_usd.plan.wall_load import wall_loads
 
 if TYPE_CHECKING:
@@ -44,6 +47,9 @@ def cautions_of(
         chain.from_iterable(step.cautions(index, layout) for index, step in enumerate(recipe.steps)),
         chain.from_iterable(_tail(recipe, strips[name], budget) for name, budget in budgets.items()),
         _of_latex(recipe, strips, graph, budgets) if recipe.physics.traits.winds else (),
+        room_cautions(recipe, strips),
+        long_sides(strips, graph),
+        bends_onto_others(recipe, strips, graph),
         _loose_pieces(recipe, strips, graph),
         _bulging(strips),
     )

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 from balloon_usd.language.problem import RecipeError
 from balloon_usd.plan.choreography import choreograph, pace_problems
+from balloon_usd.plan.fit import fit_problems
+from balloon_usd.plan.laid_out import LaidOut
 from balloon_usd.plan.laying import lay_strips
 from balloon_usd.plan.model import Plan
 from balloon_usd.plan.rings import RingTable
@@ -31,7 +33,11 @@ def plan(recipe: Recipe) -> Plan:
     except RecipeError as error:
         raise RecipeError([*problems, *error.problems]) from None
     table = RingTable(strips)
-    choreography = choreograph(recipe, strips, table)
+    problems += fit_problems(recipe, strips, LaidOut(strips, table))
+    try:
+        choreography = choreograph(recipe, strips, table)
+    except RecipeError as error:
+        raise RecipeError([*problems, *error.problems]) from None
     problems += pace_problems(recipe, choreography)
     problems += weld_problems(recipe)
     if problems:

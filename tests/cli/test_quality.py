@@ -66,6 +66,7 @@ def test_the_stage_carries_its_crossings_and_the_report_those_of_every_frame_cou
     found = records()[0]["summary"]["quality"]["crossings"]
     assert found["value"] > 20
     assert facts["crossings"] == found["value"] == rows["count"][-1]
+    assert f", {found['value']} crossings (" in result.stdout
     assert found["most"] == max(rows["count"])
     assert rows["time_code"][rows["count"].index(found["most"])] == found["most_at"]
 

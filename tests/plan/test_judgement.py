@@ -67,7 +67,7 @@ def test_running_out_of_tail_is_named_at_its_step(planned):
 
 
 def test_a_remaining_stub_blown_too_hard_may_burst(planned):
-    loops = ", ".join(f"l{at}: 6" for at in range(21))
+    loops = ", ".join(f"l{at}: 8" for at in range(16))
     figure = planned(f"balloons: {{a: {{size: 260, tail: 0}}}}\nsteps: [{{loop: {{{loops}}}}}]")
     assert any("may burst" in what for what in whats(figure))
     assert figure.budgets["a"].twists[-1].hoop_stretch > 7.0

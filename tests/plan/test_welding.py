@@ -7,8 +7,8 @@ from balloon_usd.recipe import Recipe, RecipeError
 
 
 def chain(steps: str, bubbles: int = 34) -> str:
-    lengths = ", ".join(f"b{number}: 2.5" for number in range(bubbles))
-    head = "format: 1\nname: chain\nunits: cm\nballoons: {main: {size: 260, color: red, tail: 8}}\n"
+    lengths = ", ".join(f"b{number}: 12" for number in range(bubbles))
+    head = "format: 1\nname: chain\nunits: cm\nballoons: {main: {size: 260, length: 130, tail: 20}}\n"
     return f"{head}steps:\n  - bubbles: {{{lengths}}}\n{steps}"
 
 
