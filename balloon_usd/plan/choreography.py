@@ -39,10 +39,8 @@ POSING: dict[str, tuple[str, str]] = {
 }
 """What hands do to pose a figure, and what it does then."""
 
-LOOSEN_SECONDS = 2.0
-"""Time in which hands let go of a finished figure, s: at once, and it would jump; in 1.2 s creases of some do
-not come to rest.
-"""
+LOOSEN_SECONDS = 1.2
+"""Time in which hands let go of a finished figure, s: at once, and it would jump."""
 FEWEST_FRAMES = 6
 """Frames in which a balloon can be blown up: the pump's flow changes from frame to frame."""
 ROUNDING = 1e-9
