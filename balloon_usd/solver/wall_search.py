@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from balloon_usd.solver.kernels.device.warp_reduce import WARP
 from balloon_usd.solver.kernels.physics.facing_walls import find_own_walls, find_walls, order_hits
-from balloon_usd.solver.kernels.physics.surface import chunk_surface, ring_radii
+from balloon_usd.solver.kernels.physics.surface import GROUP, chunk_surface, group_chunks, ring_radii
 
 if TYPE_CHECKING:
     from balloon_usd.solver.launch import Launcher
@@ -20,12 +20,16 @@ class WallSearch:
         launcher.values["touch"] = launcher.scene.touch
         # One block size for all: each size is a separate compilation.
         launcher.launch(find_own_walls, len(launcher.scene.x), lanes=WARP)
+        self._grouped = launcher.lanes(WARP) == 1
+        """Whether groups of chunks are tested first: a warp of a GPU tests 32 chunks at once."""
         launcher.load(chunk_surface, ring_radii, find_walls, order_hits, lanes=WARP)
 
     def measure_quads(self) -> None:
         """Measure the quads where they are."""
         chunks = len(self._launcher.scene.chunk_low)
         self._launcher.launch_tiled(chunk_surface, chunks, lanes=WARP)
+        if self._grouped:
+            self._launcher.launch(group_chunks, -(-chunks // GROUP), lanes=WARP)
 
     def find(self) -> None:
         """Find the walls that face each other, once the quads are measured."""

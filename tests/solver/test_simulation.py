@@ -34,8 +34,8 @@ def short(name="short", head=6, tail=3, kind="bubbles", physics="{hold: 0.2}", l
 
 
 def bursting():
-    """A loop that takes most of a balloon without tail."""
-    return short("bursting", head=12, tail=0, kind="loop", physics="{hold: 0.2, burst: stop}", length=6)
+    """A loop that takes more than half of a balloon without tail."""
+    return short("bursting", head=11, tail=0, kind="loop", physics="{hold: 0.2, burst: stop}", length=4.5)
 
 
 def last_frames(plans, device="cpu"):
@@ -117,7 +117,7 @@ def test_a_burst_stops_the_run_when_the_recipe_says_so():
 
 
 def test_a_loop_that_the_plan_calls_safe_does_not_burst_though_its_crease_is_stretched_beyond_seven():
-    figure = short(head=9, kind="loop", physics="{hold: 0.2, burst: stop}")
+    figure = short(head=10, kind="loop", physics="{hold: 0.2, burst: stop}")
     assert not any("burst" in caution.what for caution in figure.cautions)
     summary, _ = summarised(figure)
     assert summary.highest_stretch > BURST_STRETCH

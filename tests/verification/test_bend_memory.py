@@ -12,6 +12,7 @@ from balloon_usd.plan import plan
 from balloon_usd.recipe import Recipe
 from balloon_usd.solver.latex.memory import BEND_SET
 from balloon_usd.solver.simulation import simulate_many
+from tests.verification.free_fingers import free_fingers
 
 BENT = """
 format: 1
@@ -46,8 +47,9 @@ def bent(angle):
     made = plan(Recipe.parse(BENT.replace("ANGLE", str(angle))))
     simulation = simulate_many([made], detail="draft", device="cpu")
     angles = {"bend": [], "wait": []}
-    for (frame,) in simulation.frames():
-        angles.setdefault(frame.doing.partition(":")[0], []).append(angle_of(simulation, frame))
+    with free_fingers():
+        for (frame,) in simulation.frames():
+            angles.setdefault(frame.doing.partition(":")[0], []).append(angle_of(simulation, frame))
     return angles["bend"][-1], angles["wait"][-1], angles["wait"][-25]
 
 

@@ -167,6 +167,10 @@ class Contacts:
         "chunks", unit="m", meaning="lowest coordinates of what its quads reach"
     )
     chunk_high: wp.array[wp.vec3] = array("chunks", unit="m", meaning="highest coordinates of that")
+    group_low: wp.array[wp.vec3] = array(
+        "chunks", unit="m", meaning="lowest coordinates of what 16 chunks reach, by their group; on a CPU"
+    )
+    group_high: wp.array[wp.vec3] = array("chunks", unit="m", meaning="highest coordinates of that")
     ring_radius: wp.array[float] = array("rings", unit="m", meaning="girth over 2 pi")
     vertex_own: wp.array[wp.vec2i] = array("vertices", meaning="run of quads about it that it never touches")
     target: wp.array2d[int] = array("vertices", TARGETS, meaning="quads that it may touch; -1 for none")

@@ -19,7 +19,7 @@ from balloon_usd.solver.kernels.device.warp_reduce import lowest_bit, warp_ballo
 from balloon_usd.solver.kernels.physics.meeting import INSIDE, Seeker, may_meet, opposite, seeker_of
 from balloon_usd.solver.kernels.physics.motion import LYING, SLOW
 from balloon_usd.solver.kernels.physics.patch import SIDE_SLIP, nearest_on_patch, patch_shares
-from balloon_usd.solver.kernels.physics.surface import FAR, surface_of_vertex, velocity_of_spin
+from balloon_usd.solver.kernels.physics.surface import FAR, GROUP, surface_of_vertex, velocity_of_spin
 
 FACING = wp.constant(-0.1)
 """Walls face each other when the dot product of their outward normals is below this."""
@@ -171,6 +171,17 @@ def chunk_in_box(chunk: int, low: wp.vec3, high: wp.vec3, own: wp.vec2i, mesh: M
 
 
 @wp.func
+def begins_far_group(chunk: int, low: wp.vec3, high: wp.vec3, contacts: Contacts):
+    """Return whether a group of chunks begins with this one and reaches nowhere into a box (m)."""
+    far = bool(False)
+    group = chunk // GROUP
+    if chunk == GROUP * group:
+        beyond = wp.max(vec3_at(contacts.group_low, group) - high, low - vec3_at(contacts.group_high, group))
+        far = wp.max(beyond) > 0.0
+    return far
+
+
+@wp.func
 def close_quads_of_chunk(chunk: int, own: wp.vec2i, seeker: Seeker, mesh: Mesh, contacts: Contacts):
     """Return the bits of those quads of a chunk that are within a vertex's reach, but for a run of its own
     ones.
@@ -294,9 +305,12 @@ def find_walls(
     begin = -warp_max(-first)
     end = warp_max(last)
     while begin < end:
-        # Broad phase: every lane tests one chunk.
+        # Broad phase: every lane tests one chunk; a CPU, of one lane, first a group (10,500 vertices: 9.0 -> 3.2 ms).
         found = int(0)
-        if begin + lane < end:
+        step = int(wp.block_dim())
+        if wp.block_dim() == 1 and begins_far_group(begin, low, high, contacts):
+            step = GROUP
+        elif begin + lane < end:
             found = chunk_in_box(begin + lane, low, high, own_of_all, mesh, contacts)
         chunks = warp_ballot(found)
         while chunks != 0:
@@ -312,7 +326,7 @@ def find_walls(
                     q = base + lowest_bit(close)
                     near, nearest = weigh_wall(q, near, nearest, seeker, touch, mesh, contacts, state)
                     close &= close - 1
-        begin += wp.block_dim()
+        begin += step
     before = wp.vec2i(int_in(contacts.target, i, 0), int_in(contacts.target, i, 1))
     if touching == LYING:
         nearest = before

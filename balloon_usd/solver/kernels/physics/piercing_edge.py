@@ -4,7 +4,7 @@ import warp as wp
 
 from balloon_usd.solver.kernels.arrays.latex import Crossings
 from balloon_usd.solver.kernels.arrays.shared import Contacts, Mesh
-from balloon_usd.solver.kernels.device.array_access import int_at, vec3_at
+from balloon_usd.solver.kernels.device.array_access import float_at, int_at, vec3_at
 
 FLATTEST = wp.constant(0.1)
 """Least sine of the angle between an edge and a wall that it pierces: a flatter one is led as if it had this,
@@ -156,7 +156,9 @@ def add_motion(i: int, motion: wp.vec3, crossings: Crossings):
 
 
 @wp.func
-def share_motion(ends: wp.vec3i, other: wp.vec3i, world: int, contacts: Contacts, crossings: Crossings):
+def share_motion(
+    ends: wp.vec3i, other: wp.vec3i, world: int, mesh: Mesh, contacts: Contacts, crossings: Crossings
+):
     """Count an edge that pierces a triangle, and let both move as one, first only along the normal of where
     they would touch; where one crossed before already they are only counted apart.
     """
@@ -167,9 +169,15 @@ def share_motion(ends: wp.vec3i, other: wp.vec3i, world: int, contacts: Contacts
         wp.atomic_add(crossings.crossed_count, world, 1)
         return
     wp.atomic_add(crossings.pierced_count, world, 1)
-    edge = 0.5 * (moved(ends[0], crossings) + moved(ends[1], crossings))
-    face = moved(other[0], crossings) + moved(other[1], crossings) + moved(other[2], crossings)
-    mean = 0.5 * edge + face / 6.0
+    # The mean of their momenta: else walls that are kept apart turn about each other by themselves.
+    mass = float(0.0)
+    mean = wp.vec3(0.0)
+    for k in range(5):
+        i = wp.where(k < 2, ends[k % 2], other[wp.max(k - 2, 0)])
+        m = float_at(mesh.mass, i)
+        mass += m
+        mean += m * moved(i, crossings)
+    mean /= mass
     slides = int_at(crossings.untangling_round, world) < SLIDING_ROUNDS
     normal = wp.vec3(0.0)
     if slides:
@@ -263,7 +271,7 @@ def answer_edge(
         if beside_face(share, on_face) > nearest_allowed(ends, other, together, world, crossings):
             return
     if together == 1:
-        share_motion(ends, other, world, contacts, crossings)
+        share_motion(ends, other, world, mesh, contacts, crossings)
         return
     wp.atomic_add(crossings.pierced_count, world, 1)
     across = wp.cross(b - a, c - a)

@@ -8,6 +8,8 @@ from balloon_usd.solver.kernels.device.array_access import int_at, vec3_at, vec4
 from balloon_usd.solver.kernels.device.warp_reduce import warp_max3, warp_sum
 from balloon_usd.solver.kernels.physics.patch import SIDE_SLIP
 
+GROUP = wp.constant(16)
+"""Chunks to a group, whose bounding box a CPU tests before theirs."""
 FAR = wp.constant(1.0e6)
 """Farther than any wall, m."""
 
@@ -74,6 +76,19 @@ def chunk_surface(
     if lane == 0:
         contacts.chunk_low[chunk] = low
         contacts.chunk_high[chunk] = high
+
+
+@wp.kernel
+def group_chunks(contacts: Contacts):
+    """Write the bounding box (m) of what every group of chunks reaches."""
+    group = wp.tid()
+    high = wp.vec3(-FAR)
+    low = wp.vec3(FAR)
+    for chunk in range(GROUP * group, wp.min(GROUP * (group + 1), contacts.chunk_low.shape[0])):
+        high = wp.max(high, contacts.chunk_high[chunk])
+        low = wp.min(low, contacts.chunk_low[chunk])
+    contacts.group_low[group] = low
+    contacts.group_high[group] = high
 
 
 @wp.func

@@ -24,10 +24,6 @@ PRESSED = 1.0
 """Share of what a bubble then has too much or too little that fingers press out or in: what is left of 1 % in
 each of five bubbles of 19 cm takes three quarters of the gas of a last one of 3 cm.
 """
-MOST_PRESSED = 0.2
-"""Gas that fingers press out of a bubble where no flat tail is left, in what it is to keep. More is in it where
-the lengths of a taut balloon differ from the plan, and is divided by pressure.
-"""
 
 
 class Pinch(Motion):
@@ -51,9 +47,6 @@ class Pinch(Motion):
         strip, name = sculpture.strip_of(move.ring), sculpture.plan.table.rings[move.ring].bubble
         bubble = next(b for b in strip.bubbles if b.name == name)
         self._wanted, self._shared = amount_of(sculpture, bubble), 0.0
-        left = {twist.bubble: twist.tail_left for twist in sculpture.plan.budgets[strip.balloon].twists}
-        self._most_over = math.inf if left.get(name, 0.0) > 0.0 else MOST_PRESSED * self._wanted
-        """Gas that fingers press out of the bubble at most, mol."""
 
     def advance(self, share: float) -> None:
         """Close the neck by a share, at once to gas that has to stay; once it is shut, press gas through it
@@ -68,8 +61,7 @@ class Pinch(Motion):
 
     def _press_gas(self, share: float) -> None:
         over = self._hands.amount_before(self._joint) - self._wanted
-        shut = share > SHUT and over < self._most_over
-        if shut or over < (LEAST_KEPT - 1.0) * self._wanted:
+        if share > SHUT or over < (LEAST_KEPT - 1.0) * self._wanted:
             self._open = 0.0
             self._hands.passage[self._joint] = 0.0
         if self._open == 0.0:
