@@ -5,11 +5,13 @@ from __future__ import annotations
 from itertools import combinations, islice
 from pathlib import Path
 
+import networkx as nx
 import numpy as np
 import pytest
 
 from balloon_usd.operations.moves import Bring
 from balloon_usd.plan import plan
+from balloon_usd.plan.nets import embed
 from balloon_usd.recipe import Recipe
 from balloon_usd.solver.simulation import simulate_many
 from tests.sculptures.conftest import middles
@@ -35,13 +37,26 @@ steps:
 """A net to whose far side the second balloon is brought by its knot."""
 
 
+CROWD = Path(__file__).parents[1] / "crowd" / "recipes"
+SOLIDS = [
+    (BOOK / "tetrahedron_2.yaml", nx.tetrahedral_graph, 0.3, 0.12),
+    (BOOK / "octahedron.yaml", nx.octahedral_graph, 0.1, 0.12),
+    (BOOK / "cube_4.yaml", nx.cubical_graph, 0.3, 0.15),
+    (CROWD / "icosahedron_6.yaml", nx.icosahedral_graph, 0.15, 0.15),
+]
+
+
+def distances(corners):
+    """All distances between corners, (N, 3), m, the shortest first."""
+    return np.sort([np.linalg.norm(one - other) for one, other in combinations(corners, 2)])
+
+
 @pytest.mark.long
 @pytest.mark.parametrize(
-    ("name", "edge", "edges", "across"),
-    [("tetrahedron_2", 0.3, 6, 0.0), ("octahedron", 0.1, 12, 0.1 * 2**0.5)],
+    ("path", "graph", "edge", "off"), SOLIDS, ids=lambda value: getattr(value, "stem", "")
 )
-def test_the_joints_of_a_finished_net_lie_as_the_corners_of_its_solid(name, edge, edges, across):
-    planned = plan(Recipe.load(BOOK / f"{name}.yaml"))
+def test_the_joints_of_a_finished_net_lie_as_the_corners_of_its_solid(path, graph, edge, off):
+    planned = plan(Recipe.load(path))
     simulation = simulate_many([planned], detail="draft", device="cpu")
     *_, last = simulation.frames()
     at = middles(simulation, last[0])
@@ -50,9 +65,9 @@ def test_the_joints_of_a_finished_net_lie_as_the_corners_of_its_solid(name, edge
         for joint in planned.graph.joints
         if joint.merged
     ]
-    far = sorted(float(np.linalg.norm(one - other)) for one, other in combinations(corners, 2))
-    assert far[:edges] == pytest.approx([edge] * edges, rel=0.12)
-    assert far[edges:] == pytest.approx([across] * (len(far) - edges), rel=0.12)
+    sides = np.array(sorted(graph().edges))
+    solid = embed(sides, np.full(len(sides), edge))
+    assert distances(corners) == pytest.approx(distances(solid), rel=off)
 
 
 def test_what_is_left_of_a_balloon_stays_straight_while_its_knot_is_brought_to_a_net():

@@ -8,6 +8,7 @@ import pytest
 from balloon_usd.solver.kernels.physics.facing_walls import DEPTH_LIMIT, FACING
 from balloon_usd.solver.kernels.physics.meeting import INSIDE, OPPOSITE
 from balloon_usd.solver.kernels.physics.patch import SIDE_SLIP
+from balloon_usd.solver.kernels.physics.surface import GROUP
 from balloon_usd.solver.simulation import simulate_many
 from tests.solver.locked_pair import locked_pair
 
@@ -144,3 +145,13 @@ def test_the_inside_of_a_tube_that_is_pressed_flat_is_pressed_apart():
     pressed = np.abs(force[:, 1]) > 1e-3
     assert pressed.sum() > 50
     assert (force[pressed, 1] * x[pressed, 1] > 0.0).mean() > 0.95
+
+
+def test_the_box_of_a_group_of_chunks_is_about_all_that_they_reach(model):
+    found = searched(model, model.scene.v.numpy())
+    chunks, groups = len(found["chunk_low"]), range(0, len(found["chunk_low"]), GROUP)
+    assert len(groups) > 1
+    for group, first in enumerate(groups):
+        own = slice(first, min(first + GROUP, chunks))
+        assert np.array_equal(found["group_low"][group], found["chunk_low"][own].min(axis=0))
+        assert np.array_equal(found["group_high"][group], found["chunk_high"][own].max(axis=0))

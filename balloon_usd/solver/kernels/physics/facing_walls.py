@@ -305,8 +305,8 @@ def find_walls(
     begin = -warp_max(-first)
     end = warp_max(last)
     while begin < end:
-        # Broad phase: every lane tests one chunk. A CPU, of one lane, tests groups first (10,500 vertices: 9.0 ->
-        # 3.2 ms).
+        # Broad phase: every lane tests one chunk. A CPU, of one lane, tests groups first (10,500 vertices:
+        # 9.0 -> 3.2 ms).
         found = int(0)
         step = int(wp.block_dim())
         if wp.block_dim() == 1 and begins_far_group(begin, low, high, contacts):
