@@ -207,11 +207,20 @@ def close_quads_of_chunk(chunk: int, own: wp.vec2i, seeker: Seeker, mesh: Mesh, 
 
 @wp.func
 def enter_walls(
-    i: int, p: wp.vec3, found: wp.vec2i, before: wp.vec2i, mesh: Mesh, contacts: Contacts, state: State
+    i: int,
+    p: wp.vec3,
+    found: wp.vec2i,
+    before: wp.vec2i,
+    world: int,
+    sculptures: Sculptures,
+    mesh: Mesh,
+    contacts: Contacts,
+    state: State,
 ):
-    """Enter the walls that a vertex was found to touch in their lists, with what it has slipped on those that
-    it touched before.
+    """Enter the walls that a vertex was found to touch in their lists and in that of its sculpture, with what
+    it has slipped on those that it touched before.
     """
+    listed = 2 * sculptures.world_vertex[world]
     slip0 = contacts.slip[i, 0]
     slip1 = contacts.slip[i, 1]
     for k in range(2):
@@ -226,6 +235,7 @@ def enter_walls(
                 state.x[c[0]], state.x[c[1]], state.x[c[2]], state.x[c[3]], p
             )
             contacts.hit_before[2 * i + k] = wp.atomic_exch(contacts.hit_last, found[k], 2 * i + k)
+            contacts.pairs[listed + wp.atomic_add(contacts.pair_count, world, 1)] = 2 * i + k
         else:
             store_soa(contacts.contact_force, i, k, wp.vec3(0.0))
         contacts.target[i, k] = found[k]
@@ -334,12 +344,7 @@ def find_walls(
     # Most vertices touch nothing, and did not before.
     if spare or (nearest[0] < 0 and before[0] < 0 and before[1] < 0):
         return
-    enter_walls(i, seeker.position, nearest, before, mesh, contacts, state)
-    for k in range(2):
-        if nearest[k] >= 0:
-            contacts.pairs[
-                2 * sculptures.world_vertex[world] + wp.atomic_add(contacts.pair_count, world, 1)
-            ] = 2 * i + k
+    enter_walls(i, seeker.position, nearest, before, world, sculptures, mesh, contacts, state)
 
 
 @wp.kernel
