@@ -17,8 +17,8 @@ LEADING_SPEED = 0.024
 """Speed at which walls are led out of others while hands work, m/s: 1 mm a frame at 24 frames/s."""
 SLOW = wp.constant(1.0)
 """Largest speed of a wall that would have crossed another while hands work, m/s: then contact finds it before
-the next search. With 0.3 m/s necks stay shut that should open, with 4 m/s creases of a flower are stretched
-until they burst. Once hands loosen their grip nothing is slowed: walls that cannot move stir the rest for ever.
+the next search. With 0.3 m/s necks stay shut that should open, with 4 m/s creases are stretched until they
+burst. Once hands loosen their grip nothing is slowed: walls that cannot move stir the rest for ever.
 """
 
 
