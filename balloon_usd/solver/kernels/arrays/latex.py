@@ -135,7 +135,6 @@ class Crossings:
         "segments", unit="m", meaning="how far its wall was led out of others in this frame, at most"
     )
     quad_radius: wp.array[float] = array("quads", unit="m", meaning="from its middle to its farthest corner")
-    quad_bent: wp.array[int] = array("quads", meaning="1 where it is bent about its diagonal")
     restless: wp.array[int] = array("vertices", meaning="1 where it moved in the last round or would cross")
     quad_restless: wp.array[int] = array("quads", meaning="1 where one of its corners is restless")
     chunk_restless: wp.array[int] = array("chunks", meaning="1 where one of its quads is restless")

@@ -47,12 +47,6 @@ def is_corner(i: int, quad: wp.vec4i):
 
 
 @wp.func
-def share_corner(c: wp.vec4i, d: wp.vec4i):
-    """Return whether two quads have a vertex in common."""
-    return is_corner(c[0], d) or is_corner(c[1], d) or is_corner(c[2], d) or is_corner(c[3], d)
-
-
-@wp.func
 def lead_back(i: int, share: float, way: wp.vec3, crossings: Crossings):
     """Add to the way of a vertex, by its share in what is led."""
     whole = wp.vec4i(0)

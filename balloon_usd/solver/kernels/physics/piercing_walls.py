@@ -12,14 +12,8 @@ from balloon_usd.solver.kernels.physics.piercing_edge import (
     goes_through,
     is_corner,
     neck_at,
-    share_corner,
 )
 from balloon_usd.solver.kernels.physics.surface import FAR
-
-BENT = wp.constant(0.97)
-"""Cosine between the normals of a quad's halves below which its diagonal may pierce what is beside it."""
-FOLDED = wp.constant(0.85)
-"""Cosine between the normals of two quads at a corner below which they may pierce each other."""
 
 
 @wp.func
@@ -49,17 +43,22 @@ def edges_through(
     `c`, `d`: corners of both; `p0` to `p3`: those of the first, `a`, `b`, `e`: those of the triangle, m.
     """
     bits = int(0)
+    # An edge that ends at a corner of the other quad pierces nothing.
+    free0 = not is_corner(c[0], d)
+    free1 = not is_corner(c[1], d)
+    free2 = not is_corner(c[2], d)
+    free3 = not is_corner(c[3], d)
     across = wp.cross(b - a, e - a)
     h0 = wp.dot(across, p0 - a)
     h1 = wp.dot(across, p1 - a)
     h2 = wp.dot(across, p2 - a)
     h3 = wp.dot(across, p3 - a)
-    if not beyond(h0, h1, h2, h3):
-        # An edge that ends at a corner of the other quad pierces nothing.
-        free0 = not is_corner(c[0], d)
-        free1 = not is_corner(c[1], d)
-        free2 = not is_corner(c[2], d)
-        free3 = not is_corner(c[3], d)
+    # So neighbours are soon told apart, without a look at how they are folded.
+    one = wp.where(free0, h0, wp.where(free1, h1, wp.where(free2, h2, h3)))
+    other0 = wp.where(free0, h0, one)
+    other1 = wp.where(free1, h1, one)
+    other2 = wp.where(free2, h2, one)
+    if not beyond(other0, other1, other2, wp.where(free3, h3, one)):
         if free0 and free1 and goes_through(p0, p1, h0, h1, a, b, e, across):
             bits |= 1
         if free1 and free2 and goes_through(p1, p2, h1, h2, a, b, e, across):
@@ -151,30 +150,6 @@ def near_quads(q: int, other: int, mesh: Mesh, contacts: Contacts, crossings: Cr
 
 
 @wp.func
-def may_pierce(
-    q: int,
-    r: int,
-    c: wp.vec4i,
-    d: wp.vec4i,
-    neck: int,
-    quad_bent: wp.array[int],
-    quad_area: wp.array[wp.vec3],
-):
-    """Return whether edges of quad q may pierce quad r: neighbours do only where the wall is folded over,
-    or one of them is.
-
-    `c`, `d`: their corners; `neck`: that in which both lie, -1 for none.
-    """
-    if neck >= 0:
-        return False
-    if not share_corner(c, d) or int_at(quad_bent, q) + int_at(quad_bent, r) > 0:
-        return True
-    own = vec3_at(quad_area, q)
-    beside = vec3_at(quad_area, r)
-    return wp.dot(own, beside) < FOLDED * wp.sqrt(wp.dot(own, own) * wp.dot(beside, beside))
-
-
-@wp.func
 def answer_chunk(
     q: int,
     other: int,
@@ -194,7 +169,7 @@ def answer_chunk(
         close &= close - 1
         d = vec4i_at(mesh.quads, r)
         neck = neck_at(int_at(mesh.quad_neck, r), crossings.joint_meant)
-        if may_pierce(q, r, c, d, wp.where(neck == own, neck, -1), crossings.quad_bent, contacts.quad_area):
+        if neck < 0 or neck != own:
             answer_quad(c, d, neck, together, world, mesh, contacts, crossings, crossings.x_apart)
 
 
@@ -218,8 +193,8 @@ def find_restless(chunk: int, lane: int, mesh: Mesh, crossings: Crossings):
 
 @wp.kernel
 def box_walls(mesh: Mesh, contacts: Contacts, crossings: Crossings):
-    """Write the middle (m), the vector area (m2) and the radius (m) of every quad and whether it is bent, and
-    the box (m) about the quads of every chunk, where any is restless; a warp of lanes each on a GPU.
+    """Write the middle (m) and the radius (m) of every quad, and the box (m) about the quads of every chunk,
+    where any is restless; a warp of lanes each on a GPU.
     """
     chunk, lane = wp.tid()
     if chunk == 0 and lane == 0:
@@ -238,14 +213,10 @@ def box_walls(mesh: Mesh, contacts: Contacts, crossings: Crossings):
         x3 = crossings.x_apart[c[3]]
         middle = 0.25 * (x0 + x1 + x2 + x3)
         contacts.quad_middle[q] = middle
-        contacts.quad_area[q] = 0.5 * wp.cross(x2 - x0, x3 - x1)
         crossings.quad_radius[q] = wp.max(
             wp.max(wp.length(x0 - middle), wp.length(x1 - middle)),
             wp.max(wp.length(x2 - middle), wp.length(x3 - middle)),
         )
-        one = wp.normalize(wp.cross(x1 - x0, x2 - x0))
-        other = wp.normalize(wp.cross(x2 - x0, x3 - x0))
-        crossings.quad_bent[q] = wp.where(wp.dot(one, other) < BENT, 1, 0)
         high = wp.max(high, wp.max(wp.max(x0, x1), wp.max(x2, x3)))
         low = wp.min(low, wp.min(wp.min(x0, x1), wp.min(x2, x3)))
     high = warp_max3(high)

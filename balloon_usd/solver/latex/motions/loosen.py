@@ -19,7 +19,7 @@ DECAYS = 8.0
 """How often the force of the hands decays by a factor of e until it is faded: what they hold in the end takes
 a thousandth of a newton to some newtons.
 """
-FADED = 0.5
+FADED = 0.45
 """Share of the time after which it is faded. Then creases that it held go where they stay alone."""
 BRAKED = 0.7
 """Share of the time from which on what still moves is braked more and more."""
