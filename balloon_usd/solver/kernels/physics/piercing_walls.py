@@ -94,7 +94,7 @@ def answer_quad(
     e = vec3_at(x, d[2])
     f = vec3_at(x, d[3])
     bits = edges_through(c, d, p0, p1, p2, p3, a, b, e) | (edges_through(c, d, p0, p1, p2, p3, a, e, f) << 6)
-    # One call for all: on a CPU each copies what all arrays are (ears of a 260: 3.1 -> 0.6 ms a round).
+    # One call for all: on a CPU each copies what all arrays are (a search of three ears: 2.4 -> 0.9 ms).
     while bits != 0:
         bit = lowest_bit(bits)
         bits &= bits - 1
