@@ -30,11 +30,8 @@ def plan(recipe: Recipe) -> Plan:
     problems = settings_problems(recipe, tubes)
     try:
         strips = lay_strips(recipe, tubes)
-    except RecipeError as error:
-        raise RecipeError([*problems, *error.problems]) from None
-    table = RingTable(strips)
-    problems += fit_problems(recipe, strips, LaidOut(strips, table))
-    try:
+        table = RingTable(strips)
+        problems += fit_problems(recipe, strips, LaidOut(strips, table))
         choreography = choreograph(recipe, strips, table)
     except RecipeError as error:
         raise RecipeError([*problems, *error.problems]) from None

@@ -102,14 +102,19 @@ def shares_of_face(place: wp.vec3, a: wp.vec3, b: wp.vec3, c: wp.vec3, across: w
 
 
 @wp.func
+def share_of_edge(below: float, above: float):
+    """Return at which share of an edge its line goes through a plane, given how high its ends are above it."""
+    rise = below - above
+    return below / wp.where(wp.abs(rise) < LEAST_RISE, LEAST_RISE, rise)
+
+
+@wp.func
 def where_pierced(p: wp.vec3, q: wp.vec3, a: wp.vec3, b: wp.vec3, c: wp.vec3):
     """Return where the line from `p` to `q` goes through the plane of a triangle: its share of the way, and
     the barycentric coordinates there.
     """
     across = wp.cross(b - a, c - a)
-    below = wp.dot(across, p - a)
-    rise = below - wp.dot(across, q - a)
-    share = below / wp.where(wp.abs(rise) < LEAST_RISE, LEAST_RISE, rise)
+    share = share_of_edge(wp.dot(across, p - a), wp.dot(across, q - a))
     return share, shares_of_face(p + share * (q - p), a, b, c, across)
 
 
@@ -150,15 +155,21 @@ def add_motion(i: int, motion: wp.vec3, crossings: Crossings):
 
 
 @wp.func
+def vertex_of_pair(k: int, ends: wp.vec3i, other: wp.vec3i):
+    """Return one of the five vertices of an edge and a triangle, the ends of the edge first."""
+    return wp.where(k < 2, ends[k % 2], other[wp.max(k - 2, 0)])
+
+
+@wp.func
 def share_motion(
     ends: wp.vec3i, other: wp.vec3i, world: int, mesh: Mesh, contacts: Contacts, crossings: Crossings
 ):
     """Count an edge that pierces a triangle, and let both move as one, first only along the normal of where
     they would touch; where one crossed before already they are only counted apart.
     """
-    before = int_at(contacts.crossed, ends[0]) + int_at(contacts.crossed, ends[1])
-    for k in range(3):
-        before += int_at(contacts.crossed, other[k])
+    before = int(0)
+    for k in range(5):
+        before += int_at(contacts.crossed, vertex_of_pair(k, ends, other))
     if before > 0:
         wp.atomic_add(crossings.crossed_count, world, 1)
         return
@@ -167,7 +178,7 @@ def share_motion(
     mass = float(0.0)
     mean = wp.vec3(0.0)
     for k in range(5):
-        i = wp.where(k < 2, ends[k % 2], other[wp.max(k - 2, 0)])
+        i = vertex_of_pair(k, ends, other)
         m = float_at(mesh.mass, i)
         mass += m
         mean += m * moved(i, crossings)
@@ -183,7 +194,7 @@ def share_motion(
             vec3_at(crossings.x_safe, other[2]),
         )
     for k in range(5):
-        i = wp.where(k < 2, ends[k % 2], other[wp.max(k - 2, 0)])
+        i = vertex_of_pair(k, ends, other)
         motion = mean
         if slides:
             motion = moved(i, crossings)
@@ -228,8 +239,7 @@ def goes_through(
     `below`, `above`: heights of its ends above the triangle's plane, times twice its area; `across`: normal
     of the triangle, twice its area long.
     """
-    rise = below - above
-    share = below / wp.where(wp.abs(rise) < LEAST_RISE, LEAST_RISE, rise)
+    share = share_of_edge(below, above)
     if share < -LONGER or share > 1.0 + LONGER:
         return False
     return wp.min(shares_of_face(p + share * (q - p), a, b, c, across)) >= -LONGER
