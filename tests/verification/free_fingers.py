@@ -18,5 +18,5 @@ def free_fingers() -> Iterator[None]:
     """Let every neck be open to gas until it is closed, and nothing be pressed through it."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(pinch, "SHUT", 1.0)
-        patch.setattr(pinch, "PRESSED", 0.0)
+        patch.setattr(pinch, "LEAST_KEPT", 0.0)
         yield

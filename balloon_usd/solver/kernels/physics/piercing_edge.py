@@ -103,7 +103,7 @@ def shares_of_face(place: wp.vec3, a: wp.vec3, b: wp.vec3, c: wp.vec3, across: w
 
 @wp.func
 def share_of_edge(below: float, above: float):
-    """Return at which share of an edge its line goes through a plane, given how high its ends are above it."""
+    """Return at which share of an edge its line goes through a plane, by the heights of its two ends."""
     rise = below - above
     return below / wp.where(wp.abs(rise) < LEAST_RISE, LEAST_RISE, rise)
 

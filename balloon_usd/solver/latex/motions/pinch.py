@@ -19,10 +19,9 @@ LEAST_KEPT = 0.9
 press out the rest, and did so to bubbles of 3 cm at a joint of five.
 """
 SHUT = 0.7
-"""Share of a pinch after which fingers shut the neck to gas in any case."""
-PRESSED = 1.0
-"""Share of what a bubble then has too much or too little that fingers press out or in: what is left of 1 % in
-each of five bubbles of 19 cm takes three quarters of the gas of a last one of 3 cm.
+"""Share of a pinch after which fingers shut the neck to gas in any case, and press out or in what the bubble
+then has too much or too little, all of it: what is left of 1 % in each of five bubbles of 19 cm takes three
+quarters of the gas of a last one of 3 cm.
 """
 
 
@@ -67,5 +66,5 @@ class Pinch(Motion):
         if self._open == 0.0:
             begin, end, _ = self._sculpture.frame
             now = (share - self._shared) / (1.0 - self._shared)
-            self._hands.push_gas(self._joint, PRESSED * now * over / (end - begin))
+            self._hands.push_gas(self._joint, now * over / (end - begin))
         self._shared = share
