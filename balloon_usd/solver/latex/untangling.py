@@ -56,7 +56,7 @@ class Untangling:
     def leave(self) -> None:
         """Let walls be wherever they are at the end of a frame."""
         s = self._launcher.scene
-        for array in (s.crossed, s.watched, s.slowness, s.reaction, s.any_watched):
+        for array in (s.crossed, s.watched, s.slowness, s.any_watched):
             array.zero_()
         self.start()
 

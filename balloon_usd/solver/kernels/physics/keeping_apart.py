@@ -6,7 +6,7 @@ import warp as wp
 
 from balloon_usd.solver.kernels.arrays.latex import Crossings
 from balloon_usd.solver.kernels.arrays.shared import Balloons, Contacts, Hands, Joints, Mesh, State
-from balloon_usd.solver.kernels.device.array_access import float_at, int_at, vec3_at
+from balloon_usd.solver.kernels.device.array_access import int_at, vec3_at
 from balloon_usd.solver.kernels.physics.joints import held
 from balloon_usd.solver.kernels.physics.motion import LYING, SLOW
 from balloon_usd.solver.kernels.physics.piercing_edge import PER_METRE
@@ -41,16 +41,6 @@ MOVED_ROUNDS = wp.constant(72)
 """Rounds in which what would cross moves as one in a sculpture that sticks; after them it stays where it was.
 Done sooner, it holds gas and hands up: a trunk turned inside out.
 """
-REACTED = wp.constant(0.5)
-"""Smoothing above which what was moved in rounds has a reaction: what would cross, and what is next to it."""
-REACTION_STIFFNESS = wp.constant(2.0e5)
-"""How much that is larger each time, per way on which a vertex was moved and per mass, 1/s2: with 1e5 as many
-rounds are needed as with none, from 1e6 on creases tremble.
-"""
-REACTION_KEPT = wp.constant(0.98)
-"""Share of it that is left each time that walls are kept apart: with 0.95 bubbles between others lose gas."""
-MOST_REACTION = wp.constant(3000.0)
-"""Largest reaction per mass, m/s2: with 2000 jams last twice as long, with 5000 arms are bent."""
 FADING = wp.constant(0.95)
 """Share of the slowness that is left each time that walls are kept apart."""
 FASTEST_LEFT = wp.constant(100.0)
@@ -165,19 +155,6 @@ def is_put_back(world: int, between_searches: float, crossings: Crossings):
     )
 
 
-@wp.func
-def reaction_after(i: int, back: wp.vec3, mesh: Mesh, crossings: Crossings, state: State):
-    """Return the force (N) that other walls have on a vertex from now on: it grows as long as rounds move the
-    vertex `back` (m), until that stays where it is by itself (a multiplier, as in augmented Lagrangians).
-    """
-    mass = float_at(mesh.mass, i)
-    reaction = REACTION_KEPT * state.reaction[i]
-    if crossings.smoothing[i] > REACTED:
-        reaction += REACTION_STIFFNESS * mass * back
-    most = MOST_REACTION * mass
-    return reaction * wp.min(most / wp.max(wp.length(reaction), most), 1.0)
-
-
 @wp.kernel
 def end_keeping_apart(
     between_searches: float,
@@ -188,8 +165,8 @@ def end_keeping_apart(
     crossings: Crossings,
     state: State,
 ):
-    """Let every vertex that moved with others be where that led it, as fast as that was, slow for a while,
-    and pressed by what it would have crossed; it is safe there.
+    """Let every vertex that moved with others be where that led it, as fast as that was, and slow for a
+    while; it is safe there.
     """
     i = wp.tid()
     world = int_at(balloons.balloon_world, int_at(mesh.vertex_balloon, i))
@@ -200,16 +177,13 @@ def end_keeping_apart(
         state.x[i] = crossings.x_safe[i]
         state.v[i] = -velocity_of_spin(i, state.x[i], hands)
         return
-    back = crossings.x_apart[i] - state.x[i]
-    state.reaction[i] = reaction_after(i, back, mesh, crossings, state)
-    if wp.length_sq(back) > 0.0:
+    if wp.length_sq(crossings.x_apart[i] - state.x[i]) > 0.0:
         way = crossings.x_apart[i] - crossings.x_safe[i]
         state.x[i] = crossings.x_apart[i]
         # Turns by hands are no part of the velocity.
         state.v[i] = way / crossings.safe_seconds[world] - velocity_of_spin(i, state.x[i], hands)
     if hands.floating[mesh.vertex_balloon[i]] == 1:
         state.slowness[i] = 0.0
-        state.reaction[i] = wp.vec3(0.0)
     elif crossings.smoothing[i] > LEAST:
         state.slowness[i] = 1.0 / SLOW
     elif state.slowness[i] > 0.0:
