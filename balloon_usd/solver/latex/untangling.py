@@ -56,7 +56,7 @@ class Untangling:
     def leave(self) -> None:
         """Let walls be wherever they are at the end of a frame."""
         s = self._launcher.scene
-        for array in (s.crossed, s.watched, s.slowness, s.any_watched):
+        for array in (s.crossed, s.watched, s.slowness, s.reaction, s.any_watched):
             array.zero_()
         self.start()
 
@@ -89,9 +89,8 @@ class Untangling:
         s.tangled.zero_()
         launch(begin_untangling, worlds, frame_ends=frame_ends)
         wp.capture_if(s.tangled, self._untangle)
-        if frame_ends:
-            self._launcher.launch_tiled(measure_momentum, worlds, lanes=WARP)
-            launch(take_momentum, vertices)
+        self._launcher.launch_tiled(measure_momentum, worlds, lanes=WARP)
+        launch(take_momentum, vertices)
         s.any_watched.zero_()
         launch(go_on_watching, worlds, frame_ends=frame_ends, between_searches=between)
 

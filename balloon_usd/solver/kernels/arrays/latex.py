@@ -145,6 +145,9 @@ class Crossings:
         meaning="how it is led out of walls that it has gone through, and its share, 65536 to 1; or motions "
         "that it shares, 100 million to 1 m, and how many",
     )
+    pushed: wp.array[wp.vec3i] = array(
+        "vertices", meaning="mass by way on which pairs that would cross push it apart, 10^12 to 1 kg m"
+    )
     smoothing: wp.array[float] = array("vertices", meaning="how much it is smoothed; 1 at a crossing")
     smoothing_next: wp.array[float] = array("vertices", meaning="scratch: that in the coming round")
     pierced_count: wp.array[int] = array("sculptures", meaning="edges found that pierce a face")

@@ -210,5 +210,8 @@ class State:
     slowness: wp.array[float] = array(
         "vertices", unit="s/m", meaning="inverse of its largest speed, where walls would cross; 0: none"
     )
+    reaction: wp.array[wp.vec3] = array(
+        "vertices", unit="N", meaning="force of walls that it would cross, until it does not"
+    )
     x_next: wp.array[wp.vec3] = array("vertices", unit="m", meaning="scratch: its next position")
     volume: wp.array[float] = array("segments", unit="m3", meaning="its volume")

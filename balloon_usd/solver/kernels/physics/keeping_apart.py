@@ -10,6 +10,7 @@ from balloon_usd.solver.kernels.device.array_access import int_at, vec3_at
 from balloon_usd.solver.kernels.physics.joints import held
 from balloon_usd.solver.kernels.physics.motion import LYING, SLOW
 from balloon_usd.solver.kernels.physics.piercing_edge import PER_METRE
+from balloon_usd.solver.kernels.physics.reaction import reaction_after
 from balloon_usd.solver.kernels.physics.surface import velocity_of_spin
 from balloon_usd.solver.kernels.physics.untangling import (
     FAILED,
@@ -165,8 +166,8 @@ def end_keeping_apart(
     crossings: Crossings,
     state: State,
 ):
-    """Let every vertex that moved with others be where that led it, as fast as that was, and slow for a
-    while; it is safe there.
+    """Let every vertex that moved with others be where that led it, as fast as that was, slow for a while,
+    and pressed by what it would have crossed; it is safe there.
     """
     i = wp.tid()
     world = int_at(balloons.balloon_world, int_at(mesh.vertex_balloon, i))
@@ -174,10 +175,14 @@ def end_keeping_apart(
         return
     if is_put_back(world, between_searches, crossings):
         crossings.way_back[i] = wp.vec4i(0)
+        crossings.pushed[i] = wp.vec3i(0)
         state.x[i] = crossings.x_safe[i]
         state.v[i] = -velocity_of_spin(i, state.x[i], hands)
         return
-    if wp.length_sq(crossings.x_apart[i] - state.x[i]) > 0.0:
+    back = crossings.x_apart[i] - state.x[i]
+    reaction = reaction_after(i, crossings.safe_seconds[world], mesh, hands, crossings, state)
+    crossings.pushed[i] = wp.vec3i(0)
+    if wp.length_sq(back) > 0.0:
         way = crossings.x_apart[i] - crossings.x_safe[i]
         state.x[i] = crossings.x_apart[i]
         # Turns by hands are no part of the velocity.
@@ -189,6 +194,10 @@ def end_keeping_apart(
     elif state.slowness[i] > 0.0:
         slowness = FADING * state.slowness[i]
         state.slowness[i] = wp.where(slowness * FASTEST_LEFT > 1.0, slowness, 0.0)
+    if wp.length_sq(reaction) > 0.0:
+        # Else a step does not look whether there is any.
+        state.slowness[i] = wp.max(state.slowness[i], 1.0 / FASTEST_LEFT)
+    state.reaction[i] = reaction
     if crossings.untangling_round[world] == FAILED:
         contacts.crossed[i] = wp.max(contacts.crossed[i], wp.min(crossings.way_back[i][3], 1))
         crossings.way_back[i] = wp.vec4i(0)

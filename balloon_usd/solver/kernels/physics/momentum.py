@@ -5,9 +5,11 @@ Walls that are kept apart move without regard to it: three ears of a 646 flew of
 
 import warp as wp
 
+from balloon_usd.solver.kernels.arrays.latex import Crossings
 from balloon_usd.solver.kernels.arrays.shared import Balloons, Hands, Mesh, Sculptures, State
 from balloon_usd.solver.kernels.device.array_access import float_at, int_at, vec3_at
 from balloon_usd.solver.kernels.device.warp_reduce import warp_sum, warp_sum3
+from balloon_usd.solver.kernels.physics.untangling import NOT_LOOKED
 
 
 @wp.func
@@ -21,13 +23,15 @@ def inertia_of(squares: wp.vec3, products: wp.vec3):
 
 
 @wp.kernel
-def measure_momentum(sculptures: Sculptures, mesh: Mesh, hands: Hands, state: State):
-    """Write the middle of mass (m), its velocity (m/s) and the spin (rad/s) of every sculpture that floats; a
-    warp of lanes each on a GPU.
+def measure_momentum(sculptures: Sculptures, mesh: Mesh, hands: Hands, crossings: Crossings, state: State):
+    """Write the middle of mass (m), its velocity (m/s) and the spin (rad/s) of every sculpture that floats,
+    and whose walls were kept apart now; a warp of lanes each on a GPU.
     """
     world, lane = wp.tid()
     lanes = wp.block_dim()
     if int_at(hands.floating, int_at(sculptures.world_balloon, world)) == 0:
+        return
+    if int_at(crossings.untangling_round, world) == NOT_LOOKED:
         return
     first = int_at(sculptures.world_vertex, world)
     end = int_at(sculptures.world_vertex, world + 1)
@@ -62,12 +66,16 @@ def measure_momentum(sculptures: Sculptures, mesh: Mesh, hands: Hands, state: St
 
 
 @wp.kernel
-def take_momentum(sculptures: Sculptures, mesh: Mesh, balloons: Balloons, hands: Hands, state: State):
-    """Take the momentum and the angular momentum from every sculpture that floats."""
+def take_momentum(
+    sculptures: Sculptures, mesh: Mesh, balloons: Balloons, hands: Hands, crossings: Crossings, state: State
+):
+    """Take the momentum and the angular momentum from every sculpture whose were measured."""
     i = wp.tid()
     balloon = int_at(mesh.vertex_balloon, i)
     if int_at(hands.floating, balloon) == 0:
         return
     world = int_at(balloons.balloon_world, balloon)
+    if int_at(crossings.untangling_round, world) == NOT_LOOKED:
+        return
     arm = vec3_at(state.x, i) - vec3_at(sculptures.middle, world)
     state.v[i] -= vec3_at(sculptures.velocity, world) + wp.cross(vec3_at(sculptures.spin, world), arm)

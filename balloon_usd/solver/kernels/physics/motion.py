@@ -4,7 +4,7 @@ import warp as wp
 
 from balloon_usd.solver.kernels.arrays.latex import Chambers, Forces, Rubber
 from balloon_usd.solver.kernels.arrays.shared import Balloons, Contacts, Hands, Mesh, State
-from balloon_usd.solver.kernels.device.array_access import float_at, int_at, put_vec3, vec4i_at
+from balloon_usd.solver.kernels.device.array_access import float_at, int_at, put_vec3, vec3_at, vec4i_at
 from balloon_usd.solver.kernels.device.coherent_load import coherent_float, coherent_vec3
 from balloon_usd.solver.kernels.device.soa import load_soa
 
@@ -112,7 +112,10 @@ def step_of_vertex(
     # Drag takes from the velocity only: it must not weaken forces against those that act on whole rings.
     kept = wp.max(1.0 - float_at(balloons.drag, b) * dt, 0.0)
     velocity = kept * coherent_vec3(state.v, i, shared) + (f + pull) * (dt / float_at(mesh.mass, i))
-    velocity /= wp.max(float_at(state.slowness, i) * wp.length(velocity), 1.0)
+    slowness = float_at(state.slowness, i)
+    if slowness > 0.0:
+        velocity += vec3_at(state.reaction, i) * (dt / float_at(mesh.mass, i))
+        velocity /= wp.max(slowness * wp.length(velocity), 1.0)
     p = coherent_vec3(state.x, i, shared) + velocity * dt
     if spin > 0:
         turn = hands.spins[spin - 1]

@@ -5,6 +5,7 @@ import warp as wp
 from balloon_usd.solver.kernels.arrays.latex import Crossings
 from balloon_usd.solver.kernels.arrays.shared import Contacts, Mesh
 from balloon_usd.solver.kernels.device.array_access import float_at, int_at, vec3_at
+from balloon_usd.solver.kernels.physics.reaction import moved, push_apart, vertex_of_pair
 
 FLATTEST = wp.constant(0.1)
 """Least sine of the angle between an edge and a wall that it pierces: a flatter one is led as if it had this,
@@ -36,8 +37,6 @@ PER_UNIT = wp.constant(65536.0)
 """Integers to 1 in sums of ways: added as integers they do not depend on the order of threads."""
 PER_METRE = wp.constant(1.0e8)
 """Integers to 1 m in sums of motions."""
-FARTHEST_MOVED = wp.constant(0.1)
-"""Farthest that a vertex is taken to have moved since walls were last kept apart, m: sums never overflow."""
 
 
 @wp.func
@@ -76,17 +75,6 @@ def counts(ends: wp.vec3i, neck: int, joint_meant: wp.array[int], mesh: Mesh):
     return (
         neck_at(int_at(mesh.vertex_neck, ends[0]), joint_meant) != neck
         or neck_at(int_at(mesh.vertex_neck, ends[1]), joint_meant) != neck
-    )
-
-
-@wp.func
-def moved(i: int, crossings: Crossings):
-    """Return how far a vertex goes since walls were last kept apart (m)."""
-    way = vec3_at(crossings.x_apart, i) - vec3_at(crossings.x_safe, i)
-    return wp.vec3(
-        wp.clamp(way[0], -FARTHEST_MOVED, FARTHEST_MOVED),
-        wp.clamp(way[1], -FARTHEST_MOVED, FARTHEST_MOVED),
-        wp.clamp(way[2], -FARTHEST_MOVED, FARTHEST_MOVED),
     )
 
 
@@ -155,17 +143,21 @@ def add_motion(i: int, motion: wp.vec3, crossings: Crossings):
 
 
 @wp.func
-def vertex_of_pair(k: int, ends: wp.vec3i, other: wp.vec3i):
-    """Return one of the five vertices of an edge and a triangle, the ends of the edge first."""
-    return wp.where(k < 2, ends[k % 2], other[wp.max(k - 2, 0)])
-
-
-@wp.func
 def share_motion(
-    ends: wp.vec3i, other: wp.vec3i, world: int, mesh: Mesh, contacts: Contacts, crossings: Crossings
+    ends: wp.vec3i,
+    other: wp.vec3i,
+    share: float,
+    on_face: wp.vec3,
+    world: int,
+    mesh: Mesh,
+    contacts: Contacts,
+    crossings: Crossings,
 ):
     """Count an edge that pierces a triangle, and let both move as one, first only along the normal of where
-    they would touch; where one crossed before already they are only counted apart.
+    they would touch, on which they also push from now on; where one crossed before already they are only
+    counted apart.
+
+    `share`, `on_face`: where, as of `where_pierced`.
     """
     before = int(0)
     for k in range(5):
@@ -193,6 +185,8 @@ def share_motion(
             vec3_at(crossings.x_safe, other[1]),
             vec3_at(crossings.x_safe, other[2]),
         )
+    if int_at(crossings.untangling_round, world) == 0:
+        push_apart(ends, other, share, on_face, normal, mesh, crossings)
     for k in range(5):
         i = vertex_of_pair(k, ends, other)
         motion = mean
@@ -275,7 +269,7 @@ def answer_edge(
         if beside_face(share, on_face) > nearest_allowed(ends, other, together, world, crossings):
             return
     if together == 1:
-        share_motion(ends, other, world, mesh, contacts, crossings)
+        share_motion(ends, other, share, on_face, world, mesh, contacts, crossings)
         return
     wp.atomic_add(crossings.pierced_count, world, 1)
     across = wp.cross(b - a, c - a)

@@ -41,6 +41,7 @@ def state_in_shared_memory(own: Ranges, state: State):
         shared_vectors(state.x, own.vertex_begin, 0),
         shared_vectors(state.v, own.vertex_begin, VERTEX_SIZE * vertices),
         state.slowness,
+        state.reaction,
         state.x_next,
         state.volume,
     )
