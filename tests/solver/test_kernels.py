@@ -20,6 +20,7 @@ ORDERLESS = (
     "pair_count",
     "pierced_count",
     "pressed_count",
+    "pushed",
     "segment_shift",
     "tangled",
     "untangling",

@@ -62,6 +62,11 @@ class Shown:
         return float((self.place("it", 0.5) - self.ends)[2]) / self.width
 
     @property
+    def aside(self):
+        """How far its middle is to the side of where it points to, across the balloon, in widths of the tube."""
+        return abs(float((self.place("it", 0.5) - self.ends)[1])) / self.width
+
+    @property
     def ends(self):
         """Where the bubble's two ends meet, m."""
         return 0.5 * (self.place("it", 0.0) + self.place("it", 1.0))
@@ -114,7 +119,15 @@ def test_an_ear_is_a_bean_beside_its_balloon_and_no_disc_within_it(verify):
     # Its ends meet in a point, its wall is a drop: 1 as a circle, 1.21 with a right angle at the point. What goes
     # through itself or lies within its balloon is not as high.
     verify("V28", "ear of 5 cm, its height in its width", ear.height, 1.1, 0.2)
-    assert ear.out > 0.3
+    assert ear.out > 0.2
+
+
+def test_a_longer_ear_stands_out_farther_and_straight():
+    ears = [shown("ear", length) for length in (5, 5.5, 6)]
+    outs = [ear.out for ear in ears]
+    assert outs == sorted(outs)
+    assert outs[1] > 0.3
+    assert all(ear.aside < 0.1 for ear in ears)
 
 
 def test_the_neighbours_of_an_ear_bend_towards_each_other():

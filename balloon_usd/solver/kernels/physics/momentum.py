@@ -22,16 +22,33 @@ def inertia_of(squares: wp.vec3, products: wp.vec3):
     )  # fmt: skip
 
 
+@wp.func
+def has_none(world: int, sculptures: Sculptures, balloons: Balloons, hands: Hands, crossings: Crossings):
+    """Return whether a sculpture floats whose walls can touch, and were kept apart now."""
+    first = int_at(sculptures.world_balloon, world)
+    if int_at(hands.floating, first) == 0 or int_at(crossings.untangling_round, world) == NOT_LOOKED:
+        return False
+    for balloon in range(first, int_at(sculptures.world_balloon, world + 1)):
+        if int_at(balloons.touching, balloon) > 0:
+            return True
+    return False
+
+
 @wp.kernel
-def measure_momentum(sculptures: Sculptures, mesh: Mesh, hands: Hands, crossings: Crossings, state: State):
-    """Write the middle of mass (m), its velocity (m/s) and the spin (rad/s) of every sculpture that floats,
-    and whose walls were kept apart now; a warp of lanes each on a GPU.
+def measure_momentum(
+    sculptures: Sculptures,
+    mesh: Mesh,
+    balloons: Balloons,
+    hands: Hands,
+    crossings: Crossings,
+    state: State,
+):
+    """Write the middle of mass (m), its velocity (m/s) and the spin (rad/s) of every sculpture that has no
+    momentum; a warp of lanes each on a GPU.
     """
     world, lane = wp.tid()
     lanes = wp.block_dim()
-    if int_at(hands.floating, int_at(sculptures.world_balloon, world)) == 0:
-        return
-    if int_at(crossings.untangling_round, world) == NOT_LOOKED:
+    if not has_none(world, sculptures, balloons, hands, crossings):
         return
     first = int_at(sculptures.world_vertex, world)
     end = int_at(sculptures.world_vertex, world + 1)
@@ -71,11 +88,8 @@ def take_momentum(
 ):
     """Take the momentum and the angular momentum from every sculpture whose were measured."""
     i = wp.tid()
-    balloon = int_at(mesh.vertex_balloon, i)
-    if int_at(hands.floating, balloon) == 0:
-        return
-    world = int_at(balloons.balloon_world, balloon)
-    if int_at(crossings.untangling_round, world) == NOT_LOOKED:
+    world = int_at(balloons.balloon_world, int_at(mesh.vertex_balloon, i))
+    if not has_none(world, sculptures, balloons, hands, crossings):
         return
     arm = vec3_at(state.x, i) - vec3_at(sculptures.middle, world)
     state.v[i] -= vec3_at(sculptures.velocity, world) + wp.cross(vec3_at(sculptures.spin, world), arm)
