@@ -69,6 +69,7 @@ def begin_moves(crossings: Crossings, x: wp.array[wp.vec3]):
     crossings.x_apart[i] = x[i]
     crossings.restless[i] = 1
     crossings.smoothing[i] = 0.0
+    crossings.pushed[i] = wp.vec3i(0)
 
 
 @wp.kernel
@@ -175,13 +176,11 @@ def end_keeping_apart(
         return
     if is_put_back(world, between_searches, crossings):
         crossings.way_back[i] = wp.vec4i(0)
-        crossings.pushed[i] = wp.vec3i(0)
         state.x[i] = crossings.x_safe[i]
         state.v[i] = -velocity_of_spin(i, state.x[i], hands)
         return
     back = crossings.x_apart[i] - state.x[i]
     reaction = reaction_after(i, crossings.safe_seconds[world], mesh, hands, crossings, state)
-    crossings.pushed[i] = wp.vec3i(0)
     if wp.length_sq(back) > 0.0:
         way = crossings.x_apart[i] - crossings.x_safe[i]
         state.x[i] = crossings.x_apart[i]
