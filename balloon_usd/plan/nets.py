@@ -1,7 +1,8 @@
 """Nets: closed rings of bubbles that share joints, such as the edges of a solid, and their shape in space.
 
 A net is a block of the sculpture graph (no joint alone holds it together) in which some joint has three or
-more different neighbours. A lone ring of bubbles is none: makers give it its shape as they close it.
+more different neighbours. A lone ring of one balloon is none: makers give it its shape as they close it. One of
+several balloons is, for no chain that hands could close goes through all of it.
 """
 
 from __future__ import annotations
@@ -55,24 +56,27 @@ def nets_of(piece: Workpiece, strips: Mapping[str, Strip], table: RingTable) -> 
 def _blocks(graph: SculptureGraph) -> Iterator[list[GraphEdge]]:
     """Yield the bubbles of every net."""
     edges = [e for e in graph.edges if e.bubble not in graph.bridges and e.start != e.end]
-    if not _branches(edges):
+    if not _is_net(edges):
         return
     import networkx as nx  # noqa: PLC0415  # slow to import, and most sculptures have no net
 
     for block in nx.biconnected_component_edges(nx.Graph((e.start, e.end) for e in edges)):
         joints = {joint for side in block for joint in side}
         inside = [edge for edge in edges if {edge.start, edge.end} <= joints]
-        if _branches(inside):
+        if _is_net(inside):
             yield inside
 
 
-def _branches(edges: list[GraphEdge]) -> bool:
-    """Whether some joint has three or more different neighbours."""
+def _is_net(edges: list[GraphEdge]) -> bool:
+    """Whether some joint has three or more different neighbours, or three or more joints are of several
+    balloons.
+    """
     beside: dict[int, set[int]] = defaultdict(set)
     for edge in edges:
         beside[edge.start].add(edge.end)
         beside[edge.end].add(edge.start)
-    return any(len(joints) > 2 for joints in beside.values())
+    several = len({edge.balloon for edge in edges}) > 1
+    return any(len(joints) > 2 for joints in beside.values()) or (several and len(beside) > 2)
 
 
 def _net(

@@ -26,6 +26,9 @@ SETTING_SPEED = 0.35
 the way, its far side goes at 2 m/s at most.
 """
 
+SIDE_BY_SIDE = 2
+"""Most bubbles of a chain that lie side by side when it is closed."""
+
 
 def set_nets(
     score: Score, nets: Sequence[Net], table: RingTable, step: int, timed: Container[int] = ()
@@ -149,7 +152,7 @@ class _Made:
         """Return the rings that a move brings together, the moving and the held one, where these hang
         together by now and not only as a free chain.
         """
-        if isinstance(move, Gather) and not self._welded.isdisjoint(move.corners):
+        if isinstance(move, Gather) and not self._is_free(move.corners):
             return move.corners[0], move.corners[-1]
         if isinstance(move, Bring):
             # What is left of a balloon lies beyond the ring that was closed last.
@@ -158,6 +161,13 @@ class _Made:
             if pieces.root(moving) == pieces.root(held):
                 return moving, held
         return None
+
+    def _is_free(self, corners: Sequence[int]) -> bool:
+        """Whether a chain hangs on nothing; a pair of bubbles or a bubble that closes on itself may hang on its
+        moving end, for these lie side by side, to which hands bulge them as they close.
+        """
+        bubbles = sum(self._rings[ring].joint for ring in corners) - 1
+        return self._welded.isdisjoint(corners[1:] if bubbles <= SIDE_BY_SIDE else corners)
 
     def with_held(self, held: int, net: Net) -> tuple[int, ...]:
         """Return the closed rings of a net that hang together with a held one, which comes last."""

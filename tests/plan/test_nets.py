@@ -25,6 +25,21 @@ SOLIDS = {
 }
 """Graphs of the regular solids, and the radii of the spheres about them at edges of 1."""
 
+RING = """
+format: 1
+name: ring
+units: cm
+balloons:
+  red: {size: 260, length: 34, tail: 10}
+  blue: {size: 260, length: 34, tail: 10}
+steps:
+  - {bubbles: {a: 8, b: 8, c: 8}, balloon: red}
+  - {bubbles: {d: 8}, balloon: blue}
+  - lock: {joints: [a.start, d.start]}
+  - {bubbles: {e: 8, f: 8}, balloon: blue}
+  - lock: {joints: [c.end, f.end]}
+"""
+
 
 def planned(path):
     return plan(Recipe.load(RECIPES / path))
@@ -55,6 +70,24 @@ def test_bubbles_of_unequal_lengths_keep_them_where_they_can():
 
 def test_locked_pairs_loops_and_lone_rings_are_no_nets():
     assert not any(nets(f"{name}.yaml") for name in ("dog", "poodle", "flower", "book/dog_it"))
+
+
+def test_a_ring_of_several_balloons_is_a_net_that_hands_set_as_a_circle():
+    made = plan(Recipe.parse(RING))
+    (net,) = nets_of(made.recipe.piece, made.strips, made.table)
+    places = np.unique(np.array(list(net.places.values())), axis=0)
+    assert np.linalg.norm(places, axis=1) == pytest.approx(0.08 / (2.0 * np.sin(np.pi / 6.0)), rel=0.02)
+    closing = next(move for move in made.choreography.moves if isinstance(move, SetNet))
+    names = [made.table.rings[ring].name for ring in (closing.moving, closing.rings[-1])]
+    assert sorted(names) == ["c.end", "f.end"]
+
+
+def test_a_pair_and_a_loop_that_hang_on_a_net_are_closed_as_those_on_nothing():
+    made = plan(Recipe.load(Path(__file__).parents[1] / "crowd" / "recipes" / "teddy_bt.yaml"))
+    closing = {move.text: type(move) for move in made.choreography.moves if isinstance(move, (Gather, SetNet))}
+    assert closing["lock twist: left_side, right_side"] is Gather
+    assert closing["loop twist: muzzle"] is Gather
+    assert closing["lock twist: left_foot, left_side"] is SetNet
 
 
 def test_every_ring_of_a_joint_lies_at_one_place_of_its_net():
