@@ -1,8 +1,8 @@
 """Nets: closed rings of bubbles that share joints, such as the edges of a solid, and their shape in space.
 
 A net is a block of the sculpture graph (no joint alone holds it together) in which some joint has three or
-more different neighbours. A lone ring of one balloon is none: makers give it its shape as they close it. One of
-several balloons is, for no chain that hands could close goes through all of it.
+more different neighbours. A lone ring of one balloon is none: makers give it its shape as they close it. One
+of several balloons is, for no chain that hands could close goes through all of it.
 """
 
 from __future__ import annotations

@@ -163,8 +163,8 @@ class _Made:
         return None
 
     def _is_free(self, corners: Sequence[int]) -> bool:
-        """Whether a chain hangs on nothing; a pair of bubbles or a bubble that closes on itself may hang on its
-        moving end, for these lie side by side, to which hands bulge them as they close.
+        """Whether a chain hangs on nothing; a pair of bubbles or a bubble that closes on itself may hang on
+        its moving end, for these lie side by side, to which hands bulge them as they close.
         """
         bubbles = sum(self._rings[ring].joint for ring in corners) - 1
         return self._welded.isdisjoint(corners[1:] if bubbles <= SIDE_BY_SIDE else corners)

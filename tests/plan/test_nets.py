@@ -84,7 +84,9 @@ def test_a_ring_of_several_balloons_is_a_net_that_hands_set_as_a_circle():
 
 def test_a_pair_and_a_loop_that_hang_on_a_net_are_closed_as_those_on_nothing():
     made = plan(Recipe.load(Path(__file__).parents[1] / "crowd" / "recipes" / "teddy_bt.yaml"))
-    closing = {move.text: type(move) for move in made.choreography.moves if isinstance(move, (Gather, SetNet))}
+    closing = {
+        move.text: type(move) for move in made.choreography.moves if isinstance(move, (Gather, SetNet))
+    }
     assert closing["lock twist: left_side, right_side"] is Gather
     assert closing["loop twist: muzzle"] is Gather
     assert closing["lock twist: left_foot, left_side"] is SetNet
