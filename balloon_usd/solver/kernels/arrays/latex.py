@@ -7,6 +7,7 @@ import warp as wp
 
 from balloon_usd.solver.kernels.arrays.rows import CurveSegment, Law
 from balloon_usd.solver.kernels.arrays.table import array, array_struct
+from balloon_usd.solver.kernels.device.chunk_rows import CHUNK_QUADS, SPHERE_ROWS
 
 
 @array_struct
@@ -134,10 +135,16 @@ class Crossings:
     segment_shift: wp.array[float] = array(
         "segments", unit="m", meaning="how far its wall was led out of others in this frame, at most"
     )
-    quad_radius: wp.array[float] = array("quads", unit="m", meaning="from its middle to its farthest corner")
+    sphere_rows: wp.array2d[float] = array(
+        "chunks",
+        SPHERE_ROWS * CHUNK_QUADS,
+        unit="m",
+        meaning="middles of its quads, and how far from these their corners are at most",
+    )
     restless: wp.array[int] = array("vertices", meaning="1 where it moved in the last round or would cross")
-    quad_restless: wp.array[int] = array("quads", meaning="1 where one of its corners is restless")
-    chunk_restless: wp.array[int] = array("chunks", meaning="1 where one of its quads is restless")
+    chunk_restless: wp.array[int] = array(
+        "chunks", meaning="mask of those of its quads that have a restless corner"
+    )
     box_low: wp.array[wp.vec3] = array("chunks", unit="m", meaning="lowest coordinates of its quads")
     box_high: wp.array[wp.vec3] = array("chunks", unit="m", meaning="highest coordinates of its quads")
     way_back: wp.array[wp.vec4i] = array(

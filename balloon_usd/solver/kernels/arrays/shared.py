@@ -9,6 +9,7 @@ import warp as wp
 from balloon_usd.plan.welding import MOST_WELDED
 from balloon_usd.solver.kernels.arrays.rows import TARGETS, Axes, Finger, Spin
 from balloon_usd.solver.kernels.arrays.table import array, array_struct
+from balloon_usd.solver.kernels.device.chunk_rows import CHUNK_QUADS, REACH_ROWS
 
 
 @array_struct
@@ -160,8 +161,11 @@ class Contacts:
     quad_middle: wp.array[wp.vec3] = array("quads", unit="m", meaning="its middle")
     quad_area: wp.array[wp.vec3] = array("quads", unit="m2", meaning="its vector area, outward")
     quad_velocity: wp.array[wp.vec3] = array("quads", unit="m/s", meaning="velocity of its middle")
-    quad_reach: wp.array[wp.vec2] = array(
-        "quads", unit="m", meaning="how far from its middle, and how high above it, it may be touched"
+    reach_rows: wp.array2d[float] = array(
+        "chunks",
+        REACH_ROWS * CHUNK_QUADS,
+        unit="m",
+        meaning="middles of its quads, and how far beside and how high above these they may be touched",
     )
     chunk_low: wp.array[wp.vec3] = array(
         "chunks", unit="m", meaning="lowest coordinates of what its quads reach"

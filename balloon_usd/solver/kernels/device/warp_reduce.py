@@ -137,6 +137,14 @@ def warp_max(value: int) -> int:
     return value
 
 
+@native(
+    _REDUCE.format(lanes=WARP, type="int", add="total |= __shfl_xor_sync(0xffffffffu, total, step);"),
+)
+def warp_or(value: int) -> int:
+    """Return the mask of all bits that are set in any lane of a warp."""
+    return value
+
+
 @native("""
 #if defined(__CUDA_ARCH__)
 return __popc(bits);

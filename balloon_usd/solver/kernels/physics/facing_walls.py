@@ -10,10 +10,10 @@ from balloon_usd.solver.kernels.device.array_access import (
     float_at,
     int_at,
     int_in,
-    vec2_at,
     vec3_at,
     vec4i_at,
 )
+from balloon_usd.solver.kernels.device.chunk_rows import lanes_between, within_reach
 from balloon_usd.solver.kernels.device.soa import store_soa
 from balloon_usd.solver.kernels.device.warp_reduce import lowest_bit, warp_ballot, warp_max, warp_max3
 from balloon_usd.solver.kernels.physics.meeting import INSIDE, Seeker, may_meet, opposite, seeker_of
@@ -144,19 +144,6 @@ def weigh_wall(
 
 
 @wp.func
-def close_quads(base: int, first: int, end: int, seeker: Seeker, contacts: Contacts):
-    """Return the bits, counted from quad `base`, of those quads that are within reach of a vertex."""
-    bits = int(0)
-    for q in range(first, end):
-        d = seeker.position - vec3_at(contacts.quad_middle, q)
-        reach = vec2_at(contacts.quad_reach, q)
-        above = seeker.reach + reach[1]
-        if wp.dot(d, d) < reach[0] * reach[0] + above * above:
-            bits |= 1 << (q - base)
-    return bits
-
-
-@wp.func
 def chunk_in_box(chunk: int, low: wp.vec3, high: wp.vec3, own: wp.vec2i, mesh: Mesh, contacts: Contacts):
     """Return 1 where a chunk reaches into a box (m) and has other quads than a run of own ones."""
     found = int(0)
@@ -201,7 +188,9 @@ def close_quads_of_chunk(chunk: int, own: wp.vec2i, seeker: Seeker, mesh: Mesh, 
     )
     close = int(0)
     if wp.dot(off, off) < seeker.reach * seeker.reach:
-        close = close_quads(base, first, end, seeker, contacts)
+        close = within_reach(contacts.reach_rows, chunk, p, seeker.reach) & lanes_between(
+            first - base, end - base
+        )
     return close
 
 

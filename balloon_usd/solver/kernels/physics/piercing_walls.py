@@ -4,8 +4,9 @@ import warp as wp
 
 from balloon_usd.solver.kernels.arrays.latex import Crossings
 from balloon_usd.solver.kernels.arrays.shared import Balloons, Contacts, Mesh, Sculptures
-from balloon_usd.solver.kernels.device.array_access import float_at, int_at, vec3_at, vec4i_at
-from balloon_usd.solver.kernels.device.warp_reduce import lowest_bit, warp_ballot, warp_max, warp_max3
+from balloon_usd.solver.kernels.device.array_access import int_at, vec3_at, vec4i_at
+from balloon_usd.solver.kernels.device.chunk_rows import in_row, lanes_between, near_spheres, put_in_row
+from balloon_usd.solver.kernels.device.warp_reduce import lowest_bit, warp_ballot, warp_max3, warp_or
 from balloon_usd.solver.kernels.physics.piercing_edge import (
     LONGER,
     answer_edge,
@@ -127,29 +128,32 @@ def boxes_meet(chunk: int, other: int, crossings: Crossings):
 
 
 @wp.func
-def near_quads(q: int, other: int, mesh: Mesh, contacts: Contacts, crossings: Crossings):
-    """Return the bits of those quads of a chunk that are near a quad, where one of both is restless."""
-    middle = vec3_at(contacts.quad_middle, q)
-    radius = float_at(crossings.quad_radius, q)
-    restless = int_at(crossings.quad_restless, q)
+def near_quads(chunk: int, place: int, other: int, mesh: Mesh, crossings: Crossings):
+    """Return the mask of those quads of another chunk that are near a quad, at this place in its chunk, where
+    one of both is restless.
+    """
+    rows = crossings.sphere_rows
+    middle = wp.vec3(
+        in_row(rows, chunk, 0, place), in_row(rows, chunk, 1, place), in_row(rows, chunk, 2, place)
+    )
+    radius = in_row(rows, chunk, 3, place)
     off = wp.max(
         wp.max(vec3_at(crossings.box_low, other) - middle, middle - vec3_at(crossings.box_high, other)),
         wp.vec3(0.0),
     )
-    bits = int(0)
+    near = int(0)
     if wp.dot(off, off) < radius * radius:
-        base = int_at(mesh.chunk_quad, other)
-        for r in range(base, int_at(mesh.chunk_quad, other + 1)):
-            if restless + int_at(crossings.quad_restless, r) > 0:
-                d = middle - vec3_at(contacts.quad_middle, r)
-                near = radius + float_at(crossings.quad_radius, r)
-                if wp.dot(d, d) < near * near:
-                    bits |= 1 << (r - base)
-    return bits
+        near = lanes_between(0, int_at(mesh.chunk_quad, other + 1) - int_at(mesh.chunk_quad, other))
+        if (int_at(crossings.chunk_restless, chunk) >> place) & 1 == 0:
+            near &= int_at(crossings.chunk_restless, other)
+        if near != 0:
+            near &= near_spheres(rows, other, middle, radius)
+    return near
 
 
 @wp.func
 def answer_chunk(
+    chunk: int,
     q: int,
     other: int,
     together: int,
@@ -162,7 +166,7 @@ def answer_chunk(
     c = vec4i_at(mesh.quads, q)
     own = neck_at(int_at(mesh.quad_neck, q), crossings.joint_meant)
     base = int_at(mesh.chunk_quad, other)
-    close = near_quads(q, other, mesh, contacts, crossings)
+    close = near_quads(chunk, q - int_at(mesh.chunk_quad, chunk), other, mesh, crossings)
     while close != 0:
         r = base + lowest_bit(close)
         close &= close - 1
@@ -174,24 +178,24 @@ def answer_chunk(
 
 @wp.func
 def find_restless(chunk: int, lane: int, mesh: Mesh, crossings: Crossings):
-    """Write which quads of a chunk have restless corners; return 1 where any has."""
-    any_restless = int(0)
-    for q in range(int_at(mesh.chunk_quad, chunk) + lane, int_at(mesh.chunk_quad, chunk + 1), wp.block_dim()):
+    """Write which quads of a chunk have restless corners, and return their mask."""
+    first = int_at(mesh.chunk_quad, chunk)
+    mask = int(0)
+    for q in range(first + lane, int_at(mesh.chunk_quad, chunk + 1), wp.block_dim()):
         c = vec4i_at(mesh.quads, q)
         restless = wp.max(
             wp.max(int_at(crossings.restless, c[0]), int_at(crossings.restless, c[1])),
             wp.max(int_at(crossings.restless, c[2]), int_at(crossings.restless, c[3])),
         )
-        crossings.quad_restless[q] = restless
-        any_restless = wp.max(any_restless, restless)
-    any_restless = warp_max(any_restless)
+        mask |= restless << (q - first)
+    mask = warp_or(mask)
     if lane == 0:
-        crossings.chunk_restless[chunk] = any_restless
-    return any_restless
+        crossings.chunk_restless[chunk] = mask
+    return mask
 
 
 @wp.kernel
-def box_walls(mesh: Mesh, contacts: Contacts, crossings: Crossings):
+def box_walls(mesh: Mesh, crossings: Crossings):
     """Write the middle (m) and the radius (m) of every quad, and the box (m) about the quads of every chunk,
     where any is restless; a warp of lanes each on a GPU.
     """
@@ -211,11 +215,14 @@ def box_walls(mesh: Mesh, contacts: Contacts, crossings: Crossings):
         x2 = crossings.x_apart[c[2]]
         x3 = crossings.x_apart[c[3]]
         middle = 0.25 * (x0 + x1 + x2 + x3)
-        contacts.quad_middle[q] = middle
-        crossings.quad_radius[q] = wp.max(
+        radius = wp.max(
             wp.max(wp.length(x0 - middle), wp.length(x1 - middle)),
             wp.max(wp.length(x2 - middle), wp.length(x3 - middle)),
         )
+        place = q - mesh.chunk_quad[chunk]
+        for k in range(3):
+            put_in_row(crossings.sphere_rows, chunk, k, place, middle[k])
+        put_in_row(crossings.sphere_rows, chunk, 3, place, radius)
         high = wp.max(high, wp.max(wp.max(x0, x1), wp.max(x2, x3)))
         low = wp.min(low, wp.min(wp.min(x0, x1), wp.min(x2, x3)))
     high = warp_max3(high)
@@ -256,12 +263,12 @@ def find_piercing_walls(
         candidate = begin + lane * parts
         if candidate < end:
             # What has not moved since the last round pierces nothing that it did not then.
-            if restless + int_at(crossings.chunk_restless, candidate) > 0:
+            if (restless | int_at(crossings.chunk_restless, candidate)) != 0:
                 found = boxes_meet(chunk, candidate, crossings)
         others = warp_ballot(found)
         while others != 0:
             other = begin + lowest_bit(others) * parts
             others &= others - 1
             for q in range(first + lane, last, wp.block_dim()):
-                answer_chunk(q, other, together, world, mesh, contacts, crossings)
+                answer_chunk(chunk, q, other, together, world, mesh, contacts, crossings)
         begin += wp.block_dim() * parts

@@ -5,6 +5,7 @@ import warp as wp
 from balloon_usd.solver.kernels.arrays.rows import Touch
 from balloon_usd.solver.kernels.arrays.shared import Balloons, Contacts, Hands, Mesh, State
 from balloon_usd.solver.kernels.device.array_access import int_at, vec3_at, vec4i_at
+from balloon_usd.solver.kernels.device.chunk_rows import put_in_row
 from balloon_usd.solver.kernels.device.warp_reduce import warp_max3, warp_sum
 from balloon_usd.solver.kernels.physics.patch import SIDE_SLIP
 
@@ -63,7 +64,11 @@ def chunk_surface(
         contacts.quad_middle[q] = middle
         contacts.quad_area[q] = area
         contacts.quad_velocity[q] = going
-        contacts.quad_reach[q] = wp.vec2(corner + beside, above)
+        place = q - mesh.chunk_quad[chunk]
+        for k in range(3):
+            put_in_row(contacts.reach_rows, chunk, k, place, middle[k])
+        put_in_row(contacts.reach_rows, chunk, 3, place, corner + beside)
+        put_in_row(contacts.reach_rows, chunk, 4, place, above)
         contacts.hit_count[q] = 0
         contacts.hit_last[q] = -1
         # So much farther than the least reach of a vertex: above and beside at once.
