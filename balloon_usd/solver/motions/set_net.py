@@ -36,7 +36,8 @@ class SetNet(Motion):
         self._carried = sculpture.carry(move.rings)
         began = middle[self._joints].astype(np.float64)
         onward = None if move.onward is None else np.array(move.onward)
-        self._path = opening_path(began, np.array(move.places), move.sides, onward)
+        width = 2.0 * max(sculpture.strip_of(ring).inflated_radius for ring in move.rings)
+        self._path = opening_path(began, np.array(move.places), move.sides, onward, width)
         self._rest, self._straight = np.zeros(0, dtype=np.int64), np.zeros((0, 3))
         if onward is not None:
             self._rest, self._straight = _straight_rest(move.rings[-1], sculpture)
