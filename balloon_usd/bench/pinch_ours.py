@@ -104,7 +104,7 @@ def tube_body(task: PinchTask) -> LatexBody:
         along=(mesh.along / state.b).astype(np.float32),
         mesh_rings=tuple((int(first), mesh.around) for first in mesh.ring_start),
         vertex_ring=nearest.astype(np.int32),
-        rings=tuple(RingSpec(int(mesh.ring_start[k]), mesh.around, parts=True) for k in neck),
+        rings=tuple(RingSpec(int(mesh.ring_start[k]), mesh.around, parts=True, folds=False) for k in neck),
         segment_ends=np.array([*(cap + k * mesh.around for k in neck), faces], dtype=np.int32),
         gauge=np.full(len(neck) + 1, GAUGE),
         vented=(),

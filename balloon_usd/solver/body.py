@@ -32,6 +32,8 @@ class RingSpec:
     """Whether it is closed from the start (the knot)."""
     carried: int = 0
     """Vertices before it that a closed ring carries along rigidly (the nozzle behind the knot)."""
+    folds: bool = True
+    """Whether the rubber about it is folded up in itself once it is closed, as in a twisted neck."""
 
 
 @dataclass(frozen=True)

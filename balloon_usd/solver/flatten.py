@@ -118,7 +118,7 @@ def ring_arrays(scene: FlatBodies, host: Arrays) -> None:
 
 def _necks(body: Body, first_joint: int) -> NDArray[np.int64]:
     """Return for every vertex of a body the joint in whose neck it lies, (V,), else -1."""
-    parting = [i for i, ring in enumerate(body.rings) if ring.parts]
+    parting = [i for i, ring in enumerate(body.rings) if ring.parts and ring.folds]
     if not parting:
         return np.full(len(body.along), -1)
     # Knot and lip lie in the neck of the knot.

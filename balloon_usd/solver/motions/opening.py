@@ -1,21 +1,16 @@
 """How a net opens: the way of its joints from where they are to their places, as hands turn it and shape it.
 
 The middle of its joints stays where it is. The net is turned as a whole, along the shortest way; while it is,
-every joint goes to its place in it, and its sides keep their lengths: straight, or in an arc, where bubbles
-are in the way.
+every joint goes straight to its place in it, and its sides keep their lengths.
 """
 
 from __future__ import annotations
 
 import math
-from itertools import product
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
-
-from balloon_usd.solver.motions.in_the_way import Tubes, blocked
-from balloon_usd.solver.sculpture import ALONG
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -38,23 +33,17 @@ UNTURNED = 0.4
 """Weight of the way along which nothing need be turned, as cosines."""
 BLOCKED = 2.0
 """Weight of bubbles in the way of what is left of the balloon, in widths of it."""
-LED = 0.5
-"""How far a joint goes in the net to be one that is led into it, in widths of a bubble."""
-ARCS = (0.4, 0.8)
-"""How far arcs reach aside, in the longest way of a joint."""
-ASIDE = np.array([way for way in product((-1.0, 0.0, 1.0), repeat=3) if any(way)])
-"""Directions in which they do, (26, 3)."""
-BETTER = 0.8
-"""Overlap on the best arc beside that on the straight way below which it is taken."""
+REST = np.linspace(0.025, 0.25, 9)
+"""Distances at which that is looked at, m."""
+ALONG_SIDE = np.linspace(0.0, 1.0, 7)
+"""Places along a bubble that are looked at, as shares."""
+ONE_JOINT = 1e-6
+"""Distance of places in a net below which joints are one, m."""
 MIRRORED = np.array([1.0, 1.0, -1.0])
 
 
 def opening_path(
-    began: Floats,
-    places: Floats,
-    sides: Sequence[tuple[int, int]],
-    onward: Floats | None,
-    width: float = 0.0,
+    began: Floats, places: Floats, sides: Sequence[tuple[int, int]], onward: Floats | None, width: float
 ) -> Floats:
     """Return the way of the joints, (WAYPOINTS, N, 3), m.
 
@@ -65,7 +54,7 @@ def opening_path(
         onward: where the joint that follows the last one will lie in the net, (3,), m; the net is turned so
             that what is left of the balloon, along x, leaves it through a wide gap not far from there. None
             where nothing is left.
-        width: of its bubbles, m; 0 where they are in nobody's way.
+        width: of its bubbles, m.
     """
     here, shape = began - began[-1], places - places[-1]
     ahead = np.zeros(3) if onward is None else onward - places[-1]
@@ -75,64 +64,14 @@ def opening_path(
     shape, ahead = shape * mirror @ turned.T, ahead * mirror @ turned.T
     pairs = np.array(sides, dtype=np.int64).reshape(-1, 2)
     turn = np.zeros(3) if onward is None else rotation_vector(_aim(shape, ahead, here, pairs, width))
-    opening = _Opening(here, shape, pairs, turn)
-    poses = opening.poses(np.zeros(3))
-    if width > 0.0:
-        poses = _round_what_is_in_the_way(opening, poses, width, rest=onward is not None)
+    before, after = _lengths(here, pairs), _lengths(shape, pairs)
+    path, off = [here], here
+    for share in np.linspace(0.0, 1.0, WAYPOINTS)[1:]:
+        straight = here + share * (shape - here)
+        off = _with_sides(straight, pairs, before + share * (after - before))
+        path.append(off @ rotation(share * turn).T)
+    poses = np.array(path)
     return np.asarray(began.mean(axis=0) + poses - poses.mean(axis=1, keepdims=True))
-
-
-class _Opening(NamedTuple):
-    """A net that opens about its last joint."""
-
-    here: Floats
-    """Where its joints are, (N, 3), m."""
-    shape: Floats
-    """Where they come to, before the net is turned, (N, 3), m."""
-    pairs: NDArray[np.int64]
-    """Joints at the ends of its bubbles, (P, 2)."""
-    turn: Floats
-    """Rotation vector of its turn, (3,), rad."""
-
-    @property
-    def ways(self) -> Floats:
-        """How far each joint goes in the net, (N, 3), m: most do not."""
-        ways = self.shape - self.here
-        return np.asarray(ways - np.median(ways, axis=0))
-
-    def poses(self, aside: Floats) -> Floats:
-        """Return where the joints are on their way, (WAYPOINTS, N, 3), m; `aside`: how far (m) those that are
-        led go aside half way, (3,).
-        """
-        before, after = _lengths(self.here, self.pairs), _lengths(self.shape, self.pairs)
-        far = np.linalg.norm(self.ways, axis=1)
-        arc = (far / max(float(far.max()), 1e-9))[:, None] * aside
-        poses = [self.here]
-        for share in np.linspace(0.0, 1.0, WAYPOINTS)[1:]:
-            straight = self.here + share * (self.shape - self.here) + 4.0 * share * (1.0 - share) * arc
-            off = _with_sides(straight, self.pairs, before + share * (after - before))
-            poses.append(off @ rotation(share * self.turn).T)
-        return np.array(poses)
-
-
-def _round_what_is_in_the_way(opening: _Opening, straight: Floats, width: float, *, rest: bool) -> Floats:
-    """Return the poses on the way with the least overlap of what is led with other bubbles: straight, or the
-    best of some arcs.
-
-    `rest`: whether something is left of the balloon beyond the last joint.
-    """
-    far = np.linalg.norm(opening.ways, axis=1)
-    tubes = Tubes.of(opening.shape, opening.pairs, far > LED * width)
-    beyond = ALONG if rest else None
-    least = tubes.overlap(straight, width, beyond)
-    best, least = straight, BETTER * least
-    for reach in ARCS if least > 0.0 else ():
-        for way in ASIDE:
-            poses = opening.poses(reach * float(far.max()) * way / np.linalg.norm(way))
-            overlap = tubes.overlap(poses, width, beyond)
-            if overlap < least:
-                best, least = poses, overlap
-    return best
 
 
 def fit(shape: Floats, here: Floats) -> tuple[Floats, float]:
@@ -165,14 +104,24 @@ def _aim(shape: Floats, ahead: Floats, here: Floats, pairs: NDArray[np.int64], w
     others = net[far > 1e-6] / far[far > 1e-6, None]
     onward = ONWARD * (ways @ ahead) / max(float(np.linalg.norm(ahead)), 1e-9)
     # What is more than a quarter of a turn off is out of the way.
-    near = (ways @ others.T).max(axis=1, initial=0.0)
-    if width > 0.0:
-        near = near + BLOCKED * blocked(ways, shape, pairs, width)
+    near = (ways @ others.T).max(axis=1, initial=0.0) + BLOCKED * _blocked(ways, shape, pairs, width)
     way = ways[np.argmin(near - onward - UNTURNED * ways[:, 0])]
     forward = _turning(way, np.array([1.0, 0.0, 0.0]))
     _, y, z = (shape @ forward.T).T
     spin = math.atan2(float(y @ here[:, 2] - z @ here[:, 1]), float(y @ here[:, 1] + z @ here[:, 2]))
     return rotation(np.array([spin, 0.0, 0.0])) @ forward
+
+
+def _blocked(ways: Floats, shape: Floats, pairs: NDArray[np.int64], width: float) -> Floats:
+    """Return how far what is left of the balloon would lie in bubbles that do not end at its joint, in widths,
+    for some directions of it (D, 3): (D,), from 0 to 1.
+    """
+    beside = pairs[(np.linalg.norm(shape[pairs], axis=2) > ONE_JOINT).all(axis=1)]
+    first, second = shape[beside[:, :1]], shape[beside[:, 1:]]
+    bubbles = (first + ALONG_SIDE[:, None] * (second - first)).reshape(-1, 3)
+    rest = ways[:, None] * REST[:, None]
+    far = np.linalg.norm(rest[:, :, None] - bubbles, axis=3).min(axis=(1, 2), initial=width)
+    return np.asarray(1.0 - far / width)
 
 
 def _turning(one: Floats, other: Floats) -> Floats:
