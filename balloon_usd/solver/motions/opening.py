@@ -113,8 +113,8 @@ def _aim(shape: Floats, ahead: Floats, here: Floats, pairs: NDArray[np.int64], w
 
 
 def _blocked(ways: Floats, shape: Floats, pairs: NDArray[np.int64], width: float) -> Floats:
-    """Return how far what is left of the balloon would lie in bubbles that do not end at its joint, in widths,
-    for some directions of it (D, 3): (D,), from 0 to 1.
+    """Return how far what is left of the balloon would lie in bubbles that do not end at its joint, in
+    widths, for some directions of it (D, 3): (D,), from 0 to 1.
     """
     beside = pairs[(np.linalg.norm(shape[pairs], axis=2) > ONE_JOINT).all(axis=1)]
     first, second = shape[beside[:, :1]], shape[beside[:, 1:]]
