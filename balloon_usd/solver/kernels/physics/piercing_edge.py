@@ -5,7 +5,8 @@ import warp as wp
 from balloon_usd.solver.kernels.arrays.latex import Crossings
 from balloon_usd.solver.kernels.arrays.shared import Contacts, Mesh
 from balloon_usd.solver.kernels.device.array_access import float_at, int_at, vec3_at
-from balloon_usd.solver.kernels.physics.reaction import moved, push_apart, vertex_of_pair
+from balloon_usd.solver.kernels.physics.piercing_pair import moved, vertex_of_pair
+from balloon_usd.solver.kernels.physics.reaction import push_apart
 
 FLATTEST = wp.constant(0.1)
 """Least sine of the angle between an edge and a wall that it pierces: a flatter one is led as if it had this,

@@ -9,10 +9,9 @@ import warp as wp
 
 from balloon_usd.solver.kernels.arrays.latex import Crossings
 from balloon_usd.solver.kernels.arrays.shared import Hands, Mesh, State
-from balloon_usd.solver.kernels.device.array_access import float_at, int_at, vec3_at
+from balloon_usd.solver.kernels.device.array_access import float_at, int_at
+from balloon_usd.solver.kernels.physics.piercing_pair import moved, vertex_of_pair, weight_in_pair
 
-FARTHEST_MOVED = wp.constant(0.1)
-"""Farthest that a vertex is taken to have moved since walls were last kept apart, m: sums never overflow."""
 PER_MOMENT = wp.constant(1.0e12)
 """Integers to 1 kg m in sums of mass by way: added as integers they do not depend on the order of threads."""
 STIFFNESS = wp.constant(1.0e6)
@@ -31,31 +30,6 @@ MOST_REACTION = wp.constant(3000.0)
 """Largest reaction per mass, m/s2."""
 LEAST_REACTION = wp.constant(1.0)
 """Reaction per mass below which there is none, m/s2."""
-
-
-@wp.func
-def vertex_of_pair(k: int, ends: wp.vec3i, other: wp.vec3i):
-    """Return one of the five vertices of an edge and a triangle, the ends of the edge first."""
-    return wp.where(k < 2, ends[k % 2], other[wp.max(k - 2, 0)])
-
-
-@wp.func
-def weight_in_pair(k: int, share: float, on_face: wp.vec3):
-    """Return how much of where an edge and a triangle touch is such a vertex, below 0 in the triangle."""
-    if k < 2:
-        return wp.where(k == 0, 1.0 - share, share)
-    return -on_face[wp.max(k - 2, 0)]
-
-
-@wp.func
-def moved(i: int, crossings: Crossings):
-    """Return how far a vertex goes since walls were last kept apart (m)."""
-    way = vec3_at(crossings.x_apart, i) - vec3_at(crossings.x_safe, i)
-    return wp.vec3(
-        wp.clamp(way[0], -FARTHEST_MOVED, FARTHEST_MOVED),
-        wp.clamp(way[1], -FARTHEST_MOVED, FARTHEST_MOVED),
-        wp.clamp(way[2], -FARTHEST_MOVED, FARTHEST_MOVED),
-    )
 
 
 @wp.func
