@@ -24,6 +24,21 @@ steps:
   - lock: [left_ear, right_ear]
 physics: {hold: 1.5}
 """
+ANTENNA = """
+format: 1
+name: antenna
+units: cm
+balloons: {main: {size: 260, inflated: 60}}
+steps:
+  - bubbles: {head: 5}
+  - loop: {ring: 12}
+  - rest: antenna
+  - bend: {antenna: 130}
+    point: up
+"""
+"""A long rest that is bent up, with its flat tail at its end."""
+SLACK = 9.0
+"""Stretch that no wall of it has, even for a moment."""
 FASTEST = 1.5
 """No point of a balloon is led faster by hand, m/s."""
 
@@ -100,3 +115,13 @@ def test_joints_of_a_figure_that_was_put_down_stay_where_they_are(ears):
     assert (ears.rings[-8:, joints] == ears.rings[-9, joints]).all()
     speed = np.linalg.norm(np.diff(ears.walls[-9:], axis=0), axis=2).max() * ears.fps
     assert speed < 0.002
+
+
+def test_the_flat_tail_of_a_rest_that_is_bent_stays_flat():
+    planned = plan(Recipe.parse(ANTENNA))
+    simulation = simulate_many([planned], device="cpu")
+    frames = [frame for (frame,) in simulation.frames()]
+    assert max(float(frame.stretch[0].max()) for frame in frames) < SLACK
+    end = frames[-1].points[0][-simulation.meshes[0][0].around :]
+    width = planned.strips["main"].size.radius * 2.0
+    assert np.linalg.norm(np.ptp(end, axis=0)) < 2.0 * width
