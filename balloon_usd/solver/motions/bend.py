@@ -27,7 +27,7 @@ class Bend(Motion, ABC):
 
     def __init__(self, move: moves.Bend, sculpture: Sculpture) -> None:
         """Take hold of the bubble and of what hangs on it."""
-        self._sculpture, self._hands = sculpture, (hands := sculpture.hands)
+        self._sculpture, self._hands = sculpture, sculpture.hands
         self._bubble = sculpture.plan.table.rings[move.rings[1]].bubble
         rings, flat = move.rings, (0, move.flat)
         if self._rubber_on(rings[-1], rings) < self._rubber_on(rings[0], rings):
@@ -38,7 +38,7 @@ class Bend(Motion, ABC):
             self.take(sculpture.joints[ring])
         for ring in move.rings[firm:]:
             # Held firmly, what is beyond whips, and fills with gas.
-            hands.lead(sculpture.joints[ring], sculpture.frame.middle)
+            self._hands.lead(sculpture.joints[ring], sculpture.frame.middle)
         self._carried = sculpture.carry(rings)
         self._began = sculpture.frame.middle[self._joints].astype(np.float64)
         self._arc = Arc(self._began, move.angle, np.array(move.point), flat)

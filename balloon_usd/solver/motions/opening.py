@@ -101,7 +101,7 @@ def _aim(shape: Floats, ahead: Floats, here: Floats, pairs: NDArray[np.int64], w
     ways = np.stack([level * np.cos(turned), level * np.sin(turned), height], axis=1)
     net = np.concatenate([shape, 0.5 * (shape[pairs[:, 0]] + shape[pairs[:, 1]])])
     far = np.linalg.norm(net, axis=1)
-    others = net[far > 1e-6] / far[far > 1e-6, None]
+    others = net[far > ONE_JOINT] / far[far > ONE_JOINT, None]
     onward = ONWARD * (ways @ ahead) / max(float(np.linalg.norm(ahead)), 1e-9)
     # What is more than a quarter of a turn off is out of the way.
     near = (ways @ others.T).max(axis=1, initial=0.0) + BLOCKED * _blocked(ways, shape, pairs, width)

@@ -7,9 +7,10 @@ a chunk takes 8 ns on a CPU with AVX-512, 150 ns one by one.
 import warp as wp
 
 from balloon_usd.solver.kernels.device.native import native
+from balloon_usd.solver.kernels.device.warp_reduce import WARP
 
-CHUNK_QUADS = 32
-"""Most quads of a chunk, and the bits of a mask of them."""
+CHUNK_QUADS = WARP
+"""Most quads of a chunk, the work of a warp, and the bits of a mask of them."""
 SPHERE_ROWS = 4
 """Rows of spheres: coordinates of their middles, and their radii, m."""
 REACH_ROWS = 5
@@ -28,6 +29,13 @@ def put_in_row(rows: wp.array2d[float], chunk: int, row: int, lane: int, value: 
 def in_row(rows: wp.array2d[float], chunk: int, row: int, lane: int) -> float:
     """Return the value of a chunk's quad `lane`."""
     return rows[chunk, row * CHUNK_QUADS + lane]
+
+
+@wp.func
+def put_middle(rows: wp.array2d[float], chunk: int, lane: int, middle: wp.vec3):
+    """Store the middle (m) of a chunk's quad `lane` in the first three rows."""
+    for k in range(3):
+        put_in_row(rows, chunk, k, lane, middle[k])
 
 
 @native("return (int)(((1ull << end) - 1) & ~((1ull << begin) - 1));")

@@ -5,7 +5,13 @@ import warp as wp
 from balloon_usd.solver.kernels.arrays.latex import Crossings
 from balloon_usd.solver.kernels.arrays.shared import Balloons, Contacts, Mesh, Sculptures
 from balloon_usd.solver.kernels.device.array_access import int_at, vec3_at, vec4i_at
-from balloon_usd.solver.kernels.device.chunk_rows import in_row, lanes_between, near_spheres, put_in_row
+from balloon_usd.solver.kernels.device.chunk_rows import (
+    in_row,
+    lanes_between,
+    near_spheres,
+    put_in_row,
+    put_middle,
+)
 from balloon_usd.solver.kernels.device.warp_reduce import lowest_bit, warp_ballot, warp_max3, warp_or
 from balloon_usd.solver.kernels.physics.piercing_edge import (
     LONGER,
@@ -14,7 +20,7 @@ from balloon_usd.solver.kernels.physics.piercing_edge import (
     is_corner,
     neck_at,
 )
-from balloon_usd.solver.kernels.physics.surface import FAR
+from balloon_usd.solver.kernels.physics.surface import FAR, farthest
 
 
 @wp.func
@@ -215,14 +221,9 @@ def box_walls(mesh: Mesh, crossings: Crossings):
         x2 = crossings.x_apart[c[2]]
         x3 = crossings.x_apart[c[3]]
         middle = 0.25 * (x0 + x1 + x2 + x3)
-        radius = wp.max(
-            wp.max(wp.length(x0 - middle), wp.length(x1 - middle)),
-            wp.max(wp.length(x2 - middle), wp.length(x3 - middle)),
-        )
         place = q - mesh.chunk_quad[chunk]
-        for k in range(3):
-            put_in_row(crossings.sphere_rows, chunk, k, place, middle[k])
-        put_in_row(crossings.sphere_rows, chunk, 3, place, radius)
+        put_middle(crossings.sphere_rows, chunk, place, middle)
+        put_in_row(crossings.sphere_rows, chunk, 3, place, farthest(middle, x0, x1, x2, x3))
         high = wp.max(high, wp.max(wp.max(x0, x1), wp.max(x2, x3)))
         low = wp.min(low, wp.min(wp.min(x0, x1), wp.min(x2, x3)))
     high = warp_max3(high)

@@ -5,7 +5,7 @@ import warp as wp
 from balloon_usd.solver.kernels.arrays.rows import Touch
 from balloon_usd.solver.kernels.arrays.shared import Balloons, Contacts, Hands, Mesh, State
 from balloon_usd.solver.kernels.device.array_access import int_at, vec3_at, vec4i_at
-from balloon_usd.solver.kernels.device.chunk_rows import put_in_row
+from balloon_usd.solver.kernels.device.chunk_rows import put_in_row, put_middle
 from balloon_usd.solver.kernels.device.warp_reduce import warp_max3, warp_sum
 from balloon_usd.solver.kernels.physics.patch import SIDE_SLIP
 
@@ -33,6 +33,15 @@ def velocity_of_quad(c: wp.vec4i, middle: wp.vec3, hands: Hands, v: wp.array[wp.
     return own + velocity_of_spin(c[0], middle, hands)
 
 
+@wp.func
+def farthest(middle: wp.vec3, x0: wp.vec3, x1: wp.vec3, x2: wp.vec3, x3: wp.vec3):
+    """Return how far the farthest of four corners is from a middle (m)."""
+    return wp.max(
+        wp.max(wp.length(x0 - middle), wp.length(x1 - middle)),
+        wp.max(wp.length(x2 - middle), wp.length(x3 - middle)),
+    )
+
+
 @wp.kernel
 def chunk_surface(
     touch: Touch, mesh: Mesh, balloons: Balloons, hands: Hands, contacts: Contacts, state: State
@@ -57,16 +66,12 @@ def chunk_surface(
         going = velocity_of_quad(c, middle, hands, state.v)
         above = balloons.contact_arc[b] * size + touch.ahead * wp.length(going)
         beside = SIDE_SLIP * wp.sqrt(size)
-        corner = wp.max(
-            wp.max(wp.length(x0 - middle), wp.length(x1 - middle)),
-            wp.max(wp.length(x2 - middle), wp.length(x3 - middle)),
-        )
+        corner = farthest(middle, x0, x1, x2, x3)
         contacts.quad_middle[q] = middle
         contacts.quad_area[q] = area
         contacts.quad_velocity[q] = going
         place = q - mesh.chunk_quad[chunk]
-        for k in range(3):
-            put_in_row(contacts.reach_rows, chunk, k, place, middle[k])
+        put_middle(contacts.reach_rows, chunk, place, middle)
         put_in_row(contacts.reach_rows, chunk, 3, place, corner + beside)
         put_in_row(contacts.reach_rows, chunk, 4, place, above)
         contacts.hit_count[q] = 0
