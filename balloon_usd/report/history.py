@@ -53,8 +53,8 @@ class History:
         self._pressure.append(frame.pressure.astype(np.float64))
         self._volume.append(frame.volume.astype(np.float64))
         highest = np.zeros(len(self.plan.bubbles))
-        for stretch, owner in zip(frame.stretch, self._owners, strict=True):
-            highest[owner.bubbles] = np.maximum.reduceat(stretch[owner.order], owner.starts)
+        for balloon, owner in enumerate(self._owners):
+            highest[owner.bubbles] = np.maximum.reduceat(frame.forced(balloon)[owner.order], owner.starts)
         self._stretch.append(highest)
         if frame.contact is not None:
             self._contact.append(frame.contact.astype(np.float64))
@@ -89,7 +89,9 @@ class History:
 
     @property
     def stretch(self) -> Floats:
-        """Largest principal stretch in the wall of every bubble, (N, bubbles) float64."""
+        """Largest principal stretch of every bubble's wall, but where it is led out of others, (N, bubbles)
+        float64.
+        """
         return np.array(self._stretch).reshape(len(self._time_codes), -1)
 
     @property

@@ -48,12 +48,15 @@ class Bursting:
     def load(self, frame: Frame, above: float = 0.0) -> WallLoad:
         """Return the highest load of its walls in a frame; springs have none.
 
+        What is led out of other walls bears none: creases that hands close are stretched by that, for some
+        frames, to many times the load at which latex tears.
+
         `above`: share of `least_burst_stretch` below which the wall is left out; `NEAR` makes it quick, and
         changes no load of 1.
         """
         loads = [
-            wall.load(points, stretch, above)
-            for wall, points, stretch in zip(self._walls, frame.points, frame.stretch, strict=False)
+            wall.load(frame.points[balloon], frame.forced(balloon), above)
+            for balloon, wall in enumerate(self._walls)
         ]
         return max(loads, default=NO_LOAD)
 
@@ -89,9 +92,12 @@ class _Wall:
         return bool(share * most + self._below >= 1.0)
 
     def load(self, points: NDArray[np.float32], stretch: NDArray[np.float32], above: float) -> WallLoad:
-        """Return the load, from vertex positions, (V, 3) m, and the largest stretch at every vertex, (V,)."""
-        large = stretch[self._quads].mean(axis=1, dtype=np.float64)
-        taut = np.flatnonzero(large > above * self._least)
+        """Return the load, from vertex positions, (V, 3) m, and the largest stretch at every vertex, (V,), 0
+        where it is not counted.
+        """
+        corners = stretch[self._quads]
+        large = corners.mean(axis=1, dtype=np.float64)
+        taut = np.flatnonzero((large > above * self._least) & corners.all(axis=1))
         if not taut.size:
             return NO_LOAD
         large, volume = large[taut], self._volume[taut]

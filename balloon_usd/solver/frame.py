@@ -40,6 +40,17 @@ class Frame:
     """Farthest that the wall of every bubble was led out of others in this frame, (bubbles,) float32, m; None
     in the model kosaka.
     """
+    slowness: tuple[NDArray[np.float32], ...] = ()
+    """How slow every vertex of every balloon is kept that is led out of other walls, (V,) float32, s/m: 0
+    where forces alone move it. Empty in the model kosaka.
+    """
+
+    def forced(self, balloon: int) -> NDArray[np.float32]:
+        """Return the stretch at every vertex of a balloon, (V,) float32, and 0 where it is led out of other
+        walls: that stretches walls for a few frames, with no force that latex would bear.
+        """
+        stretch = self.stretch[balloon]
+        return stretch * (self.slowness[balloon] == 0.0) if self.slowness else stretch
 
     def copy(self) -> Frame:
         """Return the same in arrays of its own."""
@@ -53,4 +64,5 @@ class Frame:
             air=tuple([air.copy() for air in self.air]),
             cluster=tuple([cluster.copy() for cluster in self.cluster]),
             shift=None if self.shift is None else self.shift.copy(),
+            slowness=tuple([slowness.copy() for slowness in self.slowness]),
         )

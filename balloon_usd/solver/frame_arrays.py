@@ -45,7 +45,8 @@ class Extent(NamedTuple):
         pressure, volume = (make((self.bubbles,), np.float32) for _ in range(2))
         if self.particles is None:
             contact, shift = (make((self.bubbles,), np.float32) for _ in range(2))
-            return FrameArrays(*walls, pressure, volume, contact, shift=shift)
+            slowness = make((self.vertices,), np.float32)
+            return FrameArrays(*walls, pressure, volume, contact, shift=shift, slowness=slowness)
         air, cluster = make((self.particles, 3), np.float32), make((self.particles,), np.int32)
         return FrameArrays(*walls, pressure, volume, None, air, cluster)
 
@@ -92,6 +93,10 @@ class FrameArrays:
     """Farthest that the wall of every bubble was led out of others in this frame, (bubbles,) float32, m; None
     in the model kosaka.
     """
+    slowness: NDArray[np.float32] | None = None
+    """How slow every vertex is kept that is led out of other walls, (V,) float32, s/m, as in a `Frame`; None
+    in the model kosaka.
+    """
 
     def copy_to(self, other: FrameArrays) -> None:
         """Copy all arrays into others of the same extent."""
@@ -109,7 +114,7 @@ class FrameArrays:
         walls = slice(before.vertices, before.vertices + extent.vertices)
         bubbles = slice(before.bubbles, before.bubbles + extent.bubbles)
         air = slice(before.particles or 0, (before.particles or 0) + (extent.particles or 0))
-        spans = (walls, walls, bubbles, bubbles, bubbles, air, air, bubbles)
+        spans = (walls, walls, bubbles, bubbles, bubbles, air, air, bubbles, walls)
         arrays: list[Any] = [
             None if array is None else array[span] for array, span in zip(self._arrays(), spans, strict=True)
         ]
@@ -118,6 +123,7 @@ class FrameArrays:
     def frame(self, place: Place, time_code: int, doing: str = "", undone: tuple[str, ...] = ()) -> Frame:
         """Return the frame of one sculpture: views of these arrays."""
         air, cluster, contact, shift = self.air, self.cluster, self.contact, self.shift
+        slowness = self.slowness
         return Frame(
             time_code,
             tuple([self.points[span] for span in place.walls]),
@@ -130,6 +136,7 @@ class FrameArrays:
             () if air is None else tuple([air[span] for span in place.air]),
             () if cluster is None else tuple([cluster[span] for span in place.air]),
             None if shift is None else shift[place.bubbles],
+            () if slowness is None else tuple([slowness[span] for span in place.walls]),
         )
 
     def _arrays(self) -> tuple[Any, ...]:
@@ -142,6 +149,7 @@ class FrameArrays:
             self.air,
             self.cluster,
             self.shift,
+            self.slowness,
         )
 
 

@@ -35,7 +35,7 @@ class RunSummary:
         """Highest load in the frames in which a wall might have burst."""
         self._last: Frame | None = None
         self.highest_stretch = 0.0
-        """Largest principal stretch of any wall so far."""
+        """Largest principal stretch so far of any wall that is not led out of others."""
         self.highest_bubble = ""
         """Bubble in which it was."""
 
@@ -44,7 +44,7 @@ class RunSummary:
         self._last = frame
         near = False
         for index, (strip, mesh) in enumerate(zip(self._plan.strips.values(), self._meshes, strict=True)):
-            stretch = frame.stretch[index]
+            stretch = frame.forced(index)
             worst = int(np.argmax(stretch))
             highest = float(stretch[worst])
             near = near or self._bursting.near(index, stretch, highest)

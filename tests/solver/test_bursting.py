@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -63,6 +65,29 @@ def test_a_run_with_one_vertex_beyond_seven_does_not_burst(blown):
     summary.add(blown.frame(7.6, here=500))
     assert summary.highest_stretch == pytest.approx(7.6)
     assert not summary.bursts
+
+
+def test_a_crease_that_is_led_out_of_another_wall_does_not_burst(blown):
+    crease = slice(400, 800)
+    calm = blown.frame(5.66)
+    stretch = calm.stretch[0].copy()
+    stretch[crease] = 12.0
+    stretched = replace(calm, stretch=(stretch,))
+    assert blown.bursting.load(stretched).load > 1.0
+    slowness = np.zeros(len(blown.mesh.points), dtype=np.float32)
+    slowness[crease] = 1.0
+    led = replace(stretched, slowness=(slowness,))
+    assert blown.bursting.load(led).load < 1.0
+    summary = RunSummary(blown.plan, (blown.mesh,))
+    summary.add(led)
+    assert not summary.bursts
+    assert summary.highest_stretch == pytest.approx(5.66)
+
+
+def test_what_bursts_beside_a_crease_that_is_led_is_told(blown):
+    slowness = np.zeros(len(blown.mesh.points), dtype=np.float32)
+    slowness[400:800] = 1.0
+    assert blown.bursting.load(replace(blown.frame(7.3), slowness=(slowness,))).load > 1.0
 
 
 def test_a_run_that_once_bursts_is_told_with_its_bubble(blown):

@@ -53,6 +53,7 @@ SHORT_OF_GAS = 0.98
 READ_BACK = (
     "x",
     "stretch",
+    "slowness",
     "pressure",
     "volume",
     "amount",
@@ -143,7 +144,8 @@ class LatexModel(Model):
         pressure, volume, contact, shift = (
             state[name][bubbles] for name in ("pressure", "volume", "wall_load", "segment_shift")
         )
-        return FrameArrays(state["x"], state["stretch"], pressure, volume, contact, shift=shift)
+        walls = state["x"], state["stretch"]
+        return FrameArrays(*walls, pressure, volume, contact, shift=shift, slowness=state["slowness"])
 
     def failures(self) -> dict[int, str]:
         """Return failures that the frames do not show, by sculpture."""
