@@ -39,8 +39,13 @@ POSING: dict[str, tuple[str, str]] = {
 }
 """What hands do to pose a figure, and what it does then."""
 
-LOOSEN_SECONDS = 1.2
-"""Time in which hands let go of a finished figure, s: at once, and it would jump."""
+LOOSEN_SECONDS = 3.0
+"""Time in which hands let go of a finished figure, s: at once, and it would jump, and what was squeezed moves
+on for two seconds after the grip has faded (let go of in 1.2 s, a tree of six bubbles crept by 24 mm then,
+another by 9; now by 0.4 and 2.3).
+"""
+NET_LOOSEN_SECONDS = 5.0
+"""The same of a figure with a closed net, s: it swings as a whole, and the slower the larger it is."""
 FEWEST_FRAMES = 6
 """Frames in which a balloon can be blown up: the pump's flow changes from frame to frame."""
 ROUNDING = 1e-9
@@ -66,12 +71,14 @@ def choreograph(recipe: Recipe, strips: Mapping[str, Strip], table: RingTable) -
         if isinstance(step, Timed) and step.seconds is not None and not step.keeps_time:
             score.retime(first, begin, step.seconds)
     timed = {k for k, each in enumerate(recipe.steps) if getattr(each, "seconds", None) is not None}
-    set_nets(score, nets_of(recipe.piece, strips, table), table, len(recipe.steps), timed)
+    nets = nets_of(recipe.piece, strips, table)
+    set_nets(score, nets, table, len(recipe.steps), timed)
     held = any(isinstance(move, Pinch) for move in score.moves)
     if held and not blown_up and recipe.physics.gravity == 0.0:
         while isinstance(score.moves[-1], LetGo):
             score.moves.pop()
-        score.add(Loosen(score.now, LOOSEN_SECONDS, len(recipe.steps), "loosen the grip"))
+        seconds = NET_LOOSEN_SECONDS if nets else LOOSEN_SECONDS
+        score.add(Loosen(score.now, seconds, len(recipe.steps), "loosen the grip"))
     score.add(LetGo(score.now, 0.0, len(recipe.steps), "let go", for_good=True))
     score.add(Hold(score.now, recipe.physics.hold, len(recipe.steps), "hold"))
     if (recipe.pose, recipe.front) != ("as made", "forward"):

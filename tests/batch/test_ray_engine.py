@@ -36,7 +36,17 @@ ONE_CPU = Needs(cpus=1)
 
 
 @pytest.fixture(scope="module")
-def cluster():
+def interruptible():
+    """Ctrl-C is heard, here and by workers, also where the tests run in the background of a shell: what is
+    ignored when a process starts is ignored by all that it starts.
+    """
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.fixture(scope="module")
+def cluster(interruptible):
     """A cluster of a head and one more machine with a GPU that nobody looks for, each with one CPU."""
     with pytest.MonkeyPatch.context() as patch:
         # Workers must find this folder and the code under test.
@@ -171,15 +181,7 @@ def test_only_what_may_be_found_again_is_tried_again(cluster, tmp_path, error, l
     assert made(tmp_path) == ([] if lost else ["a"])
 
 
-@pytest.fixture
-def interruptible():
-    """Ctrl-C is heard, also where the tests run in the background of a shell."""
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
-    yield
-    signal.signal(signal.SIGINT, before)
-
-
-def test_tasks_end_as_by_hand_when_nobody_waits_for_them(cluster, tmp_path, interruptible):
+def test_tasks_end_as_by_hand_when_nobody_waits_for_them(cluster, tmp_path):
     def interrupt():
         begun_by(tmp_path, "a")
         begun_by(tmp_path, "b")

@@ -19,16 +19,16 @@ DECAYS = 8.0
 """How often the force of the hands decays by a factor of e until it is faded: what they hold in the end takes
 a thousandth of a newton to some newtons.
 """
-FADED = 0.45
+FADED = 0.18
 """Share of the time after which it is faded. Then creases that it held go where they stay alone."""
-BRAKED = 0.7
-"""Share of the time from which on what still moves is braked more and more."""
+BRAKED = 0.73
+"""Share of the time from which on what still moves is braked more and more: earlier, and what is squeezed is
+still on its way when hands let go.
+"""
 LEAST_LEADING = 5.0e-4
 """What is left of the speed at which walls are led out of others, m/s: what cannot be led out stays calm."""
-MOST_BRAKED = 4.0
-"""Drag at the end, in that while hands work: with 10, necks of the elephant's ears stay 1.005 mm inside each
-other, with this 0.96.
-"""
+MOST_BRAKED = 24.0
+"""Drag at the end, in that while hands work: flat tails have swung out then."""
 
 
 class Loosen(Motion):
