@@ -170,10 +170,17 @@ class Hands:
         self.pressing = True
         self._due["fingers"], self._due["finger_share"] = self.fingers, self.finger_share
 
+    def set_fingertip(self, balloon: int, **finger: Any) -> None:
+        """Put a finger with a round tip on a balloon for the coming frame; `finger`: fields of a `Finger`."""
+        fill_row(self.fingers, balloon, finger)
+        self.pressing = True
+        self._due["fingers"] = self.fingers
+
     def lift_fingers(self) -> None:
         """Take all fingers from the walls."""
         if self.pressing:
             self.finger_share[:] = 0.0
+            self.fingers["radius"] = 0.0
         self.pressing = False
 
     def let_go(self, joints: NDArray[np.int64]) -> None:

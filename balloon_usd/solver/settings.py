@@ -21,6 +21,8 @@ class SceneSettings:
     """Gravity towards -z, m/s2."""
     friction: float = 0.8
     """Coulomb coefficient of rubber on rubber."""
+    fingers: bool = True
+    """Whether fingers may ever press on a wall."""
     scale_mass: bool = True
     """Whether masses are raised until the time step is stable."""
     contact_offset: float = 1.5e-3

@@ -13,8 +13,8 @@ RESIDENT = 65536
 """Bytes of a small sculpture in shared memory."""
 
 
-@pytest.mark.parametrize(("shared", "resident_bytes"), [(False, RESIDENT), (True, 0)])
-def test_the_substeps_compile_for_a_gpu(tmp_path, shared, resident_bytes):
-    kernel = kernel_variant(256, shared=shared, resident_bytes=resident_bytes, cores=False)
+@pytest.mark.parametrize(("shared", "resident_bytes", "fingers"), [(False, RESIDENT, False), (True, 0, True)])
+def test_the_substeps_compile_for_a_gpu(tmp_path, shared, resident_bytes, fingers):
+    kernel = kernel_variant(256, shared=shared, resident_bytes=resident_bytes, cores=False, fingers=fingers)
     (made,) = wp.compile_aot_module(kernel.module, arch=OLDEST, module_dir=tmp_path, use_ptx=True)
     assert "sm_80" in made.read_text(encoding="utf-8", errors="replace")

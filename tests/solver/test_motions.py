@@ -24,7 +24,7 @@ from balloon_usd.solver.latex.motions.table import LATEX_MOTIONS
 from balloon_usd.solver.motions.bring import Bring
 from balloon_usd.solver.motions.gather import Gather
 from balloon_usd.solver.motions.motion import Motion
-from balloon_usd.solver.motions.press import Press, press_profile
+from balloon_usd.solver.motions.press import press_profile
 from balloon_usd.solver.motions.wait import Wait
 from balloon_usd.solver.performer import Performer
 from balloon_usd.solver.sculpture import ALONG, ComingFrame
@@ -479,7 +479,7 @@ def test_a_ring_of_a_net_is_drawn_together_before_its_time_is_over():
 def test_two_fingers_on_two_balloons_each_press_as_far_as_their_own_time_tells():
     room = Room()
     first, second = (
-        Press(moves.Press(**DONE, balloon=name, along=0.02, depth=0.01), room.sculpture)
+        LATEX_MOTIONS[moves.Press](moves.Press(**DONE, balloon=name, along=0.02, depth=0.01), room.sculpture)
         for name in ("red", "blue")
     )
     first.advance(0.2)

@@ -24,7 +24,7 @@ def shared_memory_bytes(device: wp.Device) -> int:
 
 @cache
 def kernel_variant(
-    lanes: int, *, shared: bool, resident_bytes: int, cores: bool, joint_lanes: int = WARP
+    lanes: int, *, shared: bool, resident_bytes: int, cores: bool, fingers: bool, joint_lanes: int = WARP
 ) -> Any:
     """Return the kernel with approximate divisions and roots: half of the code of exact ones is for numbers
     that cannot occur, and a GPU has to fetch it all in every substep.
@@ -34,6 +34,7 @@ def kernel_variant(
     return substep_kernel(
         shared=shared,
         cores=cores,
+        fingers=fingers,
         joint_lanes=joint_lanes,
         resident_bytes=resident_bytes,
         module="unique",

@@ -48,6 +48,7 @@ class SculptureLaunch:
                 shared=self.blocks > 1,
                 resident_bytes=shared_memory_bytes(device) if resident else 0,
                 cores=any(body.packs for body in scene.bodies),
+                fingers=scene.settings.fingers,
                 joint_lanes=HALF_WARP if around <= HALF_WARP else WARP,
             )
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.operations.disjoint_sets import roots_of
-from balloon_usd.operations.moves import Inflate, Weld
+from balloon_usd.operations.moves import Inflate, Press, Weld
 from balloon_usd.plan.meshing import joint_places
 from balloon_usd.plan.parking import parked
 from balloon_usd.solver.body import body_ranges
@@ -84,6 +84,7 @@ class LatexModel(Model):
             dt=1.0 / (fps * substeps),
             gravity=physics.gravity,
             friction=physics.friction,
+            fingers=any(isinstance(move, Press) for plan in plans for move in plan.choreography.moves),
             scale_mass=physics.mass_scaling == "selective",
         )
         rings = sum(len(b.rings) for b in bodies)

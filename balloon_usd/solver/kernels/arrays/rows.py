@@ -35,6 +35,14 @@ class Finger:
     stiff: float
     """Stiffness per touched vertex behind the tip, in vertex masses per squared time step; 0 for force alone.
     """
+    radius: float
+    """Radius of a round tip that pushes what is inside it, m; 0 where it presses on a patch of vertices."""
+    velocity: wp.vec3
+    """Velocity of a round tip, m/s."""
+    palm: wp.vec3
+    """Middle of the palm that lies against the far side meanwhile, across the finger, m."""
+    segment: int
+    """Segment that a round tip and the palm touch; they pass through all others."""
 
 
 @wp.struct

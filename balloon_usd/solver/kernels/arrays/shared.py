@@ -146,6 +146,10 @@ class Hands:
     )
     fingers: wp.array[Finger] = array("balloons", unit="SI", meaning="a finger that presses on its wall")
     finger_share: wp.array[float] = array("vertices", meaning="share of the finger's force")
+    finger_slip: wp.array[wp.vec3] = array(
+        "vertices", unit="m", meaning="deflection of its friction on a round fingertip"
+    )
+    finger_push: wp.array[wp.vec3] = array("vertices", unit="m/s", meaning="velocity that the hand gives it")
 
 
 @array_struct

@@ -17,13 +17,20 @@ from balloon_usd.solver.kernels.arrays.shared import (
     State,
     Welds,
 )
-from balloon_usd.solver.kernels.device.array_access import int_at, int_in, put_float, vec4_at, vec4i_at
+from balloon_usd.solver.kernels.device.array_access import (
+    int_at,
+    int_in,
+    put_float,
+    put_vec3,
+    vec4_at,
+    vec4i_at,
+)
 from balloon_usd.solver.kernels.device.barrier import block_barrier
 from balloon_usd.solver.kernels.device.coherent_load import coherent_vec3
 from balloon_usd.solver.kernels.device.warp_reduce import bit_of_rank, popcount, subwarp_sum, warp_sum
 from balloon_usd.solver.kernels.physics.contact import limits_of_pair, press_quad_back, press_wall
 from balloon_usd.solver.kernels.physics.core import press_core, yield_to_core
-from balloon_usd.solver.kernels.physics.fingers import press_finger
+from balloon_usd.solver.kernels.physics.fingertip import push_of_fingertip
 from balloon_usd.solver.kernels.physics.gas import advance_gas, shares_of_chunks, volume_of_fans
 from balloon_usd.solver.kernels.physics.joints import (
     block_of_joint,
@@ -64,23 +71,29 @@ def prepare_contacts(
 
 
 @wp.func
-def press_fingers_in(
-    threads: Threads, own: Ranges, dt: float, fraction: float, mesh: Mesh, hands: Hands, state: State
+def measure_fingers(
+    threads: Threads,
+    own: Ranges,
+    dt: float,
+    fraction: float,
+    mesh: Mesh,
+    balloons: Balloons,
+    hands: Hands,
+    state: State,
 ):
-    """Let fingers press on the vertices under them."""
+    """Write what fingers give the vertices inside them."""
     for i in range(own.vertex_begin + threads.thread, own.vertex_end, threads.threads):
-        press_finger(
-            i,
-            mesh.vertex_balloon,
-            mesh.mass,
-            hands.fingers,
-            hands.finger_share,
-            dt,
-            fraction,
-            state.x,
-            state.v,
-            threads.shared,
+        hands.finger_push[i] = push_of_fingertip(
+            i, dt, fraction, threads.shared, mesh, balloons, hands, state
         )
+
+
+@wp.func
+def press_fingers_in(threads: Threads, own: Ranges, hands: Hands, state: State):
+    """Let fingers push out what is inside them."""
+    # Each thread takes the vertices that it measured.
+    for i in range(own.vertex_begin + threads.thread, own.vertex_end, threads.threads):
+        put_vec3(state.v, i, coherent_vec3(state.v, i, threads.shared) + hands.finger_push[i])
 
 
 @wp.func

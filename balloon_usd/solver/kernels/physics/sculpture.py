@@ -26,6 +26,7 @@ from balloon_usd.solver.kernels.device.warp_reduce import WARP
 from balloon_usd.solver.kernels.physics.phases import (
     advance_chambers,
     load_struts,
+    measure_fingers,
     measure_open_rings,
     move_joints,
     move_vertices,
@@ -56,6 +57,7 @@ def substep_kernel(
     *,
     shared: bool = False,
     cores: bool = True,
+    fingers: bool = True,
     joint_lanes: int = WARP,
     resident_bytes: int = 0,
     **options: Any,
@@ -65,11 +67,12 @@ def substep_kernel(
     Args:
         shared: whether several blocks share a sculpture.
         cores: whether any neck may pack.
+        fingers: whether any finger may press: its code takes registers from the rest.
         joint_lanes: lanes that move a joint, a warp or half of one.
         resident_bytes: shared memory of a block, where a sculpture is resident in it; 0 where none is.
         options: of `wp.kernel`.
     """
-    packing = cores
+    packing, handled = cores, fingers
     reserve_shared_memory = shared_memory_of(resident_bytes)
 
     @wp.kernel(name="advance_sculptures", **options)
@@ -115,10 +118,15 @@ def substep_kernel(
         goal = int(0)
         for k in range(launch.begin, launch.end):
             fraction = float(k + 1) / float(launch.substeps)
-            if launch.pressing == 1:
-                press_fingers_in(threads, own, dt, fraction, mesh, hands, state)
-                goal += blocks
-                sculpture_barrier(sculptures.barrier_counts, w, blocks, goal, lane)
+            if wp.static(handled):
+                if launch.pressing == 1:
+                    measure_fingers(threads, own, dt, fraction, mesh, balloons, hands, state)
+                    # All velocities are read before any changes.
+                    goal += blocks
+                    sculpture_barrier(sculptures.barrier_counts, w, blocks, goal, lane)
+                    press_fingers_in(threads, own, hands, state)
+                    goal += blocks
+                    sculpture_barrier(sculptures.barrier_counts, w, blocks, goal, lane)
             stretch_walls(threads, own, mesh, rubber, chambers, forces, state)
             measure_open_rings(threads, own, joints, hands, state)
             if launch.walls == 1:

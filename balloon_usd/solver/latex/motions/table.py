@@ -12,12 +12,12 @@ from balloon_usd.solver.latex.motions.lead_in import LatexLeadIn
 from balloon_usd.solver.latex.motions.let_go import LatexLetGo
 from balloon_usd.solver.latex.motions.loosen import Loosen
 from balloon_usd.solver.latex.motions.pinch import Pinch
+from balloon_usd.solver.latex.motions.press import LatexPress
 from balloon_usd.solver.latex.motions.set_net import LatexSetNet
 from balloon_usd.solver.latex.motions.spin import Spin
 from balloon_usd.solver.latex.motions.turn_fold import TurnFold
 from balloon_usd.solver.motions.bring import Bring
 from balloon_usd.solver.motions.gather import Gather
-from balloon_usd.solver.motions.press import Press
 from balloon_usd.solver.motions.set_down import SetDown
 from balloon_usd.solver.motions.wait import Wait
 from balloon_usd.solver.motions.weld import Weld
@@ -35,7 +35,7 @@ LATEX_MOTIONS: Motions = {
     moves.Bring: Bring,
     moves.SetNet: LatexSetNet,
     moves.Bend: LatexBend,
-    moves.Press: Press,
+    moves.Press: LatexPress,
     moves.Weld: Weld,
     moves.TurnFold: TurnFold,
     moves.SetDown: SetDown,
