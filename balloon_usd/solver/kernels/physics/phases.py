@@ -14,6 +14,7 @@ from balloon_usd.solver.kernels.arrays.shared import (
     Hands,
     Joints,
     Mesh,
+    Sculptures,
     State,
     Welds,
 )
@@ -25,7 +26,7 @@ from balloon_usd.solver.kernels.device.array_access import (
     vec4_at,
     vec4i_at,
 )
-from balloon_usd.solver.kernels.device.barrier import block_barrier
+from balloon_usd.solver.kernels.device.barrier import block_barrier, sculpture_barrier
 from balloon_usd.solver.kernels.device.coherent_load import coherent_vec3
 from balloon_usd.solver.kernels.device.warp_reduce import bit_of_rank, popcount, subwarp_sum, warp_sum
 from balloon_usd.solver.kernels.physics.contact import limits_of_pair, press_quad_back, press_wall
@@ -71,29 +72,36 @@ def prepare_contacts(
 
 
 @wp.func
-def measure_fingers(
+def press_fingers_in(
     threads: Threads,
     own: Ranges,
-    dt: float,
-    fraction: float,
+    world: int,
+    goal: int,
+    lane: int,
+    substep: int,
+    launch: Launch,
+    sculptures: Sculptures,
     mesh: Mesh,
     balloons: Balloons,
     hands: Hands,
     state: State,
 ):
-    """Write what fingers give the vertices inside them."""
+    """Let fingers push out what is inside them, and return the goal of the last barrier.
+
+    All velocities are read before any changes, and all are changed before any is read again.
+    """
+    blocks = launch.sculpture_blocks
+    fraction = float(substep + 1) / float(launch.substeps)
     for i in range(own.vertex_begin + threads.thread, own.vertex_end, threads.threads):
         hands.finger_push[i] = push_of_fingertip(
-            i, dt, fraction, threads.shared, mesh, balloons, hands, state
+            i, launch.dt, fraction, threads.shared, mesh, balloons, hands, state
         )
-
-
-@wp.func
-def press_fingers_in(threads: Threads, own: Ranges, hands: Hands, state: State):
-    """Let fingers push out what is inside them."""
+    sculpture_barrier(sculptures.barrier_counts, world, blocks, goal + blocks, lane)
     # Each thread takes the vertices that it measured.
     for i in range(own.vertex_begin + threads.thread, own.vertex_end, threads.threads):
         put_vec3(state.v, i, coherent_vec3(state.v, i, threads.shared) + hands.finger_push[i])
+    sculpture_barrier(sculptures.barrier_counts, world, blocks, goal + 2 * blocks, lane)
+    return goal + 2 * blocks
 
 
 @wp.func

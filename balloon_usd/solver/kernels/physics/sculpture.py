@@ -26,7 +26,6 @@ from balloon_usd.solver.kernels.device.warp_reduce import WARP
 from balloon_usd.solver.kernels.physics.phases import (
     advance_chambers,
     load_struts,
-    measure_fingers,
     measure_open_rings,
     move_joints,
     move_vertices,
@@ -120,13 +119,9 @@ def substep_kernel(
             fraction = float(k + 1) / float(launch.substeps)
             if wp.static(handled):
                 if launch.pressing == 1:
-                    measure_fingers(threads, own, dt, fraction, mesh, balloons, hands, state)
-                    # All velocities are read before any changes.
-                    goal += blocks
-                    sculpture_barrier(sculptures.barrier_counts, w, blocks, goal, lane)
-                    press_fingers_in(threads, own, hands, state)
-                    goal += blocks
-                    sculpture_barrier(sculptures.barrier_counts, w, blocks, goal, lane)
+                    goal = press_fingers_in(
+                        threads, own, w, goal, lane, k, launch, sculptures, mesh, balloons, hands, state
+                    )
             stretch_walls(threads, own, mesh, rubber, chambers, forces, state)
             measure_open_rings(threads, own, joints, hands, state)
             if launch.walls == 1:
