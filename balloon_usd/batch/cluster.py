@@ -7,12 +7,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from balloon_usd.batch.engine import Engine, run_batch
-from balloon_usd.batch.machine import Machine, usable_cores
+from balloon_usd.batch.machine import Machine
 from balloon_usd.batch.ray_cluster import import_ray, require_ray_at
 from balloon_usd.batch.ray_engine import make_on_cluster
 from balloon_usd.batch.ray_machines import Needs
 from balloon_usd.batch.record import Record, Status, made_of, options_of, record_of
 from balloon_usd.batch.watch import Count, Silence
+from balloon_usd.processes.cores import usable_cores
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

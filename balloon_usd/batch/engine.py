@@ -9,12 +9,13 @@ from balloon_usd.batch import record as records
 from balloon_usd.batch.facts import Facts, Refusal
 from balloon_usd.batch.job import Job
 from balloon_usd.batch.journal import FILE_NAME, Journal
-from balloon_usd.batch.machine import Machine, usable_cores
+from balloon_usd.batch.machine import Machine
 from balloon_usd.batch.messages import Role, Started, Survey, Surveyed, Verified, Verify
 from balloon_usd.batch.pool import Pool
 from balloon_usd.batch.record import Record, Status
 from balloon_usd.batch.scheduler import MOST_FAILED_STARTS, BatchError, Scheduler
 from balloon_usd.batch.watch import Silence
+from balloon_usd.processes.cores import usable_cores
 from balloon_usd.processes.forking import prepare_fork
 
 if TYPE_CHECKING:

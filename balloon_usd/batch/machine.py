@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -28,12 +27,6 @@ RECIPES_PER_WRITER = 4
 """Recipes below which another writer does not pay for its start."""
 MOST_WRITERS = 16
 """Writers for each GPU at most, however many cores there are."""
-
-
-def usable_cores() -> int:
-    """Return how many cores of the CPU this process may use."""
-    affinity = getattr(os, "sched_getaffinity", None)
-    return len(affinity(0)) if affinity else os.cpu_count() or 1
 
 
 GPU_DRIVERS = (Path("/dev/nvidiactl"), Path("/dev/dxg"))
@@ -104,6 +97,10 @@ class Machine:
         """
         most = min(MOST_DRAWERS_ALONE, 3 * self.cores // 4) if alone else min(MOST_DRAWERS, self.cores // 4)
         return max(1, min(most, -(-recipes // RECIPES_PER_WRITER)))
+
+    def threads(self, sculptures: int) -> int:
+        """Return how many threads of a CPU make one sculpture, when so many are made or wait to be."""
+        return max(1, self.cores // max(1, sculptures))
 
     def simulators(self, device: Device, batches: int) -> int:
         """Return how many simulators a device gets for so many batches."""

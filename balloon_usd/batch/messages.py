@@ -114,6 +114,8 @@ class Simulate:
 
     batch: int
     parts: tuple[Part, ...]
+    threads: int
+    """Of a CPU, at most."""
 
 
 @dataclass(frozen=True)

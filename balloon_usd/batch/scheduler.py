@@ -238,7 +238,8 @@ class Scheduler:
         self._runs[number] = BatchRun(number, simulator, by_writer)
         self._busy[simulator] = number
         self._preparing.add(simulator)
-        simulator.send(Simulate(number, tuple(parts)))
+        threads = self._machine.threads(len(self._busy) + len(self._waiting))
+        simulator.send(Simulate(number, tuple(parts), threads))
         for writer, own in by_writer.items():
             writer.send(Begin(number, tuple(own)))
 

@@ -97,7 +97,7 @@ class Simulator:
     def _simulated(self, task: Simulate) -> Simulated:
         """Simulate a batch and say how that ended."""
         try:
-            _Run(self._connection, task).frames(self._simulation(task.parts))
+            _Run(self._connection, task).frames(self._simulation(task.parts, task.threads))
         except _Dropped:
             pass
         except (EOFError, BrokenPipeError, ConnectionResetError):
@@ -106,9 +106,9 @@ class Simulator:
             return _problem(task.batch, error)
         return Simulated(task.batch)
 
-    def _simulation(self, parts: Sequence[Part]) -> Simulation:
+    def _simulation(self, parts: Sequence[Part], threads: int) -> Simulation:
         plans = [planned(part.file, part.origin, part.plan) for part in parts]
-        return solver.simulate_many(plans, detail=self._order.detail, device=self._device)
+        return solver.simulate_many(plans, detail=self._order.detail, device=self._device, threads=threads)
 
 
 class _Run:

@@ -97,7 +97,9 @@ def work(task: ChildTask) -> None:
     from balloon_usd.bench.timing import planned  # noqa: PLC0415
     from balloon_usd.solver.simulation import simulate_many  # noqa: PLC0415
 
-    frames = simulate_many([planned(text) for text in task.recipes], task.detail, task.device).frames()
+    # There is a process for each core.
+    plans = [planned(text) for text in task.recipes]
+    frames = simulate_many(plans, task.detail, task.device, threads=1).frames()
     for _ in range(2):
         next(frames)
     _tell(time.time())

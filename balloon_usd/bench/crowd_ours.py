@@ -12,6 +12,7 @@ from balloon_usd.bench.frame_clock import clock_frames
 from balloon_usd.bench.pinch_ours import COARSE, HELD_MASS, SUBSTEPS
 from balloon_usd.bench.pinch_task import FPS, GAUGE, PINCHED, RADIUS
 from balloon_usd.bench.pinch_wall import blown_up, wall_thickness
+from balloon_usd.processes.cores import usable_cores
 from balloon_usd.solver.latex.body import LatexBody
 from balloon_usd.solver.latex.controls import LatexControls
 from balloon_usd.solver.latex.scene import build_scene
@@ -36,7 +37,7 @@ class CrowdOfTubes:
         mass = self._scene.mass.numpy()
         mass[np.concatenate(task.ends)] *= HELD_MASS
         self._scene.mass.assign(mass)
-        self._stepper = Stepper(self._scene, substeps)
+        self._stepper = Stepper(self._scene, substeps, usable_cores())
         self._hands = LatexControls(self._scene)
         if contact:
             self._hands.touch(range(TUBES))

@@ -10,6 +10,7 @@ from balloon_usd.balloon.rubber import rubber_named
 from balloon_usd.bench.frame_clock import clock_frames
 from balloon_usd.bench.pinch_task import FPS, GAUGE, PINCHED, RADIUS, PinchRun
 from balloon_usd.bench.pinch_wall import blown_up, rest_points, wall_thickness
+from balloon_usd.processes.cores import usable_cores
 from balloon_usd.solver.body import RingSpec
 from balloon_usd.solver.kernels.physics.gas import OPEN_PASSAGE
 from balloon_usd.solver.latex.body import LatexBody
@@ -44,7 +45,7 @@ class PinchedTube:
         mass = self.scene.mass.numpy()
         mass[np.concatenate(task.ends)] *= HELD_MASS
         self.scene.mass.assign(mass)
-        self.stepper = Stepper(self.scene, substeps)
+        self.stepper = Stepper(self.scene, substeps, usable_cores())
         self.hands = LatexControls(self.scene)
         self.hands.touch([0])
         self._whole = np.full(len(self.neck), RADIUS)

@@ -67,10 +67,20 @@ def planned(text: str) -> Plan:
     return plan(Recipe.parse(text, "what is measured"))
 
 
-def measure(name: str, plans: Sequence[Plan], detail: str, device: str, most: int | None) -> Timing:
-    """Simulate plans together, no more than `most` frames, and time what comes after the second."""
+def measure(
+    name: str,
+    plans: Sequence[Plan],
+    detail: str,
+    device: str,
+    most: int | None,
+    threads: int | None = None,
+) -> Timing:
+    """Simulate plans together, no more than `most` frames, and time what comes after the second.
+
+    `threads`: of a CPU at most, one for each of its cores if absent.
+    """
     begin = time.perf_counter()
-    simulation = solver.simulate_many(plans, detail=detail, device=device)
+    simulation = solver.simulate_many(plans, detail=detail, device=device, threads=threads)
     frames = simulation.frames()
     first = next(frames)
     next(frames)

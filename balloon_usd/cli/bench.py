@@ -22,7 +22,7 @@ from balloon_usd.cli.run import DETAILS
 MOST_COPIES = 65_536
 MOST_PROCESSES = 1024
 MODELS = ("latex", "kosaka")
-TABLE = ("model", "detail", "copies", "frames")
+TABLE = ("model", "detail", "copies", "frames", "threads")
 """Options of the table that is printed where nothing else is asked for."""
 OPTIONS: dict[str, tuple[str, ...]] = {
     "mixed": ("detail", "frames"),
@@ -49,6 +49,11 @@ OPTIONS: dict[str, tuple[str, ...]] = {
 )
 @click.option(
     "--frames", type=click.IntRange(3), help="Stop after so many frames. Default: a whole animation."
+)
+@click.option(
+    "--threads",
+    type=click.IntRange(1, MOST_PROCESSES),
+    help="Threads of a CPU that may share the work. Default: one for each core.",
 )
 @click.option("--mixed", is_flag=True, help="Different recipes together instead, against each alone.")
 @click.option("--first-frame", is_flag=True, help="The start instead: with compiled kernels and without.")
@@ -92,6 +97,7 @@ def bench(
     detail: str,
     copies: tuple[int, ...],
     frames: int | None,
+    threads: int | None,
     mixed: bool,
     first_frame: bool,
     processes: int | None,
@@ -127,7 +133,7 @@ def bench(
         elif batch:
             bench_batch(copies, detail, used, frames)
         else:
-            bench_table(model, detail, copies, used, frames)
+            bench_table(model, detail, copies, used, frames, threads)
 
 
 def _refuse_what_does_not_apply() -> None:

@@ -35,7 +35,14 @@ COLUMNS = (
 )
 
 
-def bench_table(model: str, detail: str, copies: tuple[int, ...], device: str, frames: int | None) -> None:
+def bench_table(
+    model: str,
+    detail: str,
+    copies: tuple[int, ...],
+    device: str,
+    frames: int | None,
+    threads: int | None,
+) -> None:
     """Print a row for every case and number of copies."""
     from balloon_usd.bench.timing import measure  # noqa: PLC0415
 
@@ -46,7 +53,7 @@ def bench_table(model: str, detail: str, copies: tuple[int, ...], device: str, f
         most = frames or (KOSAKA_FRAMES if model == "kosaka" else None)
         measured: dict[int, Timing] = {}
         for count in copies:
-            timing = measured[count] = measure(name, [plan] * count, detail, device, most)
+            timing = measured[count] = measure(name, [plan] * count, detail, device, most, threads)
             click.echo(_row(timing, measured.get(1)) + _target(model, detail, timing, measured, device))
 
 

@@ -174,8 +174,9 @@ def _here(
     """Make recipes on this machine."""
     from balloon_usd.batch.engine import run_batch  # noqa: PLC0415
     from balloon_usd.batch.journal import NotKept  # noqa: PLC0415
-    from balloon_usd.batch.machine import Machine, usable_cores  # noqa: PLC0415
+    from balloon_usd.batch.machine import Machine  # noqa: PLC0415
     from balloon_usd.batch.scheduler import BatchError  # noqa: PLC0415
+    from balloon_usd.processes.cores import usable_cores  # noqa: PLC0415
 
     try:
         return run_batch(files, order, Machine(jobs or usable_cores(), devices), watch)

@@ -39,10 +39,12 @@ class Batch:
         device: str,
         *,
         ahead: bool,
+        threads: int,
     ) -> None:
         """Put plans of so many frames each into a state.
 
-        `ahead`: make the next frame while one is checked and given out.
+        `ahead`: make the next frame while one is checked and given out; `threads`: of a CPU that may advance
+        the state together.
         """
         self._fps = plans[0].recipe.fps
         self._counts = np.array(frame_counts)
@@ -50,7 +52,7 @@ class Batch:
         """Plans that have failed."""
         self._ahead = ahead
         with capture_lock():
-            self.model: Model = model(plans, meshes, self._fps, substeps, device)
+            self.model: Model = model(plans, meshes, self._fps, substeps, device, threads)
         self._checks = BatchCheck(plans, meshes, self.model.layout.places, self._fps, substeps)
         self._statuses: Sequence[Status | None] = [None] * len(plans)
         """Latest status of every plan."""

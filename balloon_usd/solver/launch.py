@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 import warp as wp
 
 from balloon_usd.solver.capture_lock import capture_lock_released
+from balloon_usd.solver.kernels.device.barrier import team_barrier
+from balloon_usd.solver.team import Team, yield_processor
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Hashable, Iterator
@@ -23,10 +25,18 @@ VOLUME_BLOCK = 64
 class Launcher:
     """Launches kernels on a scene: each argument is a struct of its arrays, or by its name an array, a value,
     or one that changes from launch to launch.
+
+    On a CPU a team of threads may do so together: what is not shared out is up to the first of them.
     """
 
-    def __init__(self, scene: Scene, values: dict[str, Any]) -> None:
+    def __init__(self, scene: Scene, values: dict[str, Any], threads: int = 1) -> None:
+        """Prepare for a scene; `threads`: of a CPU, at most."""
         self.scene = scene
+        self.thread = 0
+        """Thread of the team whose graph is recorded."""
+        self.threads = 1
+        """How many it has."""
+        self._team = Team(threads, scene.barrier_counts, scene.barrier_rounds)
         self.values = values
         self._graphs: dict[Hashable, Any] = {}
         self._side = wp.Stream(scene.device) if wp.get_device(scene.device).is_cuda else None
@@ -48,6 +58,10 @@ class Launcher:
         self, kernel: Any, dim: int | tuple[int, ...], *, lanes: int = LAUNCH_BLOCK, **changing: Any
     ) -> None:
         """Launch a kernel over `dim` threads, so many `lanes` in a block on a GPU."""
+        if self.thread == 0:
+            self._launch(kernel, dim, lanes, changing)
+
+    def _launch(self, kernel: Any, dim: int | tuple[int, ...], lanes: int, changing: dict[str, Any]) -> None:
         wp.launch(
             kernel,
             dim=dim,
@@ -60,6 +74,10 @@ class Launcher:
         """Launch a kernel over blocks of threads that work together: so many `lanes` on a GPU, one on the
         CPU.
         """
+        if self.thread == 0:
+            self._launch_tiled(kernel, blocks, lanes, changing)
+
+    def _launch_tiled(self, kernel: Any, blocks: int, lanes: int, changing: dict[str, Any]) -> None:
         wp.launch_tiled(
             kernel,
             dim=[blocks],
@@ -67,6 +85,67 @@ class Launcher:
             block_dim=lanes,
             device=self.scene.device,
         )
+
+    def share_out(
+        self, kernel: Any, count: int, begin: str, *, lanes: int, tiled: bool = True, **changing: Any
+    ) -> None:
+        """Launch a kernel as `launch_tiled` does, or as `launch`; each thread of a team takes a stretch of so
+        many blocks, or threads.
+
+        It sees what was done before, and all see what it did when the next launch is shared out.
+
+        `begin`: argument of the kernel that takes the first of a stretch.
+        """
+        self.meet()
+        first, end = (count * k // self.threads for k in (self.thread, self.thread + 1))
+        if end > first:
+            launch = self._launch_tiled if tiled else self._launch
+            launch(kernel, end - first, lanes, changing | {begin: first})
+        self.meet()
+
+    def launch_each(self, kernel: Any, blocks: int, *, lanes: int, **changing: Any) -> None:
+        """Launch a kernel as `launch_tiled` does by every thread of a team, which meet within it."""
+        self.meet()
+        self._launch_tiled(kernel, blocks, lanes, changing)
+
+    def meet(self) -> None:
+        """Synchronise the threads of a team."""
+        if self.threads > 1:
+            told = {"threads": self.threads, "yield_processor": wp.uint64(yield_processor())}
+            wp.launch(team_barrier, 1, self._inputs(team_barrier, told), device=self.scene.device)
+
+    def zero(self, *arrays: wp.array[Any]) -> None:
+        """Let all elements of arrays be 0."""
+        if self.thread == 0:
+            for array in arrays:
+                array.zero_()
+
+    def fill(self, array: wp.array[Any], value: Any) -> None:
+        """Let all elements of an array be equal."""
+        if self.thread == 0:
+            array.fill_(value)
+
+    def copy(self, target: wp.array[Any], source: wp.array[Any]) -> None:
+        """Copy an array."""
+        if self.thread == 0:
+            wp.copy(target, source)
+
+    def when(self, condition: wp.array[int], record: Callable[[], None]) -> None:
+        """Do what is recorded if the condition is not 0."""
+        # Nobody writes the condition until all have read it.
+        self.meet()
+        wp.capture_if(condition, lambda: self._record_branch(record))
+        self.meet()
+
+    def loop(self, condition: wp.array[int], record: Callable[[], None]) -> None:
+        """Do what is recorded again and again while the condition is not 0."""
+        self.meet()
+        wp.capture_while(condition, lambda: self._record_branch(record))
+
+    def _record_branch(self, record: Callable[[], None]) -> None:
+        self.meet()
+        record()
+        self.meet()
 
     @contextmanager
     def aside(self) -> Iterator[None]:
@@ -87,6 +166,23 @@ class Launcher:
 
     def replay(self, key: Hashable, record: Callable[[], None]) -> None:
         """Launch the graph of a key; capture it the first time."""
+        graph = self._captured(key, record)
+        with capture_lock_released():
+            wp.capture_launch(graph)
+
+    def replay_together(self, key: Hashable, record: Callable[[], None]) -> None:
+        """Launch the graph of a key by a team of threads, where there is one; capture it the first time."""
+        self.threads = self._team.threads
+        graphs = [self._captured_for(thread, key, record) for thread in range(self.threads)]
+        self.thread, self.threads = 0, 1
+        with capture_lock_released():
+            self._team.replay(graphs)
+
+    def _captured_for(self, thread: int, key: Hashable, record: Callable[[], None]) -> Any:
+        self.thread = thread
+        return self._captured((key, thread, self.threads), record)
+
+    def _captured(self, key: Hashable, record: Callable[[], None]) -> Any:
         if key not in self._graphs:
             device = self.scene.device
             # Modules load as they are captured: others may belong to another model.
@@ -96,8 +192,7 @@ class Launcher:
             finally:
                 graph = wp.capture_end(device=device)
             self._graphs[key] = graph
-        with capture_lock_released():
-            wp.capture_launch(self._graphs[key])
+        return self._graphs[key]
 
     def _inputs(self, kernel: Any, changing: dict[str, Any]) -> list[Any]:
         values, arrays = self.values | changing, self.scene.arrays

@@ -111,5 +111,6 @@ class ModelMaker(Protocol):
         fps: float,
         substeps: int,
         device: str,
+        threads: int,
     ) -> Model:
-        """Return the model, ready for its first frame."""
+        """Return the model, ready for its first frame; `threads`: of a CPU that may advance it together."""

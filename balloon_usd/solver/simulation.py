@@ -1,14 +1,14 @@
 """Simulations: plans in, frames out, many sculptures in one flat state.
 
 Concurrency: on a CPU each thread advances flat states of its own, and holds the capture lock except while a
-graph runs. On a GPU the next frame is computed while the host checks the last one and gives it out; from
-`MANY` sculptures on there are two flat states, of which the GPU steps one while the host processes the other.
+graph runs; where there are fewer plans than cores, a team of threads advances each state. On a GPU the next
+frame is computed while the host checks the last one and gives it out; from `MANY` sculptures on there are two
+flat states, of which the GPU steps one while the host processes the other.
 """
 
 from __future__ import annotations
 
 import math
-import os
 from concurrent.futures import ThreadPoolExecutor
 from importlib import import_module
 from itertools import pairwise
@@ -18,6 +18,7 @@ import warp as wp
 
 from balloon_usd.balloon.detail import Detail, detail_named
 from balloon_usd.plan.meshing import mesh_of
+from balloon_usd.processes.cores import usable_cores
 from balloon_usd.solver.batch import Batch, snapshots_of
 from balloon_usd.solver.device import device_named
 from balloon_usd.solver.frame_arrays import Extent
@@ -55,7 +56,10 @@ MANY = 192
 class Simulation:
     """Plans performed together, one frame at a time."""
 
-    def __init__(self, plans: Sequence[Plan], detail: Detail, device: str) -> None:
+    def __init__(
+        self, plans: Sequence[Plan], detail: Detail, device: str, threads: int | None = None
+    ) -> None:
+        """Prepare to perform plans; `threads`: of a CPU at most, one for each of its cores if absent."""
         self.plans = tuple(plans)
         self.detail = detail
         self.device = device
@@ -67,7 +71,8 @@ class Simulation:
             tuple(mesh_of(strip, detail) for strip in plan.strips.values()) for plan in self.plans
         ]
         on_gpu = wp.get_device(device).is_cuda
-        self._threads = 1 if on_gpu or model not in THREADED else min(usable_cores(), len(self.plans))
+        cores = 1 if on_gpu or model not in THREADED else threads or usable_cores()
+        self._threads = min(cores, len(self.plans))
         self._batches = [
             Batch(
                 maker,
@@ -78,6 +83,7 @@ class Simulation:
                 device,
                 # On a CPU it would only make the first frame come later.
                 ahead=on_gpu,
+                threads=cores // self._threads,
             )
             for run in _runs(len(self.plans), self._states(model, on_gpu=on_gpu))
         ]
@@ -151,12 +157,6 @@ def _the_one(what: str, values: Sequence[T]) -> T:
     return values[0]
 
 
-def usable_cores() -> int:
-    """Return how many cores of the CPU this process may use."""
-    affinity = getattr(os, "sched_getaffinity", None)
-    return len(affinity(0)) if affinity else os.cpu_count() or 1
-
-
 def _runs(count: int, states: int) -> list[range]:
     """Share out so many plans among so many flat states."""
     bounds = [count * k // states for k in range(states + 1)]
@@ -168,11 +168,15 @@ def _substeps(plans: Sequence[Plan], usual: int, fps: float) -> int:
     return max(wanted) + max(wanted) % 2
 
 
-def simulate_many(plans: Sequence[Plan], detail: str = "draft", device: str = "auto") -> Simulation:
+def simulate_many(
+    plans: Sequence[Plan], detail: str = "draft", device: str = "auto", threads: int | None = None
+) -> Simulation:
     """Return a simulation of several plans that advance together.
+
+    `threads`: of a CPU at most, one for each of its cores if absent; they change no bit.
 
     Raises:
         DeviceUnavailable: there is no such device.
         ValueError: the plans have different frame rates or models, or there is no such level of detail.
     """
-    return Simulation(plans, detail_named(detail), device_named(device))
+    return Simulation(plans, detail_named(detail), device_named(device), threads)

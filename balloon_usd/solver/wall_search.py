@@ -19,6 +19,7 @@ class WallSearch:
         self._launcher = launcher
         launcher.values["touch"] = launcher.scene.touch
         # One block size for all: each size is a separate compilation.
+        self._groups = -(-len(launcher.scene.x) // launcher.lanes(WARP))
         launcher.launch(find_own_walls, len(launcher.scene.x), lanes=WARP)
         self._grouped = launcher.lanes(WARP) == 1
         """Whether groups of chunks are tested first: a warp of a GPU tests 32 chunks at once."""
@@ -27,16 +28,14 @@ class WallSearch:
     def measure_quads(self) -> None:
         """Measure the quads where they are."""
         chunks = len(self._launcher.scene.chunk_low)
-        self._launcher.launch_tiled(chunk_surface, chunks, lanes=WARP)
+        self._launcher.share_out(chunk_surface, chunks, "first_chunk", lanes=WARP)
         if self._grouped:
             self._launcher.launch(group_chunks, -(-chunks // GROUP), lanes=WARP)
 
     def find(self) -> None:
         """Find the walls that face each other, once the quads are measured."""
         s, launcher = self._launcher.scene, self._launcher
-        s.pair_count.zero_()
-        s.pressed_count.zero_()
-        s.listed_count.zero_()
+        launcher.zero(s.pair_count, s.pressed_count, s.listed_count)
         launcher.launch_tiled(ring_radii, len(s.ring_first), lanes=WARP)
-        launcher.launch_tiled(find_walls, -(-len(s.x) // launcher.lanes(WARP)), lanes=WARP)
-        launcher.launch(order_hits, len(s.quads), lanes=WARP)
+        launcher.share_out(find_walls, self._groups, "first_group", lanes=WARP)
+        launcher.share_out(order_hits, len(s.quads), "first_quad", lanes=WARP, tiled=False)

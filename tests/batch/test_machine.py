@@ -4,7 +4,8 @@ import os
 
 import pytest
 
-from balloon_usd.batch.machine import Device, Machine, usable_cores
+from balloon_usd.batch.machine import Device, Machine
+from balloon_usd.processes.cores import usable_cores
 
 H100 = Device("cuda:0", 132, 80 << 30)
 CPU = Device("cpu")
@@ -83,3 +84,8 @@ def test_only_cores_that_this_process_may_use_are_counted():
         assert usable_cores() == 1
     finally:
         os.sched_setaffinity(0, before)
+
+
+@pytest.mark.parametrize(("sculptures", "threads"), [(1, 8), (2, 4), (3, 2), (8, 1), (100, 1)])
+def test_cores_that_no_other_sculpture_needs_share_one(sculptures, threads):
+    assert Machine(8).threads(sculptures) == threads

@@ -192,7 +192,7 @@ class FakeSolver:
         file = self.folder / "log"
         return [json.loads(line) for line in file.read_text().splitlines()] if file.exists() else []
 
-    def __call__(self, plans, detail="draft", device="cpu"):
+    def __call__(self, plans, detail="draft", device="cpu", threads=None):
         simulation = FakeSimulation(plans, detail, device, self)
         self.log({"start": [plan.recipe.name for plan in plans], "device": device, "process": os.getpid()})
         return simulation

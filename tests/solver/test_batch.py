@@ -28,7 +28,7 @@ def batch_of(*plans, ahead, most=1000):
     model = plans[0].recipe.physics.model
     meshes = [tuple(mesh_of(s, detail_named("draft")) for s in plan.strips.values()) for plan in plans]
     counts = [min(most, 1 + round(plan.choreography.seconds * plan.recipe.fps)) for plan in plans]
-    return Batch(model_named(model), plans, meshes, counts, SUBSTEPS[model], "cpu", ahead=ahead)
+    return Batch(model_named(model), plans, meshes, counts, SUBSTEPS[model], "cpu", ahead=ahead, threads=1)
 
 
 def frames_from(batch):

@@ -10,7 +10,7 @@ import pytest
 
 from balloon_usd.plan import plan
 from balloon_usd.recipe import Recipe
-from balloon_usd.solver.launch import LAUNCH_BLOCK, VOLUME_BLOCK, Launcher
+from balloon_usd.solver.launch import LAUNCH_BLOCK, Launcher
 from balloon_usd.solver.simulation import simulate_many
 
 PRESSED = """
@@ -34,21 +34,21 @@ physics: {{model: {model}, hold: 0.1}}
 def used(monkeypatch):
     """Modules of kernels that were loaded or launched, each with its lanes."""
     found = set()
-    load, launch, launch_tiled = Launcher.load, Launcher.launch, Launcher.launch_tiled
+    load, launch, launch_tiled = Launcher.load, Launcher._launch, Launcher._launch_tiled
 
     def spied_load(self, *kernels, lanes=LAUNCH_BLOCK):
         found.update((kernel.module.name, lanes) for kernel in kernels)
         load(self, *kernels, lanes=lanes)
 
-    def spied_launch(self, kernel, dim, *, lanes=LAUNCH_BLOCK, **changing):
+    def spied__launch(self, kernel, dim, lanes, changing):
         found.add((kernel.module.name, lanes))
-        launch(self, kernel, dim, lanes=lanes, **changing)
+        launch(self, kernel, dim, lanes, changing)
 
-    def spied_launch_tiled(self, kernel, blocks, *, lanes=VOLUME_BLOCK, **changing):
+    def spied__launch_tiled(self, kernel, blocks, lanes, changing):
         found.add((kernel.module.name, lanes))
-        launch_tiled(self, kernel, blocks, lanes=lanes, **changing)
+        launch_tiled(self, kernel, blocks, lanes, changing)
 
-    for spied in (spied_load, spied_launch, spied_launch_tiled):
+    for spied in (spied_load, spied__launch, spied__launch_tiled):
         monkeypatch.setattr(Launcher, spied.__name__.removeprefix("spied_"), spied)
     return found
 
@@ -64,24 +64,24 @@ def test_no_kernel_is_compiled_after_the_first_frame(model, used):
 
 
 def test_nothing_that_threads_replay_needs_the_memory_for_tiles_that_they_share(monkeypatch):
-    recorded, replay = set(), Launcher.replay
+    recorded, captured = set(), Launcher._captured
 
-    def spied_replay(self, key, record):
+    def spied_captured(self, key, record):
         def spied_record():
             with monkeypatch.context() as recording:
-                for name in ("launch", "launch_tiled"):
+                for name in ("_launch", "_launch_tiled"):
                     real = getattr(Launcher, name)
 
-                    def spied(self, kernel, count, real=real, **more):
+                    def spied(self, kernel, *others, real=real, **more):
                         recorded.add(kernel)
-                        real(self, kernel, count, **more)
+                        real(self, kernel, *others, **more)
 
                     recording.setattr(Launcher, name, spied)
                 record()
 
-        replay(self, key, spied_record)
+        return captured(self, key, spied_record)
 
-    monkeypatch.setattr(Launcher, "replay", spied_replay)
+    monkeypatch.setattr(Launcher, "_captured", spied_captured)
     frames = simulate_many([plan(Recipe.parse(PRESSED.format(model="latex")))], device="cpu").frames()
     assert all(found is not None for (found,) in frames)
     assert {"advance_sculptures", "find_walls", "wall_loads"} <= {kernel.key for kernel in recorded}

@@ -58,7 +58,7 @@ def kernel_on(device, lanes):
             shared=False,
             resident_bytes=shared_memory_bytes(device) if lanes == RESIDENT_LANES else 0,
             cores=False,
-            fingers=False,
+            fingers=True,
         )
         if device.is_cuda
         else advance_sculptures

@@ -84,6 +84,7 @@ class KosakaModel(Model):
         fps: float,
         substeps: int,
         device: str,
+        threads: int = 1,  # noqa: ARG002  # its kernels have tiles, which threads would share
     ) -> None:
         runs = body_ranges([len(m) for m in meshes])
         dt = 1.0 / (fps * substeps)

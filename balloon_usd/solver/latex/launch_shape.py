@@ -15,6 +15,7 @@ from balloon_usd.solver.kernels.device.warp_reduce import HALF_WARP, WARP
 from balloon_usd.solver.kernels.physics.sculpture import advance_sculptures
 from balloon_usd.solver.kernels.physics.work_sharing import Launch
 from balloon_usd.solver.latex.kernel_variants import BLOCKS_PER_SM, kernel_variant, shared_memory_bytes
+from balloon_usd.solver.team import yield_processor
 
 if TYPE_CHECKING:
     from balloon_usd.solver.latex.scene import LatexScene
@@ -40,6 +41,7 @@ class SculptureLaunch:
         self._most_vertices = int(np.diff(scene.world_vertex.numpy()).max())
         device = wp.get_device(scene.device)
         self.blocks, self.lanes, resident = self._shape(device) if device.is_cuda else (1, 1, False)
+        self._hosted = not device.is_cuda
         self._kernel = advance_sculptures
         if device.is_cuda:
             around = int(scene.joint_around.numpy().max())
@@ -59,13 +61,18 @@ class SculptureLaunch:
         worlds = max(self.scene.worlds) + 1
         launch = Launch()
         launch.sculpture_blocks = self.blocks
-        launch.joint_blocks = self._blocks_without_vertices() or self.blocks
+        tiles = worlds * self.blocks
+        if self._hosted:
+            launch.sculpture_blocks, launch.block, tiles = launcher.threads, launcher.thread, worlds
+            launch.yield_processor = wp.uint64(yield_processor())
+        else:
+            self.scene.barrier_counts.zero_()
+        launch.joint_blocks = self._blocks_without_vertices() or launch.sculpture_blocks
         launch.substeps, launch.begin, launch.end = substeps, begin, end
         launch.walls, launch.pressing = int(contact), int(fingers)
         launch.dt = self.scene.settings.dt
         launch.frame_seconds = launch.dt * substeps
-        self.scene.barrier_counts.zero_()
-        launcher.launch_tiled(self._kernel, worlds * self.blocks, lanes=self.lanes, launch=launch)
+        launcher.launch_each(self._kernel, tiles, lanes=self.lanes, launch=launch)
 
     def _shape(self, device: wp.Device) -> tuple[int, int, bool]:
         """Return how many blocks of how many threads each sculpture gets of a GPU, and whether it is resident

@@ -75,6 +75,7 @@ class LatexModel(Model):
         fps: float,
         substeps: int,
         device: str,
+        threads: int = 1,
     ) -> None:
         runs = body_ranges([len(m) for m in meshes])
         bodies = [body for plan, m in zip(plans, meshes, strict=True) for body in _bodies(plan, m)]
@@ -93,7 +94,7 @@ class LatexModel(Model):
             bodies, worlds, settings, device, rings, max(struts, STRUTS_PER_JOINT * rings), slots
         )
         self.scene.stretch_limit.assign(stretch_limits(plans, runs))
-        self.stepper = Stepper(self.scene, substeps)
+        self.stepper = Stepper(self.scene, substeps, threads)
         self.hands = LatexControls(self.scene)
         self._struts = Struts(self.scene, StrutLaw())
         self._sculptures = [

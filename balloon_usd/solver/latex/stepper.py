@@ -24,12 +24,15 @@ if TYPE_CHECKING:
 SEARCH_SECONDS = 1.0 / 120.0
 """Time between two searches for facing walls, s."""
 
+CHUNKS_PER_THREAD = 8
+"""Least chunks of quads of a sculpture for each thread of a CPU: with less work barriers take most of it."""
+
 
 class Stepper:
     """Advances a scene by whole frames of a fixed number of substeps."""
 
-    def __init__(self, scene: LatexScene, substeps: int) -> None:
-        """Prepare a scene; `substeps`: per frame."""
+    def __init__(self, scene: LatexScene, substeps: int, threads: int = 1) -> None:
+        """Prepare a scene; `substeps`: per frame, `threads`: of a CPU that may share the work."""
         self.scene = scene
         self.substeps = substeps
         dt = scene.settings.dt
@@ -37,7 +40,8 @@ class Stepper:
         values["travel_limit"] = travel_limit(dt * substeps)
         self._search_every = max(1, round(SEARCH_SECONDS / dt))
         scene.touch.ahead = self._search_every * dt
-        self._launcher = Launcher(scene, values)
+        busy = len(scene.chunk_low) // (CHUNKS_PER_THREAD * (max(scene.worlds) + 1))
+        self._launcher = Launcher(scene, values, max(1, min(threads, busy)))
         self._launch = self._launcher.launch
         self._search = WallSearch(self._launcher)
         self._untangling = Untangling(self._launcher, scene.touch.ahead)
@@ -60,7 +64,9 @@ class Stepper:
 
     def advance(self, *, contact: bool, fingers: bool = False) -> None:
         """Advance by one frame, with or without walls that can touch and fingers that press."""
-        self._launcher.replay((contact, fingers), lambda: self._frame(contact=contact, fingers=fingers))
+        self._launcher.replay_together(
+            (contact, fingers), lambda: self._frame(contact=contact, fingers=fingers)
+        )
 
     def start_readback(self, readback: Readback, *, contact: bool) -> None:
         """Start copying what frames are made of; where walls can touch, with the loads on them."""

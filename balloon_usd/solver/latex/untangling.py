@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import warp as wp
-
 from balloon_usd.solver.kernels.device.warp_reduce import WARP
 from balloon_usd.solver.kernels.physics.keeping_apart import (
     begin_keeping_apart,
@@ -50,19 +48,18 @@ class Untangling:
     def start(self) -> None:
         """Let walls be apart where they are now."""
         s, launcher = self._launcher.scene, self._launcher
-        wp.copy(s.x_safe, s.x)
-        s.safe_seconds.fill_(launcher.values["frame_seconds"])
+        launcher.copy(s.x_safe, s.x)
+        launcher.fill(s.safe_seconds, launcher.values["frame_seconds"])
 
     def leave(self) -> None:
         """Let walls be wherever they are at the end of a frame."""
         s = self._launcher.scene
-        for array in (s.crossed, s.watched, s.slowness, s.reaction, s.any_watched):
-            array.zero_()
+        self._launcher.zero(s.crossed, s.watched, s.slowness, s.reaction, s.any_watched)
         self.start()
 
     def watch(self) -> None:
         """Keep walls apart between two searches, in sculptures that are watched."""
-        wp.capture_if(self._launcher.scene.any_watched, lambda: self._keep_apart(frame_ends=0))
+        self._launcher.when(self._launcher.scene.any_watched, lambda: self._keep_apart(frame_ends=0))
 
     def end_frame(self) -> None:
         """Keep walls apart at the end of a frame."""
@@ -70,7 +67,7 @@ class Untangling:
 
     def begin_frame(self) -> None:
         """Forget how far walls were led in the last frame."""
-        self._launcher.scene.segment_shift.zero_()
+        self._launcher.zero(self._launcher.scene.segment_shift)
 
     def _keep_apart(self, *, frame_ends: int) -> None:
         """Let walls that would cross move as one, and lead apart those that still do; a graph goes on by
@@ -82,16 +79,16 @@ class Untangling:
         launch(begin_moves, vertices)
         self._find(together=1)
         launch(begin_move_rounds, worlds, frame_ends=frame_ends)
-        wp.capture_while(s.untangling, self._move_round)
+        self._launcher.loop(s.untangling, self._move_round)
         between = self._between_searches
         launch(end_keeping_apart, vertices, between_searches=between)
         launch(count_put_back, worlds, between_searches=between)
-        s.tangled.zero_()
+        self._launcher.zero(s.tangled)
         launch(begin_untangling, worlds, frame_ends=frame_ends)
-        wp.capture_if(s.tangled, self._untangle)
+        self._launcher.when(s.tangled, self._untangle)
         self._launcher.launch_tiled(measure_momentum, worlds, lanes=WARP)
         launch(take_momentum, vertices)
-        s.any_watched.zero_()
+        self._launcher.zero(s.any_watched)
         launch(go_on_watching, worlds, frame_ends=frame_ends, between_searches=between)
 
     def _move_round(self) -> None:
@@ -106,8 +103,8 @@ class Untangling:
         """Lead walls apart that cross."""
         s, launch = self._launcher.scene, self._launcher.launch
         launch(begin_moves, len(s.x))
-        s.untangling.fill_(1)
-        wp.capture_while(s.untangling, self._round)
+        self._launcher.fill(s.untangling, 1)
+        self._launcher.loop(s.untangling, self._round)
         launch(end_untangling, len(s.x))
 
     def _round(self) -> None:
@@ -121,7 +118,8 @@ class Untangling:
     def _find(self, *, together: int) -> None:
         """Find where walls cross as they are kept apart."""
         chunks = len(self._launcher.scene.box_low)
-        self._launcher.launch_tiled(box_walls, chunks, lanes=WARP)
+        self._launcher.share_out(box_walls, chunks, "first_chunk", lanes=WARP)
         groups = self._parts * chunks
-        told = {"parts": self._parts, "together": together}
-        self._launcher.launch_tiled(find_piercing_walls, groups, lanes=WARP, **told)
+        self._launcher.share_out(
+            find_piercing_walls, groups, "first_group", lanes=WARP, parts=self._parts, together=together
+        )

@@ -27,6 +27,7 @@ class Sculptures:
     velocity: wp.array[wp.vec3] = array("sculptures", unit="m/s", meaning="scratch: of that")
     spin: wp.array[wp.vec3] = array("sculptures", unit="rad/s", meaning="scratch: angular velocity")
     barrier_counts: wp.array[int] = array("sculptures", meaning="blocks that came to a barrier so far")
+    barrier_rounds: wp.array[int] = array("sculptures", meaning="times that threads of a CPU have met")
 
 
 @array_struct

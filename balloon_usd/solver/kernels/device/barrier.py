@@ -1,10 +1,17 @@
-"""Barriers between the lanes of a warp, the lanes of a block and the blocks of a sculpture. On the CPU there
-is one lane, and none waits.
+"""Barriers between the lanes of a warp, the lanes of a block and the blocks of a sculpture. On the CPU a
+block has one lane and is a thread of the operating system.
 """
 
 import warp as wp
 
 from balloon_usd.solver.kernels.device.native import native
+
+SPINS = 2000
+"""Polls of a barrier on the CPU after which a thread yields its processor: some 100 us."""
+LAST_ROUND = (1 << 30) - 1
+"""Round of a barrier after which they are counted from 0 again."""
+ABANDONED = -1
+"""Round of a barrier that nobody waits at any more."""
 
 
 @native("""
@@ -27,7 +34,8 @@ def block_barrier():
     ...
 
 
-@native("""
+@native(
+    """
 #if defined(__CUDA_ARCH__)
 __syncthreads();
 if (blocks > 1) {
@@ -41,16 +49,64 @@ if (blocks > 1) {
     }
     __syncthreads();
 }
+#else
+if (blocks > 1) {
+    int* count = barrier_counts.data + sculpture;
+    int* round = barrier_rounds.data + sculpture;
+    const int now = __atomic_load_n(round, __ATOMIC_ACQUIRE);
+    if (now == ABANDONED) return;
+    if (__atomic_add_fetch(count, 1, __ATOMIC_ACQ_REL) == blocks) {
+        __atomic_store_n(count, 0, __ATOMIC_RELAXED);
+        __atomic_store_n(round, now == LAST_ROUND ? 0 : now + 1, __ATOMIC_RELEASE);
+        return;
+    }
+    for (int spins = 0; __atomic_load_n(round, __ATOMIC_ACQUIRE) == now; ++spins) {
+        if (spins >= SPINS) {
+            reinterpret_cast<signed (*)()>(yield_processor)();
+            continue;
+        }
+#if defined(__x86_64__)
+        __builtin_ia32_pause();
+#elif defined(__aarch64__)
+        asm volatile("isb");
 #endif
-""")
-def sculpture_barrier(barrier_counts: wp.array[int], sculpture: int, blocks: int, goal: int, lane: int):
-    """Synchronise the resident blocks of one sculpture: coherent loads see each other's writes.
+    }
+}
+#endif
+""".replace("SPINS", str(SPINS))
+    .replace("ABANDONED", str(ABANDONED))
+    .replace("LAST_ROUND", str(LAST_ROUND))
+)
+def sculpture_barrier(
+    barrier_counts: wp.array[int],
+    barrier_rounds: wp.array[int],
+    sculpture: int,
+    blocks: int,
+    goal: int,
+    lane: int,
+    yield_processor: wp.uint64,
+):
+    """Synchronise the blocks of one sculpture: coherent loads see each other's writes.
 
-    Arrival releases; the poll does not acquire, which would invalidate L1. PTX promises no order of the poll
-    and the relaxed loads that follow: they rely on the block barrier in between, behind which no SM so far
-    issues them before. All blocks must be resident: the launch shape sees to it.
+    On a GPU all must be resident: the launch shape sees to it. Arrival releases; the poll does not acquire,
+    which would invalidate L1. PTX promises no order of the poll and the relaxed loads that follow: they rely
+    on the block barrier in between, behind which no SM so far issues them before.
 
-    `goal`: what the sculpture's count reaches when all have arrived, `blocks` more than at the barrier
-    before.
+    On the CPU the last one to come begins another round, for which the others spin: a barrier comes every few
+    microseconds. When it is long in coming they yield their processors, for one may have none to run on.
+
+    `goal`: what the sculpture's count reaches on a GPU when all have arrived, `blocks` more than at the
+    barrier before; `yield_processor`: address of the operating system's function that does so, of a CPU.
     """
     ...
+
+
+@wp.kernel
+def team_barrier(
+    threads: int,
+    yield_processor: wp.uint64,
+    barrier_counts: wp.array[int],
+    barrier_rounds: wp.array[int],
+):
+    """Synchronise the threads of a team, each of which launches this on the CPU."""
+    sculpture_barrier(barrier_counts, barrier_rounds, 0, threads, 0, 0, yield_processor)

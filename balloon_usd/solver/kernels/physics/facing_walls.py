@@ -13,6 +13,7 @@ from balloon_usd.solver.kernels.device.array_access import (
     vec3_at,
     vec4i_at,
 )
+from balloon_usd.solver.kernels.device.atomic import add_int, exchange_int
 from balloon_usd.solver.kernels.device.chunk_rows import lanes_between, within_reach
 from balloon_usd.solver.kernels.device.soa import store_soa
 from balloon_usd.solver.kernels.device.warp_reduce import lowest_bit, warp_ballot, warp_max, warp_max3
@@ -223,8 +224,8 @@ def enter_walls(
             contacts.contact_place[2 * i + k] = nearest_on_patch(
                 state.x[c[0]], state.x[c[1]], state.x[c[2]], state.x[c[3]], p
             )
-            contacts.hit_before[2 * i + k] = wp.atomic_exch(contacts.hit_last, found[k], 2 * i + k)
-            contacts.pairs[listed + wp.atomic_add(contacts.pair_count, world, 1)] = 2 * i + k
+            contacts.hit_before[2 * i + k] = exchange_int(contacts.hit_last, found[k], 2 * i + k)
+            contacts.pairs[listed + add_int(contacts.pair_count, world, 1)] = 2 * i + k
         else:
             store_soa(contacts.contact_force, i, k, wp.vec3(0.0))
         contacts.target[i, k] = found[k]
@@ -257,6 +258,7 @@ def seeker_at(
 
 @wp.kernel
 def find_walls(
+    first_group: int,
     touch: Touch,
     sculptures: Sculptures,
     mesh: Mesh,
@@ -272,7 +274,7 @@ def find_walls(
     the whole warp, a narrow phase measures each lane's own candidates.
     """
     group, lane = wp.tid()
-    i = group * wp.block_dim() + lane
+    i = (first_group + group) * wp.block_dim() + lane
     spare = i >= state.x.shape[0]
     i = wp.min(i, state.x.shape[0] - 1)
     outward, size = surface_of_vertex(i, mesh.corners, contacts.quad_area)
@@ -337,11 +339,11 @@ def find_walls(
 
 
 @wp.kernel
-def order_hits(mesh: Mesh, sculptures: Sculptures, contacts: Contacts):
+def order_hits(first_quad: int, mesh: Mesh, sculptures: Sculptures, contacts: Contacts):
     """Write the list of what touches every quad from the chain in which it was entered, sorted, so that sums
     do not depend on the order of threads; remember which quads have any.
     """
-    q = wp.tid()
+    q = first_quad + wp.tid()
     hit = int(contacts.hit_last[q])
     count = int(0)
     while hit >= 0:
@@ -350,8 +352,8 @@ def order_hits(mesh: Mesh, sculptures: Sculptures, contacts: Contacts):
     if count == 0:
         return
     world = mesh.quad_world[q]
-    contacts.pressed[sculptures.world_quad[world] + wp.atomic_add(contacts.pressed_count, world, 1)] = q
-    first = 2 * sculptures.world_vertex[world] + wp.atomic_add(contacts.listed_count, world, count)
+    contacts.pressed[sculptures.world_quad[world] + add_int(contacts.pressed_count, world, 1)] = q
+    first = 2 * sculptures.world_vertex[world] + add_int(contacts.listed_count, world, count)
     hit = contacts.hit_last[q]
     for k in range(count):
         j = first + k

@@ -26,7 +26,7 @@ from balloon_usd.solver.kernels.device.array_access import (
     vec4_at,
     vec4i_at,
 )
-from balloon_usd.solver.kernels.device.barrier import block_barrier, sculpture_barrier
+from balloon_usd.solver.kernels.device.barrier import block_barrier
 from balloon_usd.solver.kernels.device.coherent_load import coherent_vec3
 from balloon_usd.solver.kernels.device.warp_reduce import bit_of_rank, popcount, subwarp_sum, warp_sum
 from balloon_usd.solver.kernels.physics.contact import limits_of_pair, press_quad_back, press_wall
@@ -45,7 +45,15 @@ from balloon_usd.solver.kernels.physics.joints import (
 from balloon_usd.solver.kernels.physics.membrane import wall_of_quad
 from balloon_usd.solver.kernels.physics.membrane_simd import walls_simd
 from balloon_usd.solver.kernels.physics.motion import move_vertex
-from balloon_usd.solver.kernels.physics.work_sharing import Launch, Ranges, Threads
+from balloon_usd.solver.kernels.physics.work_sharing import (
+    Launch,
+    Ranges,
+    Threads,
+    share_from_far_end,
+    share_of,
+    share_of_others,
+    wait_for_blocks,
+)
 
 
 @wp.func
@@ -63,7 +71,8 @@ def prepare_contacts(
 ):
     """Write what stays constant for every contact until the next search."""
     # No barrier follows: `press_contacts` gives each contact to the same thread.
-    for at in range(own.pair_begin + threads.threads - 1 - threads.thread, own.pair_end, threads.threads):
+    first, last, step = share_from_far_end(threads, own.pair_begin, own.pair_end)
+    for at in range(first, last, step):
         touched, limits = limits_of_pair(
             int_at(contacts.pairs, at), touch, dt, mesh, balloons, contacts, chambers.pressure, state.slowness
         )
@@ -77,7 +86,6 @@ def press_fingers_in(
     own: Ranges,
     world: int,
     goal: int,
-    lane: int,
     substep: int,
     launch: Launch,
     sculptures: Sculptures,
@@ -90,18 +98,17 @@ def press_fingers_in(
 
     All velocities are read before any changes, and all are changed before any is read again.
     """
-    blocks = launch.sculpture_blocks
     fraction = float(substep + 1) / float(launch.substeps)
-    for i in range(own.vertex_begin + threads.thread, own.vertex_end, threads.threads):
+    first, last, step = share_of(threads, own.vertex_begin, own.vertex_end)
+    for i in range(first, last, step):
         hands.finger_push[i] = push_of_fingertip(
             i, launch.dt, fraction, threads.shared, mesh, balloons, hands, state
         )
-    sculpture_barrier(sculptures.barrier_counts, world, blocks, goal + blocks, lane)
+    goal = wait_for_blocks(launch, threads, sculptures, world, goal)
     # Each thread takes the vertices that it measured.
-    for i in range(own.vertex_begin + threads.thread, own.vertex_end, threads.threads):
+    for i in range(first, last, step):
         put_vec3(state.v, i, coherent_vec3(state.v, i, threads.shared) + hands.finger_push[i])
-    sculpture_barrier(sculptures.barrier_counts, world, blocks, goal + 2 * blocks, lane)
-    return goal + 2 * blocks
+    return wait_for_blocks(launch, threads, sculptures, world, goal)
 
 
 @wp.func
@@ -117,7 +124,8 @@ def stretch_walls(
     """Write the forces of the wall and the volume of every chunk."""
     # The SIMD variant is a CPU's: the block size is a constant, so a GPU does not compile it.
     if threads.block_size == 1:
-        walls_simd(own.chunk_begin, own.chunk_end, mesh, rubber, chambers, forces, state)
+        first, last, _step = share_of(threads, own.chunk_begin, own.chunk_end)
+        walls_simd(first, last, mesh, rubber, chambers, forces, state)
     else:
         for c in range(own.chunk_begin + threads.warp, own.chunk_end, threads.warps):
             share = float(0.0)
@@ -150,7 +158,8 @@ def press_contacts(
     state: State,
 ):
     """Write the forces on vertices that touch a quad."""
-    for at in range(own.pair_begin + threads.threads - 1 - threads.thread, own.pair_end, threads.threads):
+    first, last, step = share_from_far_end(threads, own.pair_begin, own.pair_end)
+    for at in range(first, last, step):
         press_wall(
             int_at(contacts.pairs, at),
             vec4i_at(forces.pair_corners, at),
@@ -167,8 +176,8 @@ def press_quads_back(
     threads: Threads, own: Ranges, mesh: Mesh, contacts: Contacts, forces: Forces, state: State
 ):
     """Add the reactions of contacts to the forces on quads that are touched."""
-    # Backwards: with one block the first threads are busy with the gas.
-    for at in range(own.quad_begin + threads.others - 1 - threads.other, own.pressed_end, threads.others):
+    first, last, step = share_of_others(threads, own.quad_begin, own.pressed_end)
+    for at in range(first, last, step):
         press_quad_back(int_at(contacts.pressed, at), threads.shared, mesh, contacts, forces, state)
 
 
@@ -331,7 +340,8 @@ def move_vertices(
     state: State,
 ):
     """Move the vertices that belong to no joint."""
-    for i in range(own.vertex_begin + threads.threads - 1 - threads.thread, own.vertex_end, threads.threads):
+    first, last, step = share_from_far_end(threads, own.vertex_begin, own.vertex_end)
+    for i in range(first, last, step):
         if int_at(mesh.vertex_joint, i) < 0:
             move_vertex(
                 i, dt, threads.shared, mesh, balloons, rubber, chambers, hands, contacts, forces, state
@@ -373,5 +383,6 @@ def weld_joints(
             )
     block_barrier()
     for j in range(own.joint_begin + threads.lane, own.joint_end, threads.block_size):
-        if block_of_joint(j, own.joint_begin, launch.joint_blocks, welds.joint_leader) == threads.block:
+        block = block_of_joint(j, own.joint_begin, own.joint_end, launch.joint_blocks, welds.joint_leader)
+        if block == threads.block:
             shift_middle(j, welds.weld_shift, joints.ring_middle)

@@ -5,6 +5,7 @@ import warp as wp
 from balloon_usd.solver.kernels.arrays.latex import Crossings
 from balloon_usd.solver.kernels.arrays.shared import Contacts, Mesh
 from balloon_usd.solver.kernels.device.array_access import float_at, int_at, vec3_at
+from balloon_usd.solver.kernels.device.atomic import add_int, add_vec4i
 from balloon_usd.solver.kernels.physics.piercing_pair import moved, vertex_of_pair
 from balloon_usd.solver.kernels.physics.reaction import push_apart
 
@@ -53,7 +54,7 @@ def lead_back(i: int, share: float, way: wp.vec3, crossings: Crossings):
     for k in range(3):
         whole[k] = int(wp.round(PER_UNIT * share * way[k]))
     whole[3] = int(wp.round(PER_UNIT * wp.abs(share)))
-    wp.atomic_add(crossings.way_back, i, whole)
+    add_vec4i(crossings.way_back, i, whole)
 
 
 @wp.func
@@ -140,7 +141,7 @@ def add_motion(i: int, motion: wp.vec3, crossings: Crossings):
     """Add to the motions (m) that a vertex shares."""
     way = PER_METRE * motion
     whole = wp.vec4i(int(wp.round(way[0])), int(wp.round(way[1])), int(wp.round(way[2])), 1)
-    wp.atomic_add(crossings.way_back, i, whole)
+    add_vec4i(crossings.way_back, i, whole)
 
 
 @wp.func
@@ -164,9 +165,9 @@ def share_motion(
     for k in range(5):
         before += int_at(contacts.crossed, vertex_of_pair(k, ends, other))
     if before > 0:
-        wp.atomic_add(crossings.crossed_count, world, 1)
+        add_int(crossings.crossed_count, world, 1)
         return
-    wp.atomic_add(crossings.pierced_count, world, 1)
+    add_int(crossings.pierced_count, world, 1)
     # The mean of their momenta: else walls that are kept apart turn about each other by themselves.
     mass = float(0.0)
     mean = wp.vec3(0.0)
@@ -272,7 +273,7 @@ def answer_edge(
     if together == 1:
         share_motion(ends, other, share, on_face, world, mesh, contacts, crossings)
         return
-    wp.atomic_add(crossings.pierced_count, world, 1)
+    add_int(crossings.pierced_count, world, 1)
     across = wp.cross(b - a, c - a)
     normal = across / wp.sqrt(wp.max(wp.dot(across, across), 1.0e-30))
     along = wp.normalize(q - p)

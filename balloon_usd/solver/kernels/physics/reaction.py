@@ -10,6 +10,7 @@ import warp as wp
 from balloon_usd.solver.kernels.arrays.latex import Crossings
 from balloon_usd.solver.kernels.arrays.shared import Hands, Mesh, State
 from balloon_usd.solver.kernels.device.array_access import float_at, int_at
+from balloon_usd.solver.kernels.device.atomic import add_vec3i
 from balloon_usd.solver.kernels.physics.piercing_pair import moved, vertex_of_pair, weight_in_pair
 
 PER_MOMENT = wp.constant(1.0e12)
@@ -61,7 +62,7 @@ def push_apart(
     for k in range(5):
         own = weight_in_pair(k, along, inside) * push * normal
         whole = wp.vec3i(int(wp.round(own[0])), int(wp.round(own[1])), int(wp.round(own[2])))
-        wp.atomic_add(crossings.pushed, vertex_of_pair(k, ends, other), whole)
+        add_vec3i(crossings.pushed, vertex_of_pair(k, ends, other), whole)
 
 
 @wp.func

@@ -21,7 +21,7 @@ from balloon_usd.solver.kernels.arrays.shared import (
     State,
     Welds,
 )
-from balloon_usd.solver.kernels.device.barrier import block_barrier, sculpture_barrier
+from balloon_usd.solver.kernels.device.barrier import block_barrier
 from balloon_usd.solver.kernels.device.warp_reduce import WARP
 from balloon_usd.solver.kernels.physics.phases import (
     advance_chambers,
@@ -44,7 +44,12 @@ from balloon_usd.solver.kernels.physics.residence import (
     shared_memory_of,
     state_in_shared_memory,
 )
-from balloon_usd.solver.kernels.physics.work_sharing import Launch, ranges_of, threads_of
+from balloon_usd.solver.kernels.physics.work_sharing import (
+    Launch,
+    ranges_of,
+    threads_of,
+    wait_for_blocks,
+)
 
 # Fused multiply-add: 5 to 10 % less time on a CPU.
 wp.set_module_options(
@@ -54,6 +59,7 @@ wp.set_module_options(
 
 def substep_kernel(
     *,
+    hosted: bool = False,
     shared: bool = False,
     cores: bool = True,
     fingers: bool = True,
@@ -64,6 +70,7 @@ def substep_kernel(
     """Return the persistent kernel, made for some scenes.
 
     Args:
+        hosted: whether blocks are threads of the CPU, each of which launches the kernel.
         shared: whether several blocks share a sculpture.
         cores: whether any neck may pack.
         fingers: whether any finger may press: its code takes registers from the rest.
@@ -95,11 +102,14 @@ def substep_kernel(
     ):
         """Advance every sculpture by some substeps of its frame; `barrier_counts` must be zeros."""
         tile, lane = wp.tid()
-        threads = threads_of(
-            launch.sculpture_blocks, tile, lane, wp.static(joint_lanes), wp.static(int(shared))
-        )
         blocks = launch.sculpture_blocks
         w = tile // blocks
+        block = tile % blocks
+        goal = int(0)
+        if wp.static(hosted):
+            w = tile
+            block = launch.block
+        threads = threads_of(blocks, block, lane, wp.static(joint_lanes), wp.static(int(shared)))
         own = ranges_of(w, launch, threads, sculptures, welds, cores, contacts)
         dt = launch.dt
         if launch.walls == 1:
@@ -114,13 +124,12 @@ def substep_kernel(
             forces = forces_in_shared_memory(own, global_forces)
             copy_state(threads, own, global_state, state)
             block_barrier()
-        goal = int(0)
         for k in range(launch.begin, launch.end):
             fraction = float(k + 1) / float(launch.substeps)
             if wp.static(handled):
                 if launch.pressing == 1:
                     goal = press_fingers_in(
-                        threads, own, w, goal, lane, k, launch, sculptures, mesh, balloons, hands, state
+                        threads, own, w, goal, k, launch, sculptures, mesh, balloons, hands, state
                     )
             stretch_walls(threads, own, mesh, rubber, chambers, forces, state)
             measure_open_rings(threads, own, joints, hands, state)
@@ -128,8 +137,7 @@ def substep_kernel(
                 press_contacts(threads, own, dt, contacts, forces, state)
             if wp.static(packing):
                 press_cores(threads, own, dt, mesh, cores, contacts, state)
-            goal += blocks
-            sculpture_barrier(sculptures.barrier_counts, w, blocks, goal, lane)
+            goal = wait_for_blocks(launch, threads, sculptures, w, goal)
             # Gas, in block 0; reactions of contacts, struts and cores meanwhile.
             if threads.block == 0:
                 advance_chambers(threads, own, air, dt, fraction, mesh, chambers, joints, state)
@@ -139,8 +147,7 @@ def substep_kernel(
                 load_struts(threads, own, joints, struts)
             if wp.static(packing):
                 yield_to_cores(threads, own, dt, mesh, cores, contacts, state)
-            goal += blocks
-            sculpture_barrier(sculptures.barrier_counts, w, blocks, goal, lane)
+            goal = wait_for_blocks(launch, threads, sculptures, w, goal)
             move_joints(
                 launch, threads, own, fraction,
                 mesh, balloons, rubber, chambers, joints, welds, struts, hands, contacts, forces, state,
@@ -148,13 +155,12 @@ def substep_kernel(
             move_vertices(threads, own, dt, mesh, balloons, rubber, chambers, hands, contacts, forces, state)
             if own.welds > 0:
                 weld_joints(launch, threads, own, mesh, balloons, joints, welds, hands, state)
-            goal += blocks
-            sculpture_barrier(sculptures.barrier_counts, w, blocks, goal, lane)
+            goal = wait_for_blocks(launch, threads, sculptures, w, goal)
         if wp.static(resident_bytes > 0):
             copy_state(threads, own, state, global_state)
 
     return advance_sculptures
 
 
-advance_sculptures = substep_kernel()
+advance_sculptures = substep_kernel(hosted=True)
 """The kernel of a CPU."""

@@ -44,13 +44,20 @@ def farthest(middle: wp.vec3, x0: wp.vec3, x1: wp.vec3, x2: wp.vec3, x3: wp.vec3
 
 @wp.kernel
 def chunk_surface(
-    touch: Touch, mesh: Mesh, balloons: Balloons, hands: Hands, contacts: Contacts, state: State
+    first_chunk: int,
+    touch: Touch,
+    mesh: Mesh,
+    balloons: Balloons,
+    hands: Hands,
+    contacts: Contacts,
+    state: State,
 ):
     """Write the middle (m), the vector area (m2) and the reach (m) of every quad, and the lowest and the
     highest coordinates (m) of what the quads of a chunk reach; nothing touches them yet. A warp of lanes each
     on a GPU.
     """
-    chunk, lane = wp.tid()
+    group, lane = wp.tid()
+    chunk = first_chunk + group
     high = wp.vec3(-FAR)
     low = wp.vec3(FAR)
     for q in range(mesh.chunk_quad[chunk] + lane, mesh.chunk_quad[chunk + 1], wp.block_dim()):

@@ -5,6 +5,7 @@ import warp as wp
 from balloon_usd.solver.kernels.arrays.latex import Cores
 from balloon_usd.solver.kernels.arrays.shared import Contacts, Sculptures, Welds
 from balloon_usd.solver.kernels.device.array_access import int_at
+from balloon_usd.solver.kernels.device.barrier import sculpture_barrier
 from balloon_usd.solver.kernels.device.warp_reduce import SUBWARP, WARP_LANES, block_lanes
 from balloon_usd.solver.kernels.physics.joints import joints_of_block
 
@@ -16,7 +17,11 @@ class Launch:
     """One launch of the persistent kernel."""
 
     sculpture_blocks: int
-    """Blocks of each sculpture, all of which must run at once."""
+    """Blocks of each sculpture, all of which must run at once; on the CPU each is a thread of its own."""
+    block: int
+    """On the CPU which of them this launch is; a launch on a GPU is of all."""
+    yield_processor: wp.uint64
+    """Address of the function with which a thread of the CPU yields its processor."""
     joint_blocks: int
     """Of these, how many move joints."""
     substeps: int
@@ -109,12 +114,12 @@ class Ranges:
 
 
 @wp.func
-def threads_of(blocks: int, tile: int, lane: int, joint_lanes: int, shared: int):
-    """Return the thread `lane` of block `tile` of all; `joint_lanes`: lanes that move one joint."""
+def threads_of(blocks: int, block: int, lane: int, joint_lanes: int, shared: int):
+    """Return the thread `lane` of a block of so many; `joint_lanes`: lanes that move one joint."""
     t = Threads()
     t.shared = shared
     t.blocks = blocks
-    t.block = tile % blocks
+    t.block = block
     t.block_size = block_lanes()
     t.lane = lane
     t.threads = blocks * t.block_size
@@ -131,7 +136,66 @@ def threads_of(blocks: int, tile: int, lane: int, joint_lanes: int, shared: int)
     # Block 0 advances the gas; the other blocks, if any, do the rest of that phase meanwhile.
     t.others = wp.max(t.threads - t.block_size, wp.min(t.threads, t.block_size))
     t.other = wp.where(blocks > 1, t.thread - t.block_size, t.thread)
+    if t.block_size == 1:
+        # Of a CPU's threads none has much more to do for the gas than others.
+        t.others = t.threads
+        t.other = t.thread
     return t
+
+
+@wp.func
+def wait_for_blocks(launch: Launch, threads: Threads, sculptures: Sculptures, world: int, goal: int):
+    """Synchronise the blocks of a sculpture, and return the goal of this barrier; `goal`: of the last."""
+    reached = goal + launch.sculpture_blocks
+    sculpture_barrier(
+        sculptures.barrier_counts,
+        sculptures.barrier_rounds,
+        world,
+        launch.sculpture_blocks,
+        reached,
+        threads.lane,
+        launch.yield_processor,
+    )
+    return reached
+
+
+@wp.func
+def share_of(threads: Threads, begin: int, end: int):
+    """Return the begin, end and step of what a thread takes of a range.
+
+    On a GPU, items that lie as far apart as there are threads, so that loads coalesce. On the CPU, a stretch,
+    so that threads do not write to each other's cache lines, the same one of everything in the order of the
+    mesh: what a thread has written it finds in its own cache.
+    """
+    first = begin + threads.thread
+    last = end
+    step = threads.threads
+    if threads.block_size == 1:
+        first = begin + (end - begin) * threads.thread // threads.threads
+        last = begin + (end - begin) * (threads.thread + 1) // threads.threads
+        step = int(1)
+    return first, last, step
+
+
+@wp.func
+def share_from_far_end(threads: Threads, begin: int, end: int):
+    """Return the same, given out from the far end of the threads on a GPU: the near ones have other work."""
+    first, last, step = share_of(threads, begin, end)
+    if threads.block_size > 1:
+        first = begin + threads.threads - 1 - threads.thread
+    return first, last, step
+
+
+@wp.func
+def share_of_others(threads: Threads, begin: int, end: int):
+    """Return the same among the threads that do not advance the gas, backwards: with one block the first
+    threads are busy with it. On the CPU all take part.
+    """
+    first, last, step = share_of(threads, begin, end)
+    if threads.block_size > 1:
+        first = begin + threads.others - 1 - threads.other
+        step = threads.others
+    return first, last, step
 
 
 @wp.func
