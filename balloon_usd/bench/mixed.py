@@ -16,4 +16,4 @@ def mixed_timings(detail: str, device: str, most: int | None) -> tuple[list[Timi
     plans = {name: planned(text) for name, text in MIXED.items()}
     whole = measure("together", list(plans.values()), detail, device, most)
     frames = whole.frames + 2
-    return [measure(name, [plan], detail, device, frames) for name, plan in plans.items()], whole
+    return [measure(name, [plan], detail, device, frames, threads=1) for name, plan in plans.items()], whole

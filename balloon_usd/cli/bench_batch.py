@@ -65,11 +65,11 @@ def _on_gpu(copies: tuple[int, ...], detail: str, device: str, frames: int | Non
 
 
 def _solver_alone(copies: int, detail: str, device: str, frames: int | None) -> float:
-    """Return the frames per second of the solver in this process, which writes nothing."""
+    """Return the frames per second of one thread of the solver in this process, which writes nothing."""
     from balloon_usd.bench.bench_recipes import CLASSIC_DOG  # noqa: PLC0415
     from balloon_usd.bench.timing import measure, planned  # noqa: PLC0415
 
-    return measure("dog", [planned(CLASSIC_DOG)] * copies, detail, device, frames).rate
+    return measure("dog", [planned(CLASSIC_DOG)] * copies, detail, device, frames, threads=1).rate
 
 
 def _print(run: BatchRun, jobs: int, solver: float, target: Target | None, value: float) -> None:

@@ -36,7 +36,8 @@ class Launcher:
         """Thread of the team whose graph is recorded."""
         self.threads = 1
         """How many it has."""
-        self._team = Team(threads, scene.barrier_counts, scene.barrier_rounds)
+        shared = 1 if wp.get_device(scene.device).is_cuda else threads
+        self._team = Team(shared, scene.barrier_counts, scene.barrier_rounds)
         self.values = values
         self._graphs: dict[Hashable, Any] = {}
         self._side = wp.Stream(scene.device) if wp.get_device(scene.device).is_cuda else None
@@ -132,15 +133,16 @@ class Launcher:
 
     def when(self, condition: wp.array[int], record: Callable[[], None]) -> None:
         """Do what is recorded if the condition is not 0."""
-        # Nobody writes the condition until all have read it.
         self.meet()
         wp.capture_if(condition, lambda: self._record_branch(record))
+        # Nobody writes the condition until all have read it: here and within the branch.
         self.meet()
 
     def loop(self, condition: wp.array[int], record: Callable[[], None]) -> None:
         """Do what is recorded again and again while the condition is not 0."""
         self.meet()
         wp.capture_while(condition, lambda: self._record_branch(record))
+        self.meet()
 
     def _record_branch(self, record: Callable[[], None]) -> None:
         self.meet()
@@ -173,8 +175,10 @@ class Launcher:
     def replay_together(self, key: Hashable, record: Callable[[], None]) -> None:
         """Launch the graph of a key by a team of threads, where there is one; capture it the first time."""
         self.threads = self._team.threads
-        graphs = [self._captured_for(thread, key, record) for thread in range(self.threads)]
-        self.thread, self.threads = 0, 1
+        try:
+            graphs = [self._captured_for(thread, key, record) for thread in range(self.threads)]
+        finally:
+            self.thread, self.threads = 0, 1
         with capture_lock_released():
             self._team.replay(graphs)
 

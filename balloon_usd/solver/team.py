@@ -8,17 +8,21 @@ from __future__ import annotations
 
 import ctypes
 import sys
+import threading
 from concurrent.futures import ThreadPoolExecutor, wait
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import warp as wp
 
-from balloon_usd.solver.kernels.device.barrier import ABANDONED
 from balloon_usd.solver.pace import Pace
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+    from concurrent.futures import Future
+
+MOST_THREADS = 16
+"""Threads of a team at most: each has its graphs recorded, 37 ms each."""
 
 
 @cache
@@ -35,10 +39,11 @@ class Team:
     """Threads that replay graphs which wait for each other at barriers."""
 
     def __init__(self, most: int, barrier_counts: wp.array[int], barrier_rounds: wp.array[int]) -> None:
-        """Prepare so many threads at most, the caller's among them."""
+        """Prepare so many threads at most; a single one is the caller's."""
+        most = min(most, MOST_THREADS)
         self._pace = Pace(most)
         self._counts, self._rounds = barrier_counts, barrier_rounds
-        self._others = ThreadPoolExecutor(most - 1, "team") if most > 1 else None
+        self._pool = ThreadPoolExecutor(most, "team") if most > 1 else None
 
     @property
     def threads(self) -> int:
@@ -46,23 +51,37 @@ class Team:
         return self._pace.threads
 
     def replay(self, graphs: Sequence[Any]) -> None:
-        """Replay a graph by each thread, the first by the caller's."""
+        """Replay a graph by each thread."""
         with self._pace.measured(len(graphs)):
-            if self._others is None or len(graphs) == 1:
+            if self._pool is None or len(graphs) == 1:
                 wp.capture_launch(graphs[0])
             else:
-                self._replay_together(self._others, graphs)
+                self._replay_together(self._pool, graphs)
 
-    def _replay_together(self, others: ThreadPoolExecutor, graphs: Sequence[Any]) -> None:
+    def _replay_together(self, pool: ThreadPoolExecutor, graphs: Sequence[Any]) -> None:
         self._counts.numpy().fill(0)
         self._rounds.numpy().fill(0)
-        pending = []
+        gate = _Gate()
+        pending: list[Future[None]] = []
         try:
-            pending += [others.submit(wp.capture_launch, graph) for graph in graphs[1:]]
-            wp.capture_launch(graphs[0])
-        except BaseException:
-            # An interrupt before the first thread has begun: the others would wait for ever.
-            self._rounds.numpy().fill(ABANDONED)
-            raise
+            pending.extend(pool.submit(gate.replay, graph) for graph in graphs)
+            gate.complete = True
         finally:
+            # None of the threads is interrupted, only the caller's: a team that has begun ends.
+            gate.opened.set()
             wait(pending)
+        for each in pending:
+            each.result()
+
+
+class _Gate:
+    """What threads wait at until their team is complete: one that lacks a thread would wait for ever."""
+
+    def __init__(self) -> None:
+        self.opened = threading.Event()
+        self.complete = False
+
+    def replay(self, graph: Any) -> None:
+        self.opened.wait()
+        if self.complete:
+            wp.capture_launch(graph)

@@ -1,6 +1,6 @@
 """Launch shape of the persistent kernel: how many blocks of how many threads advance each sculpture.
 
-On the CPU it is one thread for each sculpture.
+On the CPU a block is a thread of the team that shares a sculpture.
 """
 
 from __future__ import annotations

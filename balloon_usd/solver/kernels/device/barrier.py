@@ -10,8 +10,6 @@ SPINS = 2000
 """Polls of a barrier on the CPU after which a thread yields its processor: some 100 us."""
 LAST_ROUND = (1 << 30) - 1
 """Round of a barrier after which they are counted from 0 again."""
-ABANDONED = -1
-"""Round of a barrier that nobody waits at any more."""
 
 
 @native("""
@@ -54,7 +52,6 @@ if (blocks > 1) {
     int* count = barrier_counts.data + sculpture;
     int* round = barrier_rounds.data + sculpture;
     const int now = __atomic_load_n(round, __ATOMIC_ACQUIRE);
-    if (now == ABANDONED) return;
     if (__atomic_add_fetch(count, 1, __ATOMIC_ACQ_REL) == blocks) {
         __atomic_store_n(count, 0, __ATOMIC_RELAXED);
         __atomic_store_n(round, now == LAST_ROUND ? 0 : now + 1, __ATOMIC_RELEASE);
@@ -73,9 +70,7 @@ if (blocks > 1) {
     }
 }
 #endif
-""".replace("SPINS", str(SPINS))
-    .replace("ABANDONED", str(ABANDONED))
-    .replace("LAST_ROUND", str(LAST_ROUND))
+""".replace("SPINS", str(SPINS)).replace("LAST_ROUND", str(LAST_ROUND))
 )
 def sculpture_barrier(
     barrier_counts: wp.array[int],
@@ -92,8 +87,8 @@ def sculpture_barrier(
     which would invalidate L1. PTX promises no order of the poll and the relaxed loads that follow: they rely
     on the block barrier in between, behind which no SM so far issues them before.
 
-    On the CPU the last one to come begins another round, for which the others spin: a barrier comes every few
-    microseconds. When it is long in coming they yield their processors, for one may have none to run on.
+    On the CPU the last one to come begins another round, for which the others spin: a barrier comes every 30
+    microseconds or so. When it is long in coming they yield their processors: one may have none to run on.
 
     `goal`: what the sculpture's count reaches on a GPU when all have arrived, `blocks` more than at the
     barrier before; `yield_processor`: address of the operating system's function that does so, of a CPU.
