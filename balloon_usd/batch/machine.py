@@ -28,7 +28,6 @@ RECIPES_PER_WRITER = 4
 MOST_WRITERS = 16
 """Writers for each GPU at most, however many cores there are."""
 
-
 GPU_DRIVERS = (Path("/dev/nvidiactl"), Path("/dev/dxg"))
 """What the driver of CUDA devices brings on Linux, and on Linux below Windows."""
 

@@ -53,7 +53,7 @@ OPTIONS: dict[str, tuple[str, ...]] = {
 @click.option(
     "--threads",
     type=click.IntRange(1, MOST_PROCESSES),
-    help="Threads of a CPU that may share the work. Default: one for each core.",
+    help="Threads of a CPU that may share the work. Default: one for each core, up to 16.",
 )
 @click.option("--mixed", is_flag=True, help="Different recipes together instead, against each alone.")
 @click.option("--first-frame", is_flag=True, help="The start instead: with compiled kernels and without.")

@@ -15,6 +15,7 @@ from balloon_usd.cli.failure import EXIT_CODES_HELP, ExitCode, Failure
 from balloon_usd.cli.form import require_form
 from balloon_usd.cli.frame_range import frame_range
 from balloon_usd.cli.sources import recipe_files
+from balloon_usd.processes.cores import usable_cores
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -176,7 +177,6 @@ def _here(
     from balloon_usd.batch.journal import NotKept  # noqa: PLC0415
     from balloon_usd.batch.machine import Machine  # noqa: PLC0415
     from balloon_usd.batch.scheduler import BatchError  # noqa: PLC0415
-    from balloon_usd.processes.cores import usable_cores  # noqa: PLC0415
 
     try:
         return run_batch(files, order, Machine(jobs or usable_cores(), devices), watch)

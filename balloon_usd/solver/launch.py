@@ -87,21 +87,17 @@ class Launcher:
             device=self.scene.device,
         )
 
-    def share_out(
-        self, kernel: Any, count: int, begin: str, *, lanes: int, tiled: bool = True, **changing: Any
-    ) -> None:
+    def share_out(self, kernel: Any, count: int, *, lanes: int, tiled: bool = True, **changing: Any) -> None:
         """Launch a kernel as `launch_tiled` does, or as `launch`; each thread of a team takes a stretch of so
-        many blocks, or threads.
+        many blocks, or threads, which the kernel counts from its argument `share_begin` on.
 
-        It sees what was done before, and all see what it did when the next launch is shared out.
-
-        `begin`: argument of the kernel that takes the first of a stretch.
+        It sees what was done before, and what it did is seen by all that comes after.
         """
         self.meet()
         first, end = (count * k // self.threads for k in (self.thread, self.thread + 1))
         if end > first:
             launch = self._launch_tiled if tiled else self._launch
-            launch(kernel, end - first, lanes, changing | {begin: first})
+            launch(kernel, end - first, lanes, changing | {"share_begin": first})
         self.meet()
 
     def launch_each(self, kernel: Any, blocks: int, *, lanes: int, **changing: Any) -> None:
@@ -113,7 +109,7 @@ class Launcher:
         """Synchronise the threads of a team."""
         if self.threads > 1:
             told = {"threads": self.threads, "yield_processor": wp.uint64(yield_processor())}
-            wp.launch(team_barrier, 1, self._inputs(team_barrier, told), device=self.scene.device)
+            self._launch(team_barrier, 1, LAUNCH_BLOCK, told)
 
     def zero(self, *arrays: wp.array[Any]) -> None:
         """Let all elements of arrays be 0."""

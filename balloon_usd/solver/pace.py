@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 TRIAL = 3
 """Frames of a trial."""
 FIRST_TRIAL = 16
-"""Frames before the first trial, and between one with a surprise and the next."""
+"""Frames before the first trial, and between one that changed something and the next."""
 LAST_TRIAL = 256
 """Frames between two trials at most: each one that changes nothing doubles them."""
 WORTH = 0.95

@@ -59,6 +59,7 @@ class Team:
                 self._replay_together(self._pool, graphs)
 
     def _replay_together(self, pool: ThreadPoolExecutor, graphs: Sequence[Any]) -> None:
+        # What failed in a thread may have left others on their way to a barrier.
         self._counts.numpy().fill(0)
         self._rounds.numpy().fill(0)
         gate = _Gate()

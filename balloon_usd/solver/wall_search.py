@@ -18,8 +18,8 @@ class WallSearch:
     def __init__(self, launcher: Launcher) -> None:
         self._launcher = launcher
         launcher.values["touch"] = launcher.scene.touch
-        # One block size for all: each size is a separate compilation.
         self._groups = -(-len(launcher.scene.x) // launcher.lanes(WARP))
+        # One block size for all: each size is a separate compilation.
         launcher.launch(find_own_walls, len(launcher.scene.x), lanes=WARP)
         self._grouped = launcher.lanes(WARP) == 1
         """Whether groups of chunks are tested first: a warp of a GPU tests 32 chunks at once."""
@@ -28,7 +28,7 @@ class WallSearch:
     def measure_quads(self) -> None:
         """Measure the quads where they are."""
         chunks = len(self._launcher.scene.chunk_low)
-        self._launcher.share_out(chunk_surface, chunks, "first_chunk", lanes=WARP)
+        self._launcher.share_out(chunk_surface, chunks, lanes=WARP)
         if self._grouped:
             self._launcher.launch(group_chunks, -(-chunks // GROUP), lanes=WARP)
 
@@ -37,5 +37,5 @@ class WallSearch:
         s, launcher = self._launcher.scene, self._launcher
         launcher.zero(s.pair_count, s.pressed_count, s.listed_count)
         launcher.launch_tiled(ring_radii, len(s.ring_first), lanes=WARP)
-        launcher.share_out(find_walls, self._groups, "first_group", lanes=WARP)
-        launcher.share_out(order_hits, len(s.quads), "first_quad", lanes=WARP, tiled=False)
+        launcher.share_out(find_walls, self._groups, lanes=WARP)
+        launcher.share_out(order_hits, len(s.quads), lanes=WARP, tiled=False)

@@ -75,12 +75,15 @@ def test_threads_that_share_a_sculpture_end_with_its_simulation():
     assert not any(other.is_alive() for other in others)
 
 
-class Waiting(ThreadPoolExecutor):
-    """Threads, for the second of which an interrupt comes before it is given anything to do."""
+class Interrupted(ThreadPoolExecutor):
+    """Threads of which only the first is given something to do before an interrupt comes."""
+
+    busy = False
 
     def submit(self, *task):
-        if self._work_queue.qsize() or self._threads:
+        if self.busy:
             raise KeyboardInterrupt
+        self.busy = True
         return super().submit(*task)
 
 
@@ -101,7 +104,7 @@ def team(monkeypatch):
 
 def test_a_team_that_is_not_complete_replays_nothing_and_waits_for_nobody(team, monkeypatch):
     made, passed = team
-    with monkeypatch.context() as interrupted, Waiting(3) as pool:
+    with monkeypatch.context() as interrupted, Interrupted(3) as pool:
         interrupted.setattr(made, "_pool", pool)
         with pytest.raises(KeyboardInterrupt):
             made.replay(["a", "b", "c"])

@@ -118,8 +118,8 @@ class Untangling:
     def _find(self, *, together: int) -> None:
         """Find where walls cross as they are kept apart."""
         chunks = len(self._launcher.scene.box_low)
-        self._launcher.share_out(box_walls, chunks, "first_chunk", lanes=WARP)
+        self._launcher.share_out(box_walls, chunks, lanes=WARP)
         groups = self._parts * chunks
         self._launcher.share_out(
-            find_piercing_walls, groups, "first_group", lanes=WARP, parts=self._parts, together=together
+            find_piercing_walls, groups, lanes=WARP, parts=self._parts, together=together
         )

@@ -8,8 +8,6 @@ from balloon_usd.solver.kernels.device.native import native
 
 SPINS = 2000
 """Polls of a barrier on the CPU after which a thread yields its processor: some 100 us."""
-LAST_ROUND = (1 << 30) - 1
-"""Round of a barrier after which they are counted from 0 again."""
 
 
 @native("""
@@ -54,7 +52,7 @@ if (blocks > 1) {
     const int now = __atomic_load_n(round, __ATOMIC_ACQUIRE);
     if (__atomic_add_fetch(count, 1, __ATOMIC_ACQ_REL) == blocks) {
         __atomic_store_n(count, 0, __ATOMIC_RELAXED);
-        __atomic_store_n(round, now == LAST_ROUND ? 0 : now + 1, __ATOMIC_RELEASE);
+        __atomic_store_n(round, now + 1, __ATOMIC_RELEASE);
         return;
     }
     for (int spins = 0; __atomic_load_n(round, __ATOMIC_ACQUIRE) == now; ++spins) {
@@ -70,7 +68,7 @@ if (blocks > 1) {
     }
 }
 #endif
-""".replace("SPINS", str(SPINS)).replace("LAST_ROUND", str(LAST_ROUND))
+""".replace("SPINS", str(SPINS))
 )
 def sculpture_barrier(
     barrier_counts: wp.array[int],

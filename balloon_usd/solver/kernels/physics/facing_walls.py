@@ -258,7 +258,7 @@ def seeker_at(
 
 @wp.kernel
 def find_walls(
-    first_group: int,
+    share_begin: int,
     touch: Touch,
     sculptures: Sculptures,
     mesh: Mesh,
@@ -274,7 +274,7 @@ def find_walls(
     the whole warp, a narrow phase measures each lane's own candidates.
     """
     group, lane = wp.tid()
-    i = (first_group + group) * wp.block_dim() + lane
+    i = (share_begin + group) * wp.block_dim() + lane
     spare = i >= state.x.shape[0]
     i = wp.min(i, state.x.shape[0] - 1)
     outward, size = surface_of_vertex(i, mesh.corners, contacts.quad_area)
@@ -339,11 +339,11 @@ def find_walls(
 
 
 @wp.kernel
-def order_hits(first_quad: int, mesh: Mesh, sculptures: Sculptures, contacts: Contacts):
+def order_hits(share_begin: int, mesh: Mesh, sculptures: Sculptures, contacts: Contacts):
     """Write the list of what touches every quad from the chain in which it was entered, sorted, so that sums
     do not depend on the order of threads; remember which quads have any.
     """
-    q = first_quad + wp.tid()
+    q = share_begin + wp.tid()
     hit = int(contacts.hit_last[q])
     count = int(0)
     while hit >= 0:

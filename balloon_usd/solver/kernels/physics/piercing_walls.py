@@ -201,12 +201,12 @@ def find_restless(chunk: int, lane: int, mesh: Mesh, crossings: Crossings):
 
 
 @wp.kernel
-def box_walls(first_chunk: int, mesh: Mesh, crossings: Crossings):
+def box_walls(share_begin: int, mesh: Mesh, crossings: Crossings):
     """Write the middle (m) and the radius (m) of every quad, and the box (m) about the quads of every chunk,
     where any is restless; a warp of lanes each on a GPU.
     """
     group, lane = wp.tid()
-    chunk = first_chunk + group
+    chunk = share_begin + group
     if chunk == 0 and lane == 0:
         crossings.untangling[0] = 0
     if int_at(crossings.untangling_round, int_at(mesh.quad_world, int_at(mesh.chunk_quad, chunk))) < 0:
@@ -236,7 +236,7 @@ def box_walls(first_chunk: int, mesh: Mesh, crossings: Crossings):
 
 @wp.kernel
 def find_piercing_walls(
-    first_group: int,
+    share_begin: int,
     parts: int,
     together: int,
     sculptures: Sculptures,
@@ -250,7 +250,7 @@ def find_piercing_walls(
     other chunks for each chunk, by a warp of lanes each on a GPU.
     """
     tile, lane = wp.tid()
-    group = first_group + tile
+    group = share_begin + tile
     chunk = group // parts
     first = int_at(mesh.chunk_quad, chunk)
     world = int_at(mesh.quad_world, first)

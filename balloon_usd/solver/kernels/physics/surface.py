@@ -44,7 +44,7 @@ def farthest(middle: wp.vec3, x0: wp.vec3, x1: wp.vec3, x2: wp.vec3, x3: wp.vec3
 
 @wp.kernel
 def chunk_surface(
-    first_chunk: int,
+    share_begin: int,
     touch: Touch,
     mesh: Mesh,
     balloons: Balloons,
@@ -57,7 +57,7 @@ def chunk_surface(
     on a GPU.
     """
     group, lane = wp.tid()
-    chunk = first_chunk + group
+    chunk = share_begin + group
     high = wp.vec3(-FAR)
     low = wp.vec3(FAR)
     for q in range(mesh.chunk_quad[chunk] + lane, mesh.chunk_quad[chunk + 1], wp.block_dim()):
