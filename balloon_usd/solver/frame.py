@@ -5,9 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 if TYPE_CHECKING:
-    import numpy as np
     from numpy.typing import NDArray
+
+LEAST_SLOWNESS = 0.01
+"""How slow a vertex is kept at least that only a reaction presses, and forces move as elsewhere, s/m."""
 
 
 @dataclass(frozen=True)
@@ -50,7 +54,9 @@ class Frame:
         walls: that stretches walls for a few frames, with no force that latex would bear.
         """
         stretch = self.stretch[balloon]
-        return stretch * (self.slowness[balloon] == 0.0) if self.slowness else stretch
+        if not self.slowness:
+            return stretch
+        return np.where(self.slowness[balloon] > np.float32(LEAST_SLOWNESS), np.float32(0.0), stretch)
 
     def copy(self) -> Frame:
         """Return the same in arrays of its own."""

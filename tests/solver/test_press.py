@@ -30,6 +30,7 @@ class Pressed:
         scene = self.simulation.model.scene
         self.mine = scene.vertex_segment.numpy() == self.simulation.model.layout.bubbles[0]
         self.shapes, self.pressures, self.forces = [], [], []
+        self.only_mine = True
         before = None
         for (frame,) in self.simulation.frames():
             points = frame.points[0].astype(np.float64)
@@ -46,6 +47,7 @@ class Pressed:
         scene = self.simulation.model.scene
         self.shapes.append(points[self.mine])
         self.pressures.append(pressure)
+        self.only_mine = self.only_mine and not scene.finger_push.numpy()[~self.mine].any()
         push = scene.finger_push.numpy() @ ALONG * scene.mass.numpy() / scene.settings.dt
         self.forces.append((push[push > 0.0].sum(), -push[push < 0.0].sum()))
 
@@ -98,3 +100,10 @@ def test_a_bubble_is_round_again_once_the_finger_has_gone(deep):
     size = [np.ptp(points, axis=0) for points in (first, last)]
     assert size[1] == pytest.approx(size[0], abs=1.5e-3)
     assert deep.pressures[-1] == pytest.approx(deep.pressures[0], rel=0.05)
+
+
+@pytest.mark.parametrize("at", ["0.1", "8.9"])
+def test_a_finger_close_to_a_joint_presses_on_the_bubble(at):
+    pressed = Pressed(f"at: {at}, depth: 1")
+    assert pressed.forces[pressed.held][0] > 1.0
+    assert pressed.only_mine

@@ -11,7 +11,7 @@ from balloon_usd.balloon.detail import detail_named
 from balloon_usd.plan import plan
 from balloon_usd.plan.meshing import mesh_of
 from balloon_usd.recipe import Recipe
-from balloon_usd.solver.frame import Frame
+from balloon_usd.solver.frame import LEAST_SLOWNESS, Frame
 from balloon_usd.solver.run_summary import RunSummary
 from tests.verification.setups import polygon_factor
 
@@ -74,3 +74,17 @@ def test_nothing_is_told_before_the_end(told):
 
 def test_springs_of_model_kosaka_have_no_gas_to_tell(told):
     assert told(0.05, 0.05, 0.05, physics=", model: kosaka") == {}
+
+
+def test_the_highest_stretch_leaves_out_walls_that_are_led_but_not_those_that_others_press():
+    planned = plan(Recipe.parse(TEXT % ""))
+    mesh = mesh_of(next(iter(planned.strips.values())), detail_named("draft"))
+    stretch = np.full(len(mesh.points), 5.0, dtype=np.float32)
+    slowness = np.zeros(len(mesh.points), dtype=np.float32)
+    stretch[[7, 8, 9]] = 6.0, 7.0, np.inf
+    slowness[[7, 8, 9]] = LEAST_SLOWNESS, 0.1, 0.1
+    bubbles = np.ones(len(planned.bubbles), dtype=np.float32)
+    frame = Frame(1, (mesh.points,), (stretch,), bubbles, bubbles, "hold", slowness=(slowness,))
+    summary = RunSummary(planned, (mesh,))
+    summary.add(frame)
+    assert summary.highest_stretch == pytest.approx(6.0)

@@ -4,6 +4,7 @@ are (rigid impact zones, Bridson, Fedkiw & Anderson 2002, but that zones are as 
 
 import warp as wp
 
+from balloon_usd.solver.frame import LEAST_SLOWNESS
 from balloon_usd.solver.kernels.arrays.latex import Crossings
 from balloon_usd.solver.kernels.arrays.shared import Balloons, Contacts, Hands, Joints, Mesh, State
 from balloon_usd.solver.kernels.device.array_access import int_at, vec3_at
@@ -44,8 +45,8 @@ Done sooner, it holds gas and hands up: a trunk turned inside out.
 """
 FADING = wp.constant(0.95)
 """Share of the slowness that is left each time that walls are kept apart."""
-FASTEST_LEFT = wp.constant(100.0)
-"""Largest speed from which on there is none, m/s."""
+LEAST_LEFT = wp.constant(LEAST_SLOWNESS)
+"""Slowness from which on there is none, s/m."""
 MOST_PUT_BACK = wp.constant(8)
 """How often in a row a sculpture is put back."""
 WATCHED_FRAMES = wp.constant(12)
@@ -192,10 +193,10 @@ def end_keeping_apart(
         state.slowness[i] = 1.0 / SLOW
     elif state.slowness[i] > 0.0:
         slowness = FADING * state.slowness[i]
-        state.slowness[i] = wp.where(slowness * FASTEST_LEFT > 1.0, slowness, 0.0)
+        state.slowness[i] = wp.where(slowness > LEAST_LEFT, slowness, 0.0)
     if wp.length_sq(reaction) > 0.0:
         # Else a step does not look whether there is any.
-        state.slowness[i] = wp.max(state.slowness[i], 1.0 / FASTEST_LEFT)
+        state.slowness[i] = wp.max(state.slowness[i], LEAST_LEFT)
     state.reaction[i] = reaction
     if crossings.untangling_round[world] == FAILED:
         contacts.crossed[i] = wp.max(contacts.crossed[i], wp.min(crossings.way_back[i][3], 1))

@@ -74,10 +74,11 @@ class _PressedWall:
         body = sculpture.body[move.balloon]
         mesh, start = scene.bodies[body], int(scene.vertex_start[body])
         segments = scene.vertex_segment.numpy()
-        rings = np.array([mesh.along[first] for first, _ in mesh.mesh_rings])
-        first, around = mesh.mesh_rings[int(np.argmin(np.abs(rings - move.along)))]
+        # Rings of joints, which are of no bubble, are not pressed.
+        rings = [ring for ring in mesh.mesh_rings if segments[start + ring[0]] >= 0]
+        first, around = min(rings, key=lambda ring: abs(mesh.along[ring[0]] - move.along))
         self._ring = slice(start + first, start + first + around)
-        self.segment = int(segments[self._ring].max())
+        self.segment = int(segments[start + first])
         """Number of the segment in the scene."""
         self._vertices = np.flatnonzero(segments == self.segment)
         """Its vertices in the scene."""
