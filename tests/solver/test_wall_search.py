@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from balloon_usd.solver.kernels.physics.facing_walls import DEPTH_LIMIT, FACING
-from balloon_usd.solver.kernels.physics.meeting import INSIDE, OPPOSITE
+from balloon_usd.solver.kernels.physics.facing_walls import DEPTH_LIMIT, FACING, ROUNDING
+from balloon_usd.solver.kernels.physics.meeting import FOLDED, INSIDE, OPPOSITE
 from balloon_usd.solver.kernels.physics.patch import SIDE_SLIP
 from balloon_usd.solver.kernels.physics.surface import GROUP
 from balloon_usd.solver.simulation import simulate_many
@@ -26,11 +26,16 @@ def model():
     return simulation.model
 
 
-def searched(model, velocity):
-    """The arrays of the scene after one more search; `velocity`: (V, 3), m/s."""
+def searched(model, velocity, crossed=0, watched=0):
+    """The arrays of the scene after one more search; `velocity`: (V, 3), m/s.
+
+    `crossed`, `watched`: whether its walls cross, and are kept apart at every search.
+    """
     scene, search = model.scene, model.stepper._search
     kept = scene.v.numpy().copy()
     scene.v.assign(velocity)
+    scene.crossed.fill_(crossed)
+    scene.watched.fill_(watched)
     scene.touching.assign(np.ones(len(scene.bodies), dtype=np.int32))
     search.measure_quads()
     search.find()
@@ -83,6 +88,10 @@ def distances(s, touch, vertex, slack):
     deepest = slack + DEPTH_LIMIT * np.minimum(
         s["ring_radius"][s["vertex_ring"][vertex]], s["ring_radius"][s["quad_ring"]]
     )
+    if not s["crossed"][vertex]:
+        neck = -2 if s["watched"][0] or s["vertex_neck"][vertex] < 0 else s["vertex_neck"][vertex]
+        apart = np.where(s["quad_neck"] == neck, FOLDED, ROUNDING) * offset
+        deepest = np.minimum(deepest, slack + apart)
     deepest = np.where(across, np.minimum(deepest, watched), deepest)
     turned = face @ s["normal"][vertex] < FACING + 100.0 * slack
     height = np.where(across, -height, height)
@@ -96,10 +105,14 @@ def distances(s, touch, vertex, slack):
     return np.where(meets & turned & near, np.linalg.norm(gap, axis=1), np.inf)
 
 
-@pytest.mark.parametrize("speed", [0.0, 1.0], ids=["still", "fast"])
-def test_every_vertex_finds_the_wall_nearest_to_it_of_all_that_it_may_touch(model, speed):
+@pytest.mark.parametrize(
+    ("speed", "crossed", "watched"),
+    [(0.0, 0, 0), (1.0, 0, 0), (0.0, 1, 0), (0.0, 0, 1)],
+    ids=["still", "fast", "crossed", "watched"],
+)
+def test_every_vertex_finds_the_wall_nearest_to_it_of_all_that_it_may_touch(model, speed, crossed, watched):
     velocity = np.random.default_rng(5).normal(0.0, speed, (len(model.scene.x), 3)).astype(np.float32)
-    s = searched(model, velocity)
+    s = searched(model, velocity, crossed, watched)
     found = looked = small = 0
     for vertex in range(len(s["x"])):
         distance = distances(s, model.scene.touch, vertex, ROUNDED)
@@ -117,6 +130,22 @@ def test_every_vertex_finds_the_wall_nearest_to_it_of_all_that_it_may_touch(mode
     assert found > 100
     # Where necks press on full bubbles.
     assert small > 5
+
+
+def test_what_is_kept_apart_is_not_pressed_through_walls_that_it_is_behind(model):
+    x = model.scene.x.numpy()
+    bubbles = [model.scene.vertex_segment.numpy() == b for b in model.layout.bubbles[1:3]]
+    way = x[bubbles[1]].mean(axis=0) - x[bubbles[0]].mean(axis=0)
+    inside = x.copy()
+    inside[bubbles[0]] += 4e-3 * way / np.linalg.norm(way)
+    model.scene.x.assign(inside)
+    still = np.zeros_like(x)
+    crossed, apart, watched = (
+        int((searched(model, still, *how)["target"] >= 0).sum()) for how in ((1, 0), (0, 0), (0, 1))
+    )
+    model.scene.x.assign(x)
+    # Walls apart from each other touch only in folds of their necks, and not even there while they are led.
+    assert crossed > apart > watched > 100
 
 
 def test_the_list_of_a_face_holds_every_contact_on_it_once_in_order(model):

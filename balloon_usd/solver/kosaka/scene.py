@@ -57,6 +57,8 @@ def kosaka_scene(
     scene.margin = MARGIN * min(b.parameters.re for b in bodies)
     mass = np.concatenate([np.full(len(b.points), b.vertex_mass) for b in bodies]).astype(np.float32)
     lay_meshes(scene, {"mass": mass}, sum(len(b.rings) for b in bodies))
+    # Contact alone keeps walls apart here.
+    scene.crossed.fill_(1)
     scene.touch.apart = SELF_DISTANCE
     scene.touch.margin = WATCHED * settings.contact_offset
     host: Arrays = {}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
@@ -41,6 +41,10 @@ class LatexBody(Body):
     """Chambers open to the air: they keep their gauge pressure."""
     inlet: int
     """Chamber that the pump blows into."""
+    hidden: NDArray[np.float64] | None = None
+    """Rubber that a closed neck hides from every segment, (S,) float64, in the length that two leave it; None
+    for none.
+    """
     gap: float = math.inf
     """Distance of walls that lie close to each other at the start, m: little gas between them is stiff."""
     packs: bool = False
@@ -112,14 +116,15 @@ def tube_body(
     wall[: borders[0]] *= LIP_THICKNESS
     neck = NECK_RADIUS * radius
     bulged = maxwell_state(rubber).bulged
-    place = _without_necks(mesh, rubber, radius, joints, neck * math.cos(math.pi / n), short or {})
+    necks = _Necks.of(mesh, rubber, radius, joints, neck * math.cos(math.pi / n), short or {})
     ring_of = _nearest(mesh.ring_along, mesh.along)
     return LatexBody(
-        points=_tapered(mesh, place, [mesh.ring_along[lip], mesh.ring_along[bead]], neck),
-        rest=np.column_stack([place, mesh.points[:, 1:].astype(np.float64)]),
+        points=_tapered(mesh, necks.whole, [mesh.ring_along[lip], mesh.ring_along[bead]], neck),
+        rest=np.column_stack([necks.twisted, mesh.points[:, 1:].astype(np.float64)]),
         quads=mesh.quads,
         thickness=wall,
         rubber=rubber,
+        hidden=np.concatenate([[0.0, 0.0], necks.shares]),
         worked=seed * float(rubber.energy(bulged.a, bulged.b)),
         radius=radius,
         contact_offset=CONTACT_OFFSET * radius,
@@ -157,30 +162,82 @@ def _seed(place: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.where(place > 0.0, np.clip(2.0 - place, 0.0, 1.0), 0.0)
 
 
-def _without_necks(
-    mesh: BalloonMesh,
-    rubber: Rubber,
-    radius: float,
-    joints: tuple[float, ...],
-    neck: float,
-    short: Mapping[int, float],
-) -> NDArray[np.float64]:
-    """Unstressed place of every vertex along the tube, (V,) m, without the rubber bunched in necks.
+@dataclass(frozen=True)
+class _Necks:
+    """Where the rubber of a tube lies that its necks hide when they are closed.
 
-    The mesh ends at the surface of a neck, whose radius is `neck` (m). The rubber inside it, left in the
-    bubbles, would swell a short one by a third.
+    The mesh ends at the surface of a neck. The rubber inside it, left in the bubbles, would swell a short one
+    by a third.
     """
-    x = mesh.points[:, 0].astype(np.float64)
-    size = BalloonSize("tube", radius, float(x.max()), radius)
-    marks = np.array([0.0, *joints, x.max()])
-    lengths = np.diff(marks)
-    hidden = np.array([neck_rubber(size, softened(rubber), float(s), neck) for s in lengths])
-    for k, length in short.items():
-        hidden[k] = neck_rubber_of_length(size, softened(rubber), length, neck)
-    ends = np.full(len(lengths), 2.0)
-    ends[-1] = 1.0
-    moved = np.concatenate([[0.0], np.cumsum(lengths - ends * hidden)])
-    return np.where(x > 0.0, np.interp(x, marks, moved), x)
+
+    x: NDArray[np.float64]
+    """Unstressed place of every vertex along the tube, (V,), m."""
+    marks: NDArray[np.float64]
+    """Places of the knot, of all joints and of the tip, m."""
+    hidden: NDArray[np.float64]
+    """Length that each of its necks hides from every bubble, m."""
+    knot: float
+    """What the knot hides from the tube before it is twisted, m."""
+
+    @classmethod
+    def of(
+        cls,
+        mesh: BalloonMesh,
+        rubber: Rubber,
+        radius: float,
+        joints: tuple[float, ...],
+        neck: float,
+        short: Mapping[int, float],
+    ) -> Self:
+        """Return those of a tube, of necks of one radius (m)."""
+        x = mesh.points[:, 0].astype(np.float64)
+        size = BalloonSize("tube", radius, float(x.max()), radius)
+        marks = np.array([0.0, *joints, x.max()])
+        lengths = np.diff(marks)
+        hidden = np.array([neck_rubber(size, softened(rubber), float(s), neck) for s in lengths])
+        for k, length in short.items():
+            hidden[k] = neck_rubber_of_length(size, softened(rubber), length, neck)
+        return cls(x, marks, hidden, neck_rubber(size, softened(rubber), size.length, neck))
+
+    @property
+    def lengths(self) -> NDArray[np.float64]:
+        """Unstressed lengths between the marks, m."""
+        return np.diff(self.marks)
+
+    @property
+    def whole(self) -> NDArray[np.float64]:
+        """Unstressed place of every vertex before any joint is made, (V,) m: only the knot is tied."""
+        return self._place(self._by_knot)
+
+    @property
+    def twisted(self) -> NDArray[np.float64]:
+        """The same when all joints are closed, (V,) m; the tip has no neck."""
+        return self._place(self._by_all)
+
+    @property
+    def shares(self) -> NDArray[np.float64]:
+        """What each joint hides from every bubble, in the length that it has when all are closed."""
+        joints = np.full(len(self.hidden), 2.0)
+        joints[0] -= 1.0
+        joints[-1] -= 1.0
+        each: NDArray[np.float64] = (self._by_all - self._by_knot) / np.maximum(joints, 1.0)
+        return each / (self.lengths - self._by_all)
+
+    @property
+    def _by_all(self) -> NDArray[np.float64]:
+        necks = np.full(len(self.hidden), 2.0)
+        necks[-1] = 1.0
+        return necks * self.hidden
+
+    @property
+    def _by_knot(self) -> NDArray[np.float64]:
+        hidden = np.zeros(len(self.hidden))
+        hidden[0] = self.knot
+        return hidden
+
+    def _place(self, hidden: NDArray[np.float64]) -> NDArray[np.float64]:
+        moved = np.concatenate([[0.0], np.cumsum(self.lengths - hidden)])
+        return np.where(self.x > 0.0, np.interp(self.x, self.marks, moved), self.x)
 
 
 def _tapered(

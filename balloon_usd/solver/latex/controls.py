@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.solver.hands import LEAD_FORCE, Floats, Hands
 from balloon_usd.solver.kernels.physics.gas import OPEN_PASSAGE, WIDE_OPEN
+from balloon_usd.solver.latex.hidden_rubber import HiddenRubber
 from balloon_usd.solver.latex.spins import Spins
 
 if TYPE_CHECKING:
@@ -32,6 +33,9 @@ class LatexControls(Hands):
         super().__init__(scene)
         self.passage = np.where(self.closed, 0.0, OPEN_PASSAGE).astype(np.float32)
         self.passage_goal = self.passage.copy()
+        self.neck_closed = self.closed.astype(np.float32)
+        """How far every joint is closed, and so hides the rubber of its neck, 0 to 1."""
+        self._hidden_rubber = HiddenRubber(scene)
         self.neck_flow = np.zeros(len(self.passage), dtype=np.float32)
         """Gas that hands push through a neck in the coming frame, from before to behind it, mol/s."""
         self._pushing = False
@@ -86,6 +90,10 @@ class LatexControls(Hands):
         self.close(joint, radius)
         self.passage_goal[joint] = passage
 
+    def hide_rubber(self, joint: int, closed: float) -> None:
+        """Let a neck hide its rubber from the bubbles beside it, as far as it is closed, 0 to 1."""
+        self.neck_closed[joint] = closed
+
     def push_gas(self, joint: int, flow: float) -> None:
         """Push gas (mol/s) through a neck in the coming frame, from the chamber before it to that behind."""
         self.neck_flow[joint] = flow
@@ -95,6 +103,7 @@ class LatexControls(Hands):
         """Let a neck go that is as wide as its tube: the chambers beside it become one."""
         self.radius[joint] = self.radius_goal[joint] = 0.0
         self.passage[joint] = self.passage_goal[joint] = OPEN_PASSAGE
+        self.neck_closed[joint] = 0.0
 
     def set_softening(self, balloon: int, rate: float) -> None:
         """Set which share of a new largest energy the rubber of a balloon takes note of in one substep."""
@@ -178,6 +187,7 @@ class LatexControls(Hands):
                 "open_from": self.passage,
                 "open_to": self.passage_goal,
                 "neck_flow": self.neck_flow,
+                "rest_length": self._hidden_rubber.rest_length(self.neck_closed),
                 "pump_flow": self.pump_flow,
                 "pump_limit": self.pump_limit,
                 "pump_goal": self.pump_goal,

@@ -172,15 +172,17 @@ class LatexModel(Model):
 
 
 def _join_necks(scene: LatexScene, sculptures: Sequence[LatexSculpture]) -> None:
-    """Tell of every joint which one it is meant to become: where they meet rubber is folded up."""
+    """Make one neck of joints that are meant to become one: where they meet rubber is folded up."""
     welds = (
         [sculpture.joints[ring] for ring in move.rings]
         for sculpture in sculptures
         for move in sculpture.plan.choreography.moves
         if isinstance(move, Weld)
     )
-    leaders = roots_of(len(scene.joint_first), welds)
-    scene.joint_meant.assign(np.array(leaders, dtype=np.int32))
+    # The last is for what lies in no neck.
+    meant = np.array([*roots_of(len(scene.joint_first), welds), -1], dtype=np.int32)
+    for necks in (scene.vertex_neck, scene.quad_neck):
+        necks.assign(meant[necks.numpy()])
 
 
 def _room_for_struts(plans: Sequence[Plan]) -> tuple[int, int]:

@@ -13,6 +13,7 @@ from balloon_usd.solver.kernels.arrays.latex import Chambers, Cores, Crossings, 
 from balloon_usd.solver.kernels.arrays.rows import STRUT_SLOTS, Air, Law
 from balloon_usd.solver.latex.cores import core_arrays
 from balloon_usd.solver.latex.device_law import device_laws
+from balloon_usd.solver.latex.hidden_rubber import HiddenRubber
 from balloon_usd.solver.latex.membrane_data import membrane_data
 from balloon_usd.solver.scene import Scene, lay_meshes
 
@@ -60,11 +61,16 @@ def build_scene(
         for name in ("rest_inverse", "hourglass", "rubber_volume", "mass", "true_mass")
     }
     lay_meshes(scene, host, weld_count)
+    rings = [ring.closed for body in bodies for ring in body.rings]
+    # Device arrays are never empty: a scene without joints gets one that closes nothing.
+    closed = np.array(rings or [True], dtype=np.float32)
     scene.arrays.put(
         _gas_arrays(scene)
         | core_arrays(scene.bodies, scene.by_world)
         | {
             "quad_law": scene.quad_balloon.numpy(),
+            "rest_length": HiddenRubber(scene).rest_length(closed),
+            "quad_length": np.ones(len(scene.quads), dtype=np.float32),
             "peak_energy": np.concatenate([b.worked for b in scene.bodies]).astype(np.float32),
         }
     )

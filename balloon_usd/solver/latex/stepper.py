@@ -11,6 +11,7 @@ from balloon_usd.solver.kernels.device.warp_reduce import WARP
 from balloon_usd.solver.kernels.physics.gas import segment_volumes
 from balloon_usd.solver.kernels.physics.joints import measure_rings
 from balloon_usd.solver.kernels.physics.membrane import vertex_stretch
+from balloon_usd.solver.kernels.physics.neck_rubber import hide_neck_rubber
 from balloon_usd.solver.kernels.physics.wall_load import wall_loads
 from balloon_usd.solver.latex.launch_shape import SculptureLaunch
 from balloon_usd.solver.latex.untangling import Untangling
@@ -52,6 +53,7 @@ class Stepper:
     def _start(self) -> None:
         """Give rings their middles and chambers their gas before the first substep."""
         s = self.scene
+        self._launch(hide_neck_rubber, len(s.quads))
         self._launcher.launch_tiled(measure_rings, len(s.joint_first), lanes=WARP)
         self._volumes()
         volume = s.volume.numpy().astype(float)
@@ -89,6 +91,7 @@ class Stepper:
     def _frame(self, *, contact: bool, fingers: bool) -> None:
         stride = self._search_every if contact else self.substeps
         self._untangling.begin_frame()
+        self._launch(hide_neck_rubber, len(self.scene.quads))
         for begin in range(0, self.substeps, stride):
             if contact:
                 self._search.measure_quads()

@@ -225,6 +225,8 @@ class Torsion:
             self.hands.free_neck(loose.joint)
         else:
             self.hands.squeeze(loose.joint, radius, math.pi * (radius**2 - wound.neck**2))
+            closed = (wound.wide - radius) / (wound.wide - wound.neck)
+            self.hands.hide_rubber(loose.joint, min(max(closed, 0.0), 1.0))
 
 
 def rope_stiffness(strip: Strip, bubble: str, neck: float) -> float:

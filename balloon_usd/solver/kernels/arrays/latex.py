@@ -18,6 +18,7 @@ class Rubber:
     rest_inverse: wp.array[wp.mat22] = array("quads", unit="1/m", meaning="inverse of its edges at rest")
     hourglass: wp.array[wp.vec4] = array("quads", unit="N^1/2/m^1/2", meaning="its hourglass vector")
     rubber_volume: wp.array[float] = array("quads", unit="m3", meaning="volume of its rubber")
+    quad_length: wp.array[float] = array("quads", meaning="rest length of its segment that it is made for")
     peak_energy: wp.array[float] = array(
         "quads", unit="J/m3", meaning="largest energy that it has noted so far"
     )
@@ -43,6 +44,9 @@ class Chambers:
     blowing: wp.array[int] = array("balloons", meaning="1 where gas flows through a closing neck")
     open_from: wp.array[float] = array("joints", unit="m2", meaning="open area at the start of the frame")
     open_to: wp.array[float] = array("joints", unit="m2", meaning="open area at its end")
+    rest_length: wp.array[float] = array(
+        "segments", meaning="its length at rest, in that between two closed necks"
+    )
     neck_flow: wp.array[float] = array(
         "joints", unit="mol/s", meaning="gas that a hand pushes through it, from before to behind"
     )
@@ -122,7 +126,6 @@ class Forces:
 class Crossings:
     """Walls that would go through each other, or have, and how they are kept apart."""
 
-    joint_meant: wp.array[int] = array("joints", meaning="the joint that stands for all it is meant to join")
     x_safe: wp.array[wp.vec3] = array(
         "vertices", unit="m", meaning="where it was when walls were last kept apart"
     )

@@ -39,7 +39,9 @@ class Mesh:
     quad_balloon: wp.array[int] = array("quads", meaning="its balloon")
     quad_world: wp.array[int] = array("quads", meaning="its sculpture")
     quad_ring: wp.array[int] = array("quads", meaning="ring of its first vertex")
-    quad_neck: wp.array[int] = array("quads", meaning="joint in whose neck it lies; -1 for none")
+    quad_neck: wp.array[int] = array(
+        "quads", meaning="joint in whose neck it lies, one for all that are meant to join; -1 for none"
+    )
     quad_place: wp.array[wp.vec3] = array("quads", unit="m", meaning="unstressed place of its middle")
     quad_outward: wp.array[wp.vec3] = array(
         "quads", meaning="its unstressed outward direction; 0: its inside never meets itself"
@@ -52,7 +54,9 @@ class Mesh:
     vertex_segment: wp.array[int] = array("vertices", meaning="its segment; -1 on a ring between two")
     vertex_joint: wp.array[int] = array("vertices", meaning="the joint that moves it; -1 for none")
     vertex_ring: wp.array[int] = array("vertices", meaning="its ring")
-    vertex_neck: wp.array[int] = array("vertices", meaning="joint in whose neck it lies; -1 for none")
+    vertex_neck: wp.array[int] = array(
+        "vertices", meaning="joint in whose neck it lies, one for all that are meant to join; -1 for none"
+    )
     vertex_place: wp.array[wp.vec3] = array("vertices", unit="m", meaning="its unstressed place")
     vertex_outward: wp.array[wp.vec3] = array("vertices", meaning="its unstressed outward direction, or 0")
     mass: wp.array[float] = array(
@@ -160,7 +164,9 @@ class Contacts:
     watched: wp.array[int] = array(
         "sculptures", meaning="frames for which its walls are still kept apart at every search; 0: none"
     )
-    crossed: wp.array[int] = array("vertices", meaning="1 where its wall crosses another all the same")
+    crossed: wp.array[int] = array(
+        "vertices", meaning="1 where its wall crosses another all the same, and where nothing keeps it apart"
+    )
     normal: wp.array[wp.vec3] = array("vertices", meaning="outward unit normal")
     area: wp.array[float] = array("vertices", unit="m2", meaning="share of the wall's area")
     quad_middle: wp.array[wp.vec3] = array("quads", unit="m", meaning="its middle")

@@ -15,7 +15,7 @@ from balloon_usd.solver.kernels.device.array_access import (
 )
 from balloon_usd.solver.kernels.device.coherent_load import coherent_vec2, coherent_vec3
 from balloon_usd.solver.kernels.device.soa import load_soa, store_soa
-from balloon_usd.solver.kernels.physics.meeting import INSIDE, opposite, seeker_of
+from balloon_usd.solver.kernels.physics.meeting import FOLDED, INSIDE, opposite, seeker_of
 from balloon_usd.solver.kernels.physics.patch import SIDE_SLIP, nearer_on_patch, patch_shares
 
 STICK = wp.constant(0.5)
@@ -51,6 +51,20 @@ def pressure_behind(i: int, q: int, mesh: Mesh, segment_pressure: wp.array[float
 
 
 @wp.func
+def share_of_fold(i: int, q: int, mesh: Mesh, balloons: Balloons, contacts: Contacts, x: wp.array[wp.vec3]):
+    """Return how hard a vertex presses on a quad, as a share: the less, the deeper they lie in each other in
+    one neck.
+    """
+    neck = int_at(mesh.vertex_neck, i)
+    if neck < 0 or neck != int_at(mesh.quad_neck, q) or int_at(contacts.crossed, i) == 1:
+        return 1.0
+    face = wp.normalize(vec3_at(contacts.quad_area, q))
+    depth = wp.dot(face, vec3_at(contacts.quad_middle, q) - vec3_at(x, i))
+    offset = float_at(balloons.contact_offset, int_at(mesh.vertex_balloon, i))
+    return wp.clamp(1.0 - depth / (FOLDED * offset), 0.0, 1.0)
+
+
+@wp.func
 def limits_of_pair(
     pair: int,
     touch: Touch,
@@ -60,6 +74,7 @@ def limits_of_pair(
     contacts: Contacts,
     segment_pressure: wp.array[float],
     slowness: wp.array[float],
+    x: wp.array[wp.vec3],
 ):
     """Return what stays constant between two searches for a vertex that touches a quad: the quad's vertices,
     the stiffness (N/m), the damping (N s/m), the friction, and the distance at which it is pressed (m), below
@@ -81,10 +96,12 @@ def limits_of_pair(
     face = wp.length(vec3_at(contacts.quad_area, q))
     offset = float_at(balloons.contact_offset, balloon) + float_at(balloons.contact_arc, balloon) * face
     side = float(1.0)
+    most_pressure = wp.max(touch.pressure, FIRM * pressure_behind(i, q, mesh, segment_pressure))
     if opposite(q, seeker_of(i, touch, mesh, balloons), mesh):
         offset = INSIDE * float_at(balloons.contact_offset, balloon)
         side = -1.0
-    most_pressure = wp.max(touch.pressure, FIRM * pressure_behind(i, q, mesh, segment_pressure))
+    else:
+        most_pressure *= share_of_fold(i, q, mesh, balloons, contacts, x)
     stiffness = wp.min(
         most_pressure * float_at(contacts.area, i) / offset, stable * lightest / (dt * dt * crowd)
     )

@@ -17,7 +17,7 @@ from balloon_usd.solver.kernels.device.atomic import add_int, exchange_int
 from balloon_usd.solver.kernels.device.chunk_rows import lanes_between, within_reach
 from balloon_usd.solver.kernels.device.soa import store_soa
 from balloon_usd.solver.kernels.device.warp_reduce import lowest_bit, warp_ballot, warp_max, warp_max3
-from balloon_usd.solver.kernels.physics.meeting import INSIDE, Seeker, may_meet, opposite, seeker_of
+from balloon_usd.solver.kernels.physics.meeting import FOLDED, INSIDE, Seeker, may_meet, opposite, seeker_of
 from balloon_usd.solver.kernels.physics.motion import LYING, SLOW
 from balloon_usd.solver.kernels.physics.patch import SIDE_SLIP, nearest_on_patch, patch_shares
 from balloon_usd.solver.kernels.physics.surface import FAR, GROUP, surface_of_vertex, velocity_of_spin
@@ -30,7 +30,7 @@ side.
 """
 ROUNDING = wp.constant(0.1)
 """The same where walls are kept apart, in the distance at which they begin to press: there no wall is behind
-another, and what seemed to be was flung through a third.
+another, and what seemed to be was flung through a third, and moved ears by 7 mm in a frame after the let-go.
 """
 OWN = wp.constant(256)
 """Most quads before a vertex, and after it, that are known as its own."""
@@ -100,6 +100,8 @@ def distance_of_wall(
     if wp.dot(face, seeker.normal) < FACING and may_meet(q, seeker, mesh):
         height = wp.dot(d, face)
         limit = wp.min(seeker.depth, DEPTH_LIMIT * float_at(contacts.ring_radius, int_at(mesh.quad_ring, q)))
+        folded = seeker.neck >= 0 and int_at(mesh.quad_neck, q) == seeker.neck
+        limit = wp.min(limit, wp.where(folded, FOLDED / ROUNDING, 1.0) * seeker.apart_depth)
         going = seeker.velocity - vec3_at(contacts.quad_velocity, q)
         watched = touch.margin + touch.ahead * wp.max(wp.length(going), seeker.speed)
         if opposite(q, seeker, mesh):
@@ -283,8 +285,10 @@ def find_walls(
     contacts.area[i] = size
     own = contacts.vertex_own[i]
     world = balloons.balloon_world[seeker.balloon]
-    if contacts.watched[world] > 0 and contacts.crossed[i] == 0:
-        seeker.depth = ROUNDING * seeker.offset
+    if contacts.watched[world] > 0:
+        # Rubber that is folded up in a neck, and pressed, jitters for as long as its surroundings are led.
+        seeker.neck = -1
+    seeker.apart_depth = wp.where(contacts.crossed[i] == 0, ROUNDING * seeker.offset, FAR)
     near = wp.vec2(FAR, FAR)
     nearest = wp.vec2i(-1, -1)
     first = sculptures.world_chunk[world]

@@ -10,6 +10,11 @@ OPPOSITE = wp.constant(-0.3)
 """Walls are on opposite sides of a tube when the dot product of their unstressed normals is below this."""
 INSIDE = wp.constant(0.5)
 """Distance at which the inside of a wall begins to press on itself, in that of the outside."""
+FOLDED = wp.constant(1.5)
+"""Depth at which walls of one neck, which are not kept apart, no longer press on each other, in the distance
+at which they begin to. With a tenth they end 1.5 mm inside each other; at full force down to that depth ears
+and wings move twice as far after the let-go.
+"""
 
 
 @wp.struct
@@ -37,6 +42,10 @@ class Seeker:
     """Its outward unit normal."""
     depth: float
     """Deepest overlap taken for a contact on its side, m."""
+    apart_depth: float
+    """The same where walls are kept apart, m."""
+    neck: int
+    """Joint in whose neck it lies; -1 for none."""
     offset: float
     """Distance at which the smallest faces begin to press on it, m."""
     arc: float
@@ -51,6 +60,7 @@ def seeker_of(i: int, touch: Touch, mesh: Mesh, balloons: Balloons):
     seeker = Seeker()
     seeker.balloon = mesh.vertex_balloon[i]
     seeker.bubble = mesh.vertex_segment[i]
+    seeker.neck = mesh.vertex_neck[i]
     seeker.place = mesh.vertex_place[i]
     seeker.apart = touch.apart * balloons.balloon_radius[seeker.balloon]
     seeker.outward = mesh.vertex_outward[i]

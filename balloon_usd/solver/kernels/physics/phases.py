@@ -74,7 +74,15 @@ def prepare_contacts(
     first, last, step = share_from_far_end(threads, own.pair_begin, own.pair_end)
     for at in range(first, last, step):
         touched, limits = limits_of_pair(
-            int_at(contacts.pairs, at), touch, dt, mesh, balloons, contacts, chambers.pressure, state.slowness
+            int_at(contacts.pairs, at),
+            touch,
+            dt,
+            mesh,
+            balloons,
+            contacts,
+            chambers.pressure,
+            state.slowness,
+            state.x,
         )
         forces.pair_corners[at] = touched
         forces.pair_limits[at] = limits

@@ -18,7 +18,6 @@ from balloon_usd.solver.kernels.physics.piercing_edge import (
     answer_edge,
     goes_through,
     is_corner,
-    neck_at,
 )
 from balloon_usd.solver.kernels.physics.surface import FAR, farthest
 
@@ -170,14 +169,14 @@ def answer_chunk(
 ):
     """Answer the edges of a quad that pierce quads of a chunk."""
     c = vec4i_at(mesh.quads, q)
-    own = neck_at(int_at(mesh.quad_neck, q), crossings.joint_meant)
+    own = int_at(mesh.quad_neck, q)
     base = int_at(mesh.chunk_quad, other)
     close = near_quads(chunk, q - int_at(mesh.chunk_quad, chunk), other, mesh, crossings)
     while close != 0:
         r = base + lowest_bit(close)
         close &= close - 1
         d = vec4i_at(mesh.quads, r)
-        neck = neck_at(int_at(mesh.quad_neck, r), crossings.joint_meant)
+        neck = int_at(mesh.quad_neck, r)
         if neck < 0 or neck != own:
             answer_quad(c, d, neck, together, world, mesh, contacts, crossings)
 

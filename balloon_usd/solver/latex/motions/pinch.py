@@ -53,8 +53,11 @@ class Pinch(Motion):
         """
         if self._ball is None:
             self._press_gas(share)
-        radius = self._neck + (self._wide - self._neck) * (1.0 - smooth(share))
-        self._hands.squeeze(self._joint, radius, self._open * math.pi * (radius**2 - self._neck**2))
+        closed = smooth(share)
+        radius = self._neck + (self._wide - self._neck) * (1.0 - closed)
+        passage = self._open * math.pi * (radius**2 - self._neck**2)
+        self._hands.squeeze(self._joint, radius, passage)
+        self._hands.hide_rubber(self._joint, closed)
         if self._ball is not None:
             self._ball.squeeze(share)
 
