@@ -272,6 +272,35 @@ class UpTo:
         return {"anyOf": [{"type": "number", "exclusiveMinimum": 0, "maximum": self.most}, text]}
 
 
+@dataclass(frozen=True)
+class PercentWithin:
+    """A share from `low` to `high`, in percent."""
+
+    low: float
+    high: float
+
+    def read(self, value: object) -> float:
+        """Read a share in percent: a number is in percent; "20 %" says so."""
+        text = value.rstrip().removesuffix("%") if isinstance(value, str) else value
+        number, unit = _number_and_unit(text, "share", '20 or "20 %"')
+        if unit:
+            raise ValueError(f"unknown unit of a share {quoted(unit)}, expected %")
+        share, wanted = float(number), f"{self.low:g} to {self.high:g} %"
+        if not self.low <= share <= self.high:
+            near = min(max(share, self.low), self.high)
+            raise ValueError(f"{share:g} % is out of range, expected {wanted}, the nearest is {near:g} %")
+        return share
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.no_info_before_validator_function(self.read, handler(source))
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        text = {"type": "string", "pattern": r"^\s*\+?[0-9.]+\s*%?\s*$"}
+        return {"anyOf": [{"type": "number", "minimum": self.low, "maximum": self.high}, text]}
+
+
 def _shown(length: float) -> str:
     for unit, scale in (("m", 1.0), ("cm", 0.01)):
         if abs(length) >= scale:

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, ConfigDict
 
 from balloon_usd.language.names import Name
-from balloon_usd.language.quantities import Between
+from balloon_usd.language.quantities import Between, PercentWithin
 
 Point = Literal["up", "down", "left", "right", "forward", "back"]
 Seconds = Annotated[float, Between(0.2, 60.0, "s")]
@@ -16,7 +16,7 @@ TURNS = 3.0
 """Full turns of a twist: the common advice of makers."""
 HOLDING_TURNS = 2.0
 """Turns below which a twist unwinds: makers advise 2 to 4, three as a rule."""
-MODIFIERS = ("balloon", "point", "turns", "seconds", "note")
+MODIFIERS = ("balloon", "point", "turns", "burp", "seconds", "note")
 """All modifiers, in the order in which they are written."""
 
 
@@ -50,6 +50,13 @@ class Turned(Entries):
     def holds(self) -> bool:
         """Whether the friction of the wound necks holds when the hands let go."""
         return self.turns >= HOLDING_TURNS
+
+
+class Burped(Entries):
+    """Of an operation that twists bubbles off."""
+
+    burp: Annotated[float, PercentWithin(1.0, 50.0)] | None = None
+    """Share of its gas that hands press on out of each bubble before its twist, percent."""
 
 
 class Timed(Entries):

@@ -8,7 +8,7 @@ from pydantic import Field
 
 from balloon_usd.language.names import Name, Text
 from balloon_usd.language.quantities import Length, length_entry, written_length
-from balloon_usd.operations.modifiers import MODIFIERS, Entries, OnBalloon, Timed
+from balloon_usd.operations.modifiers import MODIFIERS, Burped, Entries, OnBalloon, Timed
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -38,7 +38,7 @@ class Operation(Entries):
     folds: ClassVar[bool] = False
     """Whether it lays the two halves of each of them side by side."""
     gas: ClassVar[float] = 1.0
-    """Share of the gas of its length that hands leave in each of them: soft ones keep less."""
+    """Share of the gas of its length that hands leave in each of them, if not told to press any out."""
     guides: ClassVar[tuple[float, ...]] = (0.5,)
     """Where hands lead each of them, as shares of its length."""
     by_bubble: ClassVar[bool] = False
@@ -60,6 +60,11 @@ class Operation(Entries):
     def lengths(self) -> dict[str, float]:
         """Bubbles that it twists off: inflated length (m) by name."""
         return {}
+
+    @property
+    def gas_left(self) -> float:
+        """Share of the gas of its length that hands leave in each bubble that it makes."""
+        return self.gas
 
     @property
     def holds(self) -> bool:
@@ -114,10 +119,15 @@ class Operation(Entries):
         """Write the moves of a step of this index; raises `RecipeError` where no hand can make it."""
 
 
-class TwistsOff(OnBalloon, Timed, Operation):
+class TwistsOff(OnBalloon, Burped, Timed, Operation):
     """An operation that twists bubbles off, one after another."""
 
     by_bubble: ClassVar[bool] = True
+
+    @property
+    def gas_left(self) -> float:
+        """Share of the gas of its length that hands leave in each bubble: without what they press on."""
+        return self.gas * (1.0 - 0.01 * (self.burp or 0.0))
 
     @property
     def lengths(self) -> dict[str, float]:

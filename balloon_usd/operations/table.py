@@ -15,7 +15,7 @@ from balloon_usd.operations.fold import Fold
 from balloon_usd.operations.inflate import Inflate
 from balloon_usd.operations.lock import Lock
 from balloon_usd.operations.loop import Loop
-from balloon_usd.operations.modifiers import OnBalloon, Pointed, Timed, Turned
+from balloon_usd.operations.modifiers import Burped, OnBalloon, Pointed, Timed, Turned
 from balloon_usd.operations.operation import Operation
 from balloon_usd.operations.press import Press
 from balloon_usd.operations.rest import Rest
@@ -33,7 +33,7 @@ BY_KIND = {operation.bubble_kind: operation for operation in OPERATIONS if opera
 """Operations that make bubbles, by the kind of these."""
 
 
-class NoOperation(OnBalloon, Pointed, Turned, Timed, Operation):
+class NoOperation(OnBalloon, Pointed, Turned, Burped, Timed, Operation):
     """A step without a word of the table: never right, but what stands in it is looked at all the same."""
 
     word = ""

@@ -155,7 +155,7 @@ def _burst(recipe: Recipe, strip: Strip, budget: Budget, graph: SculptureGraph) 
         return
     twist, load = burst
     why = "folded bubbles are stretched most outside their bend"
-    remedy = "make the folded bubbles longer, or fewer"
+    remedy = "press gas out of the folded bubbles (burp: 20 %), or make them longer, or fewer"
     if twist.tail_left <= 0.0:
         why = f"with no tail left the rubber is stretched {twist.hoop_stretch:.1f} times round, at "
         why += _kilopascals(twist.pressure)

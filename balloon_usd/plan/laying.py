@@ -145,7 +145,7 @@ def _made(recipe: Recipe, name: str) -> list[Made]:
         index = recipe.piece.bubbles[bubble].step
         step = recipe.steps[index]
         assert step.bubble_kind is not None, "a step that makes bubbles says of which kind"
-        found.append(Made(index, step.bubble_kind, bubble, step.lengths[bubble], step.gas))
+        found.append(Made(index, step.bubble_kind, bubble, step.lengths[bubble], step.gas_left))
     return found
 
 

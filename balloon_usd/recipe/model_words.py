@@ -57,6 +57,9 @@ def _kosaka_steps(data: object) -> Iterator[Complaint]:
         if Inflate.word in step.words:
             what = "makes no sense with model kosaka, whose balloons start blown up"
             yield Complaint((*step.path, Inflate.word), f"{what}, expected no such step")
+        if "burp" in step.entries:
+            what = "makes no sense with model kosaka, whose bubbles keep the air particles that are in them"
+            yield Complaint((*step.path, "burp"), f"{what}, expected no burp")
         if "turns" in step.entries:
             what = "makes no sense with model kosaka: its joints freeze and are not wound"
             yield Complaint((*step.path, "turns"), f"{what}, expected no turns")

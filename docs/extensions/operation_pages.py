@@ -16,7 +16,14 @@ if TYPE_CHECKING:
 
     from balloon_usd.operations.operation import Operation
 
-QUANTITIES = {"mm|cm": "length", "deg|rad": "angle", "N|mN": "force", "start|end": "joint", "A-Za-z_": "name"}
+QUANTITIES = {
+    "mm|cm": "length",
+    "deg|rad": "angle",
+    "N|mN": "force",
+    "%": "percent",
+    "start|end": "joint",
+    "A-Za-z_": "name",
+}
 """What a text is whose pattern has such a part."""
 
 

@@ -63,6 +63,16 @@ def test_loops_that_a_long_balloon_bears_burst_a_balloon_without_tail():
     assert bursts(plan(Recipe.parse(full % 0))) == ["main may burst at the twist that ends head"]
 
 
+def test_a_loop_out_of_which_gas_is_pressed_bursts_no_balloon_and_fills_its_tail():
+    text = HEAD + "balloons: {main: {size: 260, length: 8, tail: %s}}\nsteps: [{loop: {head: 12}%s}]\n"
+    assert bursts(plan(Recipe.parse(text % (0, "")))) != []
+    assert bursts(plan(Recipe.parse(text % (0, ", burp: 30")))) == []
+    (hard,), (soft,) = (
+        plan(Recipe.parse(text % (3, burp))).budgets["main"].twists for burp in ("", ", burp: 30")
+    )
+    assert soft.tail_left < hard.tail_left
+
+
 def test_a_dog_without_tail_is_told_to_be_hard():
     text = (RECIPES / "dog.yaml").read_text().replace("tail: 10", "tail: 0")
     figure = plan(Recipe.parse(text))

@@ -266,6 +266,8 @@ def manner(draw: st.DrawFn, kind: str) -> dict[str, Any]:
         "seconds": draw(st.none() | st.floats(0.2, 60)),
         "note": draw(st.none() | TEXTS),
     }
+    if kind != "lock":
+        found["burp"] = draw(st.none() | st.floats(1, 50) | st.just("20 %"))
     if kind != "bubbles":
         found["point"] = draw(st.none() | st.sampled_from(["up", "down", "left", "right", "forward", "back"]))
     return found

@@ -94,7 +94,14 @@ def test_every_point_is_known(point: str) -> None:
     assert recipe(f"{ABC}  - lock: [a, b]\n    point: {point}\n").steps[1].point == point
 
 
-VALUES = {"balloon": "main", "point": "up", "turns": "2.5", "seconds": "1.5", "note": "gently"}
+VALUES = {
+    "balloon": "main",
+    "point": "up",
+    "turns": "2.5",
+    "burp": "20.0",
+    "seconds": "1.5",
+    "note": "gently",
+}
 
 
 def test_this_file_tries_every_manner() -> None:

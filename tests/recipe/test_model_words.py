@@ -146,6 +146,13 @@ def test_what_only_latex_knows_is_refused_beside_the_particle_model(line: str, r
     ]
 
 
+def test_gas_is_not_pressed_out_with_the_particle_model() -> None:
+    assert messages(f"{CAPSULE}{AB}    burp: 20 %\n{KOSAKA}") == [
+        "dog.yaml:8:11: steps[0].burp: makes no sense with model kosaka, whose bubbles keep the air particles"
+        " that are in them, expected no burp"
+    ]
+
+
 def test_turns_are_refused_with_the_particle_model() -> None:
     assert messages(f"{CAPSULE}{AB}    turns: 3\n{KOSAKA}") == [
         "dog.yaml:8:12: steps[0].turns: makes no sense with model kosaka: its joints freeze and are not wound,"

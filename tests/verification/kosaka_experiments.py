@@ -24,6 +24,7 @@ from balloon_usd.solver.frame import Frame
 from balloon_usd.solver.kosaka.model import KosakaModel
 from balloon_usd.solver.kosaka.parameters import Parameters
 from balloon_usd.solver.simulation import simulate_many
+from balloon_usd.solver.status import COMES_UNDONE
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
@@ -263,9 +264,11 @@ def bubble_middle(run: Run, x: Floats, bubble: int) -> Floats:
 
 def trembling(run: Run) -> tuple[float, float]:
     """How the wall moves in the last second: root of the mean square of its speed (m/s), and of its distance from
-    where it is on average (m).
+    where it is on average (m), until joints come undone.
     """
-    x = run.points[run.last_second]
+    undone = sum(frame.doing.startswith(COMES_UNDONE) for frame in run.frames)
+    last = run.last_second
+    x = run.points[last.start - undone : -undone or None]
     speed = np.diff(x, axis=0) * run.fps
     off = x - x.mean(axis=0)
     rms = [float(np.sqrt((d**2).sum(axis=2).mean())) for d in (speed, off)]
