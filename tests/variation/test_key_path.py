@@ -74,7 +74,10 @@ def test_a_path_leads_into_every_form_of_step(text, path):
         ("physics.fricton", 'unknown key "fricton", did you mean "friction"?'),
         ("physics.kosaka.swel", 'unknown key "swel", did you mean "swell"?'),
         ("steps.0.bubbles.nos", 'unknown bubble "nos", did you mean "nose"?'),
-        ("steps.0.point", 'unknown key "point", expected one of bubbles, balloon, turns, seconds, note'),
+        (
+            "steps.0.point",
+            'unknown key "point", expected one of bubbles, balloon, turns, burp, seconds, note',
+        ),
         ("steps.lft_ear.point", 'unknown bubble "lft_ear", did you mean "left_ear"?'),
         ("steps.left_ear", '"left_ear" is in steps[0] and steps[1], expected one of them by its number'),
         (

@@ -35,7 +35,7 @@ class LatexControls(Hands):
         self.passage_goal = self.passage.copy()
         self.neck_closed = self.closed.astype(np.float32)
         """How far every joint is closed, and so hides the rubber of its neck, 0 to 1."""
-        self._hidden_rubber = HiddenRubber(scene)
+        self._hidden_rubber = HiddenRubber(scene.bodies, scene.start_joint.numpy(), scene.end_joint.numpy())
         self.neck_flow = np.zeros(len(self.passage), dtype=np.float32)
         """Gas that hands push through a neck in the coming frame, from before to behind it, mol/s."""
         self._pushing = False

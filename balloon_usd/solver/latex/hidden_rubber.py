@@ -7,20 +7,24 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import NDArray
 
-    from balloon_usd.solver.latex.scene import LatexScene
+    from balloon_usd.solver.latex.body import LatexBody
+
+    Ints = NDArray[np.int32]
 
 
 class HiddenRubber:
     """What the closed necks of a scene hide."""
 
-    def __init__(self, scene: LatexScene) -> None:
-        """Take over which joints each segment lies between, and what a neck hides from it."""
-        self._joints = scene.start_joint.numpy(), scene.end_joint.numpy()
-        shares = [
-            np.zeros(len(body.segment_ends)) if body.hidden is None else body.hidden for body in scene.bodies
-        ]
+    def __init__(self, bodies: Sequence[LatexBody], start: Ints, end: Ints) -> None:
+        """Take over which joints each segment of some bodies lies between, (S,), -1 for none, and what a neck
+        hides from it.
+        """
+        self._joints = start, end
+        shares = [np.zeros(len(body.segment_ends)) if body.hidden is None else body.hidden for body in bodies]
         self._shares = np.concatenate(shares)
 
     def rest_length(self, closed: NDArray[np.float32]) -> NDArray[np.float32]:

@@ -69,7 +69,9 @@ def build_scene(
         | core_arrays(scene.bodies, scene.by_world)
         | {
             "quad_law": scene.quad_balloon.numpy(),
-            "rest_length": HiddenRubber(scene).rest_length(closed),
+            "rest_length": HiddenRubber(
+                scene.bodies, scene.start_joint.numpy(), scene.end_joint.numpy()
+            ).rest_length(closed),
             "quad_length": np.ones(len(scene.quads), dtype=np.float32),
             "peak_energy": np.concatenate([b.worked for b in scene.bodies]).astype(np.float32),
         }

@@ -251,6 +251,10 @@ def seeker_at(
     seeker.velocity = state.v[i] + velocity_of_spin(i, state.x[i], hands)
     seeker.normal = normal
     seeker.depth = DEPTH_LIMIT * contacts.ring_radius[mesh.vertex_ring[i]]
+    seeker.apart_depth = wp.where(contacts.crossed[i] == 0, ROUNDING * seeker.offset, FAR)
+    if contacts.watched[balloons.balloon_world[seeker.balloon]] > 0:
+        # Rubber that is folded up in a neck, and pressed, jitters for as long as its surroundings are led.
+        seeker.neck = -1
     # What would have crossed is soon as fast as it may be, and so is what it would have crossed.
     seeker.speed = wp.where(state.slowness[i] > 0.0, 2.0 * SLOW, 0.0)
     farthest = touch.ahead * wp.max(wp.length(seeker.velocity), seeker.speed)
@@ -285,10 +289,6 @@ def find_walls(
     contacts.area[i] = size
     own = contacts.vertex_own[i]
     world = balloons.balloon_world[seeker.balloon]
-    if contacts.watched[world] > 0:
-        # Rubber that is folded up in a neck, and pressed, jitters for as long as its surroundings are led.
-        seeker.neck = -1
-    seeker.apart_depth = wp.where(contacts.crossed[i] == 0, ROUNDING * seeker.offset, FAR)
     near = wp.vec2(FAR, FAR)
     nearest = wp.vec2i(-1, -1)
     first = sculptures.world_chunk[world]
