@@ -45,6 +45,7 @@ LONGEST = 5.0
 
 _NUMBER = r"[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]{1,3})?"
 _QUANTITY = re.compile(rf"\s*({_NUMBER})\s*([A-Za-z\"]*)\s*", re.ASCII)
+_PERCENT = re.compile(rf"\s*{_NUMBER}\s*%?\s*", re.ASCII)
 _DECIMAL_COMMA = re.compile(r"\s*[0-9]+,[0-9]+\s*[a-z\"]*\s*", re.ASCII)
 _LONGEST_TEXT = 40
 
@@ -281,11 +282,11 @@ class PercentWithin:
 
     def read(self, value: object) -> float:
         """Read a share in percent: a number is in percent; "20 %" says so."""
+        if isinstance(value, str) and not _PERCENT.fullmatch(value):
+            raise ValueError(f'{quoted(value)} is no share, expected 20 or "20 %"')
         text = value.rstrip().removesuffix("%") if isinstance(value, str) else value
-        number, unit = _number_and_unit(text, "share", '20 or "20 %"')
-        if unit:
-            raise ValueError(f"unknown unit of a share {quoted(unit)}, expected %")
-        share, wanted = float(number), f"{self.low:g} to {self.high:g} %"
+        share = float(_number_and_unit(text, "share", '20 or "20 %"')[0])
+        wanted = f"{self.low:g} to {self.high:g} %"
         if not self.low <= share <= self.high:
             near = min(max(share, self.low), self.high)
             raise ValueError(f"{share:g} % is out of range, expected {wanted}, the nearest is {near:g} %")
@@ -297,7 +298,7 @@ class PercentWithin:
     def __get_pydantic_json_schema__(
         self, schema: CoreSchema, handler: GetJsonSchemaHandler
     ) -> JsonSchemaValue:
-        text = {"type": "string", "pattern": r"^\s*\+?[0-9.]+\s*%?\s*$"}
+        text = {"type": "string", "pattern": r"^\s*\+?[0-9.]+([eE][-+]?[0-9]+)?\s*%?\s*$"}
         return {"anyOf": [{"type": "number", "minimum": self.low, "maximum": self.high}, text]}
 
 

@@ -56,7 +56,7 @@ class Burped(Entries):
     """Of an operation that twists bubbles off."""
 
     burp: Annotated[float, PercentWithin(1.0, 50.0)] | None = None
-    """Share of its gas that hands press on out of each bubble before its twist, percent."""
+    """Share of its gas that hands press out of each bubble before its twist, on into the balloon; percent."""
 
 
 class Timed(Entries):

@@ -24,7 +24,7 @@ GRID = 3
 """Decimal places, counted from the first of its width, to which values of a continuous range are rounded."""
 EXAMPLE = "red,blue or a range such as 8..14/2"
 
-_QUANTITY = r"\s*([-+]?(?:[0-9]+(?:\.[0-9]+)?|\.[0-9]+)(?:[eE][-+]?[0-9]{1,2})?)\s*([A-Za-z\"]*)\s*"
+_QUANTITY = r"\s*([-+]?(?:[0-9]+(?:\.[0-9]+)?|\.[0-9]+)(?:[eE][-+]?[0-9]{1,2})?)\s*([A-Za-z\"]*|%)\s*"
 _RANGE = re.compile(rf"{_QUANTITY}\.\.{_QUANTITY}(?:/{_QUANTITY})?", re.ASCII)
 _MEANT_AS_RANGE = re.compile(r"(?:^|,)\s*(?:[-+]?\.?[0-9][^,]*\.\.|\.\.\s*[-+0-9])")
 _LONGEST_RANGE = 120

@@ -27,6 +27,7 @@ physics: {hold: 0.5}
 """
 """A loop that makers press air out of before they bend it."""
 STRAIGHT = LOOP.replace("loop: {it: 12}", "bubbles: {it: 8}")
+BALL = LOOP.replace("loop: {it: 12}", "bubbles: {it: 2}")
 
 
 class Made:
@@ -70,6 +71,12 @@ def test_a_soft_bubble_keeps_the_share_of_gas_that_is_not_pressed_out(verify, te
 def test_the_plan_knows_how_much_less_a_soft_loop_bears(verify, burp):
     loop = made(LOOP, burp)
     verify("V33", f"loop, {burp} % pressed out, load in the plan", loop.planned_load, loop.load, 5e-2)
+
+
+def test_a_ball_is_the_harder_the_smaller_it_gets(verify):
+    pressures = [made(BALL, burp).pressure for burp in (0, 20, 50)]
+    assert pressures == sorted(pressures)
+    verify("V33", "ball, 50 % pressed out, gas left", made(BALL, 50).gas / made(BALL, 0).gas, 0.5, 1e-6)
 
 
 def test_a_soft_bubble_is_soft():

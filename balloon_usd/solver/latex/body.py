@@ -42,8 +42,8 @@ class LatexBody(Body):
     inlet: int
     """Chamber that the pump blows into."""
     hidden: NDArray[np.float64] | None = None
-    """Rubber that a closed neck hides from every segment, (S,) float64, in the length that two leave it; None
-    for none.
+    """Rubber that a closed neck hides from every segment, (S,) float64, as a share of the length that two
+    leave it; None for none.
     """
     gap: float = math.inf
     """Distance of walls that lie close to each other at the start, m: little gas between them is stiff."""

@@ -94,6 +94,11 @@ class LatexControls(Hands):
         """Let a neck hide its rubber from the bubbles beside it, as far as it is closed, 0 to 1."""
         self.neck_closed[joint] = closed
 
+    @property
+    def rest_length(self) -> Floats:
+        """Length at rest of every segment, as a share of that between closed necks, (S,)."""
+        return self._hidden_rubber.rest_length(self.neck_closed)
+
     def push_gas(self, joint: int, flow: float) -> None:
         """Push gas (mol/s) through a neck in the coming frame, from the chamber before it to that behind."""
         self.neck_flow[joint] = flow
@@ -187,7 +192,7 @@ class LatexControls(Hands):
                 "open_from": self.passage,
                 "open_to": self.passage_goal,
                 "neck_flow": self.neck_flow,
-                "rest_length": self._hidden_rubber.rest_length(self.neck_closed),
+                "rest_length": self.rest_length,
                 "pump_flow": self.pump_flow,
                 "pump_limit": self.pump_limit,
                 "pump_goal": self.pump_goal,

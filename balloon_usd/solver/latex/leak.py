@@ -41,7 +41,7 @@ class Leak:
             if (leak := plan.recipe.physics.leak) is not None
         ]
         self._walls: dict[int, tuple[NDArray[np.int32], NDArray[np.float32]]] = {}
-        """Quads of every bubble that leaks, (Q, 4), and the volume of their rubber, (Q,), m3."""
+        """Quads of every bubble that leaks, (Q, 4), and the rubber of them between closed necks, (Q,), m3."""
 
     def advance(self, begin: float, end: float, state: Mapping[str, NDArray[Any]]) -> None:
         """Take the gas that is lost in a frame from `begin` to `end` (s) out of every bubble."""
@@ -57,23 +57,28 @@ class Leak:
         """
         energy = float(self.scene.air.molar_energy)
         volume, pressure = state["volume"][bubbles].astype(float), state["pressure"][bubbles].astype(float)
-        through = np.array([self._conductance(bubble, state["x"]) for bubble in bubbles])
+        grown = self.hands.rest_length
+        through = np.array([self._conductance(bubble, state["x"], grown[bubble]) for bubble in bubbles])
         share = -np.expm1(-through * energy / volume * seconds)
         return np.asarray(share * pressure * volume / energy)
 
-    def _conductance(self, segment: int, x: NDArray[np.float32]) -> float:
-        """Return how much air the wall of a segment lets through, mol/(s Pa)."""
+    def _conductance(self, segment: int, x: NDArray[np.float32], grown: float) -> float:
+        """Return how much air the wall of a segment lets through, mol/(s Pa).
+
+        `grown`: its length at rest, as a share of that between closed necks.
+        """
         quads, rubber = self._wall(segment)
         corners = x[quads].astype(float)
         area = 0.5 * np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
-        return float(conductance(np.linalg.norm(area, axis=1), rubber).sum())
+        return float(conductance(np.linalg.norm(area, axis=1), grown * rubber).sum())
 
     def _wall(self, segment: int) -> tuple[NDArray[np.int32], NDArray[np.float32]]:
-        """Return the wall of a segment; it is bent before it leaks, and changes no more."""
+        """Return the wall of a segment: once it leaks it is bent no more."""
         if segment not in self._walls:
             s = self.scene
             faces = slice(int(s.segment_quad.numpy()[segment]), int(s.segment_quad_end.numpy()[segment]))
-            self._walls[segment] = s.quads.numpy()[faces].copy(), s.rubber_volume.numpy()[faces].copy()
+            rubber = s.rubber_volume.numpy()[faces] / s.rest_length.numpy()[segment]
+            self._walls[segment] = s.quads.numpy()[faces].copy(), rubber
         return self._walls[segment]
 
 

@@ -45,7 +45,7 @@ class Chambers:
     open_from: wp.array[float] = array("joints", unit="m2", meaning="open area at the start of the frame")
     open_to: wp.array[float] = array("joints", unit="m2", meaning="open area at its end")
     rest_length: wp.array[float] = array(
-        "segments", meaning="its length at rest, in that between two closed necks"
+        "segments", meaning="its length at rest, as a share of that between two closed necks"
     )
     neck_flow: wp.array[float] = array(
         "joints", unit="mol/s", meaning="gas that a hand pushes through it, from before to behind"

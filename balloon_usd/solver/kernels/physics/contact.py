@@ -39,6 +39,9 @@ CROWD = wp.constant(0.5)
 NORMAL_DAMPING = wp.constant(0.3)
 """Damping of the approach, as a share of what would stop the vertex in one substep."""
 
+LEAST_SHARE = wp.constant(0.01)
+"""Least share of their force with which walls press on each other that are folded up in a neck."""
+
 
 @wp.func
 def pressure_behind(i: int, q: int, mesh: Mesh, segment_pressure: wp.array[float]):
@@ -61,7 +64,7 @@ def share_of_fold(i: int, q: int, mesh: Mesh, balloons: Balloons, contacts: Cont
     face = wp.normalize(vec3_at(contacts.quad_area, q))
     depth = wp.dot(face, vec3_at(contacts.quad_middle, q) - vec3_at(x, i))
     offset = float_at(balloons.contact_offset, int_at(mesh.vertex_balloon, i))
-    return wp.clamp(1.0 - depth / (FOLDED * offset), 0.0, 1.0)
+    return wp.clamp(1.0 - depth / (FOLDED * offset), LEAST_SHARE, 1.0)
 
 
 @wp.func

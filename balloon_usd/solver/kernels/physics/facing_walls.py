@@ -30,7 +30,7 @@ side.
 """
 ROUNDING = wp.constant(0.1)
 """The same where walls are kept apart, in the distance at which they begin to press: there no wall is behind
-another, and what seemed to be was flung through a third, and moved ears by 7 mm in a frame after the let-go.
+another. What seemed to be was flung through a third wall, and by 7 mm in a frame after the let-go.
 """
 OWN = wp.constant(256)
 """Most quads before a vertex, and after it, that are known as its own."""

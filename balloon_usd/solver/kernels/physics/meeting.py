@@ -12,8 +12,8 @@ INSIDE = wp.constant(0.5)
 """Distance at which the inside of a wall begins to press on itself, in that of the outside."""
 FOLDED = wp.constant(1.5)
 """Depth at which walls of one neck, which are not kept apart, no longer press on each other, in the distance
-at which they begin to. With a tenth they end 1.5 mm inside each other; at full force down to that depth ears
-and wings move twice as far after the let-go.
+at which they begin to. With a tenth of that distance they end 1.5 mm inside each other; at full force down to
+that depth ears and wings move twice as far after the let-go.
 """
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from balloon_usd.operations import moves
+    from balloon_usd.plan.strip import PlannedBubble
     from balloon_usd.solver.latex.sculpture import LatexSculpture
 
 TIP_RADIUS = 0.012
@@ -66,6 +68,13 @@ class LatexPress(Motion):
         )
 
 
+def _away(along: float, bubble: PlannedBubble, at: float) -> float:
+    """Return how far a ring is from a place of a bubble along its flat balloon, m; rings of others are
+    farthest.
+    """
+    return abs(along - at) if bubble.rest_start < along < bubble.rest_end else math.inf
+
+
 class _PressedWall:
     """The wall of a bubble under a finger."""
 
@@ -74,9 +83,12 @@ class _PressedWall:
         body = sculpture.body[move.balloon]
         mesh, start = scene.bodies[body], int(scene.vertex_start[body])
         segments = scene.vertex_segment.numpy()
-        # Rings of joints, which are of no bubble, are not pressed.
-        rings = [ring for ring in mesh.mesh_rings if segments[start + ring[0]] >= 0]
-        first, around = min(rings, key=lambda ring: abs(mesh.along[ring[0]] - move.along))
+        bubble = sculpture.plan.strips[move.balloon].bubble_at(move.along)
+        first, around = min(
+            # Rings of joints are of no bubble.
+            (ring for ring in mesh.mesh_rings if segments[start + ring[0]] >= 0),
+            key=lambda ring: _away(float(mesh.along[ring[0]]), bubble, move.along),
+        )
         self._ring = slice(start + first, start + first + around)
         self.segment = int(segments[start + first])
         """Number of the segment in the scene."""
