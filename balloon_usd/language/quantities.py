@@ -2,6 +2,7 @@
 
 import math
 import re
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from decimal import Decimal
@@ -240,8 +241,19 @@ class LengthWithin:
         return {"anyOf": [{"type": "number", **least}, text]}
 
 
+class Read(ABC):
+    """A quantity that is read from what a recipe says."""
+
+    @abstractmethod
+    def read(self, value: object) -> float:
+        """Read it, or refuse what is none or out of range."""
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.no_info_before_validator_function(self.read, handler(source))
+
+
 @dataclass(frozen=True)
-class UpTo:
+class UpTo(Read):
     """A quantity above 0 and at most `most`, in SI units."""
 
     most: float
@@ -263,9 +275,6 @@ class UpTo:
             raise ValueError(f"{self.shown(found)} is out of range, {what}")
         return found
 
-    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        return core_schema.no_info_before_validator_function(self.read, handler(source))
-
     def __get_pydantic_json_schema__(
         self, schema: CoreSchema, handler: GetJsonSchemaHandler
     ) -> JsonSchemaValue:
@@ -274,7 +283,7 @@ class UpTo:
 
 
 @dataclass(frozen=True)
-class PercentWithin:
+class PercentWithin(Read):
     """A share from `low` to `high`, in percent."""
 
     low: float
@@ -291,9 +300,6 @@ class PercentWithin:
             near = min(max(share, self.low), self.high)
             raise ValueError(f"{share:g} % is out of range, expected {wanted}, the nearest is {near:g} %")
         return share
-
-    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        return core_schema.no_info_before_validator_function(self.read, handler(source))
 
     def __get_pydantic_json_schema__(
         self, schema: CoreSchema, handler: GetJsonSchemaHandler

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.solver.hands import LEAD_FORCE, Floats, Hands
 from balloon_usd.solver.kernels.physics.gas import OPEN_PASSAGE, WIDE_OPEN
-from balloon_usd.solver.latex.hidden_rubber import HiddenRubber
 from balloon_usd.solver.latex.spins import Spins
 
 if TYPE_CHECKING:
@@ -35,7 +34,6 @@ class LatexControls(Hands):
         self.passage_goal = self.passage.copy()
         self.neck_closed = self.closed.astype(np.float32)
         """How far every joint is closed, and so hides the rubber of its neck, 0 to 1."""
-        self._hidden_rubber = HiddenRubber(scene.bodies, scene.start_joint.numpy(), scene.end_joint.numpy())
         self.neck_flow = np.zeros(len(self.passage), dtype=np.float32)
         """Gas that hands push through a neck in the coming frame, from before to behind it, mol/s."""
         self._pushing = False
@@ -97,7 +95,7 @@ class LatexControls(Hands):
     @property
     def rest_length(self) -> Floats:
         """Length at rest of every segment, as a share of that between closed necks, (S,)."""
-        return self._hidden_rubber.rest_length(self.neck_closed)
+        return self.scene.hidden_rubber.rest_length(self.neck_closed)
 
     def push_gas(self, joint: int, flow: float) -> None:
         """Push gas (mol/s) through a neck in the coming frame, from the chamber before it to that behind."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -37,6 +38,11 @@ class LatexScene(Scene):
     bodies: tuple[LatexBody, ...]
     air: Air = field(default_factory=Air)
 
+    @cached_property
+    def hidden_rubber(self) -> HiddenRubber:
+        """What closed necks hide."""
+        return HiddenRubber(self.bodies, self.start_joint.numpy(), self.end_joint.numpy())
+
 
 def build_scene(
     bodies: Sequence[LatexBody],
@@ -69,9 +75,7 @@ def build_scene(
         | core_arrays(scene.bodies, scene.by_world)
         | {
             "quad_law": scene.quad_balloon.numpy(),
-            "rest_length": HiddenRubber(
-                scene.bodies, scene.start_joint.numpy(), scene.end_joint.numpy()
-            ).rest_length(closed),
+            "rest_length": scene.hidden_rubber.rest_length(closed),
             "quad_length": np.ones(len(scene.quads), dtype=np.float32),
             "peak_energy": np.concatenate([b.worked for b in scene.bodies]).astype(np.float32),
         }
