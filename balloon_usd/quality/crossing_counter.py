@@ -62,4 +62,4 @@ def _search(walls: Walls, device: str) -> PiercedSearch:
     from balloon_usd.solver.device import device_named, start_warp  # noqa: PLC0415
 
     start_warp()
-    return PiercedSearch(walls.quads, len(walls.neck), device_named(device))
+    return PiercedSearch(walls.quads, device_named(device))

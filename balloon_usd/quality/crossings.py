@@ -1,18 +1,16 @@
-"""Edges of closed surfaces that pierce faces: an exact count.
+"""Edges of closed surfaces that pierce faces: an exact count, of vertices as they are given.
 
-Vertices are rounded to a lattice on which all orientation tests are exact in integers of 64 bits. Its unit is
-about 2^-20 of twice the widest box round a face: 30 nanometres in balloons, where single precision has 60 a
-metre from the origin. What only touches, or meets an edge of a face exactly, does not pierce it.
+What only touches, or meets an edge of a face exactly, does not pierce it.
 """
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from balloon_usd.quality.boxes import overlapping_boxes
+from balloon_usd.quality.orientation import sides_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -20,8 +18,8 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
     Numbers = NDArray[np.int64]
 
-BITS = 20
-"""Of a coordinate's difference: products of three, and their sum, have to fit 63 bits."""
+CELLS = 256
+"""Cells of the grid of boxes in the widest one: finer boxes are no tighter to speak of."""
 
 
 class Pierced(NamedTuple):
@@ -46,51 +44,55 @@ def pierced_triangles(points: Floats, triangles: Numbers, faces: Numbers | None 
     """
     triangles = triangles.astype(np.int64)
     edges = np.unique(np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1), axis=0)
-    unit = lattice_unit(float(np.ptp(points[triangles], axis=1).max(initial=0.0)))
-    places = np.rint(points / unit).astype(np.int64)
-    spans, corners = places[edges], places[triangles]
-    pairs = overlapping_boxes(spans.min(axis=1), spans.max(axis=1), corners.min(axis=1), corners.max(axis=1))
+    cell = max(float(np.ptp(points[triangles], axis=1).max(initial=0.0)), 1e-30) / CELLS
+    own, others = (_boxes(points[corners] / cell) for corners in (edges, triangles))
+    pairs = overlapping_boxes(*own, *others)
     around = (triangles if faces is None else faces)[pairs[:, 1]]
     ends = edges[pairs[:, 0]]
     apart = ~(ends[:, :, None] == around[:, None, :]).any(axis=(1, 2))
-    pairs = pairs[apart]
-    pairs = pairs[_pierce(spans[pairs[:, 0]], corners[pairs[:, 1]])]
-    behind = reach_behind(spans[pairs[:, 0]], corners[pairs[:, 1]])
-    return Pierced(edges[pairs[:, 0]], pairs[:, 1], behind * unit)
+    return pierced_among(points, ends[apart], triangles, pairs[apart, 1])
 
 
-def lattice_unit(widest: float) -> float:
-    """Return the unit of the lattice, m: a power of two, so that most coordinates only change their scale.
+def _boxes(places: Floats) -> tuple[Numbers, Numbers]:
+    """Return the lowest and the highest cells, (N, 3) each, of what has these corners, (N, K, 3)."""
+    low, high = np.floor(places.min(axis=1)), np.ceil(places.max(axis=1))
+    return low.astype(np.int64), high.astype(np.int64)
 
-    `widest`: longest side of the boxes round all triangles, m.
+
+def pierced_among(points: Floats, edges: Numbers, triangles: Numbers, of_these: Numbers) -> Pierced:
+    """Return those of some pairs of an edge, (P, 2) vertices, and a triangle, by its index `of_these` (P,),
+    of which the edge passes through the triangle.
+
+    `points`: (V, 3) m; `triangles`: (T, 3) vertices.
     """
-    # Boxes that overlap are no farther apart than both are wide; rounding moves each end by half a unit.
-    return math.ldexp(1.0, math.ceil(math.log2(max(2.0 * widest, 1e-30) * (1.0 + 2.0**-BITS * 8.0))) - BITS)
+    a, b, c = triangles[of_these].T
+    found = np.flatnonzero((a != b) & (b != c) & (c != a))
+    found = found[_pierce(points[edges[found]], points[triangles[of_these[found]]])]
+    ends, corners = points[edges[found]], points[triangles[of_these[found]]]
+    return Pierced(edges[found], of_these[found], _reach_behind(ends, corners))
 
 
-def reach_behind(ends: Numbers, corners: Numbers) -> Floats:
-    """Return how far edges, (N, 2, 3), reach behind the triangles that they pierce, (N, 3, 3), in units."""
+def _reach_behind(ends: Floats, corners: Floats) -> Floats:
+    """Return how far edges, (N, 2, 3), reach behind the triangles that they pierce, (N, 3, 3), m."""
     a = corners[:, 0]
     normal = np.cross(corners[:, 1] - a, corners[:, 2] - a)
-    behind = -np.minimum(_dot(normal, ends[:, 0] - a), _dot(normal, ends[:, 1] - a)).astype(np.float64)
-    return np.asarray(behind / np.linalg.norm(normal.astype(np.float64), axis=1))
+    behind = -np.minimum(_dot(normal, ends[:, 0] - a), _dot(normal, ends[:, 1] - a))
+    return np.asarray(behind / np.linalg.norm(normal, axis=1))
 
 
-def _pierce(ends: Numbers, corners: Numbers) -> NDArray[np.bool_]:
-    """Tell which edges, (N, 2, 3), pass through triangles, (N, 3, 3)."""
-    p, q = ends[:, 0], ends[:, 1]
-    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
-    normal = np.cross(b - a, c - a)
-    over_p, over_q = _dot(normal, p - a), _dot(normal, q - a)
-    parted = np.flatnonzero(np.sign(over_p) * np.sign(over_q) < 0)
-    p, q, a, b, c = (each[parted] for each in (p, q, a, b, c))
-    along = q - p
-    sides = [np.sign(_dot(np.cross(along, u - p), v - p)) for u, v in ((a, b), (b, c), (c, a))]
-    through = (sides[0] != 0) & (sides[0] == sides[1]) & (sides[1] == sides[2])
-    found = np.zeros(len(ends), dtype=np.bool_)
-    found[parted[through]] = True
-    return found
+def _pierce(ends: Floats, corners: Floats) -> Numbers:
+    """Return which edges, (N, 2, 3), pass through triangles, (N, 3, 3)."""
+    kept: Numbers = np.arange(len(ends))
+    p, q, a, b, c = ends[:, 0], ends[:, 1], corners[:, 0], corners[:, 1], corners[:, 2]
+    # What is left after each test is little.
+    kept = kept[sides_of(a, b, c, p) * sides_of(a, b, c, q) < 0]
+    first = sides_of(p[kept], q[kept], a[kept], b[kept])
+    kept, first = kept[first != 0], first[first != 0]
+    for u, v in ((b, c), (c, a)):
+        same = sides_of(p[kept], q[kept], u[kept], v[kept]) == first
+        kept, first = kept[same], first[same]
+    return kept
 
 
-def _dot(a: Numbers, b: Numbers) -> Numbers:
+def _dot(a: Floats, b: Floats) -> Floats:
     return np.asarray((a * b).sum(axis=1))

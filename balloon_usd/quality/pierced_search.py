@@ -11,15 +11,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import warp as wp
 
-from balloon_usd.quality.crossings import Pierced, lattice_unit, reach_behind
-from balloon_usd.quality.kernels.piercing import (
-    Surface,
-    box_faces,
-    find_pierced,
-    measure_faces,
-    place,
-    round_points,
-)
+from balloon_usd.quality.crossings import Pierced, pierced_among
+from balloon_usd.quality.kernels.piercing import Surface, box_faces, find_pierced
 from balloon_usd.quality.walls import halves
 
 if TYPE_CHECKING:
@@ -36,14 +29,8 @@ ROOM = 1024
 class PiercedSearch:
     """Searches a surface of quads; a triangle is a quad whose last corner is there twice."""
 
-    def __init__(self, quads: Numbers, vertices: int, device: str = "cpu") -> None:
-        """Get ready on a device of Warp.
-
-        Args:
-            quads: faces, (F, 4) vertices, counter-clockwise from outside.
-            vertices: how many there are, V.
-            device: that searches.
-        """
+    def __init__(self, quads: Numbers, device: str = "cpu") -> None:
+        """Get ready on a device of Warp; `quads`: faces, (F, 4) vertices, counter-clockwise from outside."""
         self._device = device
         self._triangles = halves(quads)
         self._edges, owned, self._rank = _owned_edges(self._triangles)
@@ -52,8 +39,6 @@ class PiercedSearch:
         self._surface.edges = self._integers(self._edges, wp.vec2i)
         self._surface.owned = self._integers(owned, wp.vec2i)
         self._faces = len(quads)
-        self._widest = wp.zeros(1, dtype=wp.float64, device=device)
-        self._places = wp.zeros(vertices, dtype=place, device=device)
         self._lows, self._highs = (wp.zeros(self._faces, dtype=wp.vec3, device=device) for _ in range(2))
         self._count = wp.zeros(1, dtype=wp.int32, device=device)
         self._found = wp.zeros(ROOM, dtype=wp.vec2i, device=device)
@@ -66,33 +51,26 @@ class PiercedSearch:
             points: (V, 3) m, finite numbers; float32 in NumPy, or `wp.vec3` on the device of this search.
         """
         if isinstance(points, np.ndarray):
-            points = wp.array(np.ascontiguousarray(points), dtype=wp.vec3, device=self._device, copy=False)
-        unit = self._unit(points)
-        self._launch(round_points, len(points), points, 1.0 / unit, self._places)
-        self._launch(box_faces, self._faces, points, self._surface, unit, self._lows, self._highs)
+            places = np.ascontiguousarray(points)
+            points = wp.array(places, dtype=wp.vec3, device=self._device, copy=False)
+        else:
+            places = points.numpy()
+        self._launch(box_faces, self._faces, points, self._surface, self._lows, self._highs)
         if self._tree is None:
             self._tree = wp.Bvh(self._lows, self._highs)
         else:
             self._tree.refit()
-        pairs = self._pairs(self._tree)
-        if not len(pairs):
-            return Pierced(np.zeros((0, 2), np.int64), np.zeros(0, np.int64), np.zeros(0))
+        pairs = self._pairs(self._tree, points)
         pairs = pairs[np.lexsort((pairs[:, 1], self._rank[pairs[:, 0]]))]
-        edges, triangles = self._edges[pairs[:, 0]], pairs[:, 1]
-        places = self._places.numpy()
-        behind = reach_behind(places[edges], places[self._triangles[triangles]])
-        return Pierced(edges, triangles, behind * unit)
+        return pierced_among(
+            places.astype(np.float64), self._edges[pairs[:, 0]], self._triangles, pairs[:, 1]
+        )
 
-    def _unit(self, points: Any) -> float:
-        self._widest.zero_()
-        self._launch(measure_faces, self._faces, points, self._surface, self._widest)
-        return lattice_unit(float(self._widest.numpy()[0]))
-
-    def _pairs(self, tree: wp.Bvh) -> Numbers:
-        """Return the pairs that were found, (P, 2) numbers of an edge and a triangle, in any order."""
+    def _pairs(self, tree: wp.Bvh, points: Any) -> Numbers:
+        """Return the pairs that may be pierced, (P, 2) numbers of an edge and a triangle, in any order."""
         while True:
             self._count.zero_()
-            told = (tree.id, self._lows, self._highs, self._places, self._surface, self._count, self._found)
+            told = (tree.id, self._lows, self._highs, points, self._surface, self._count, self._found)
             self._launch(find_pierced, self._faces, *told)
             count = int(self._count.numpy()[0])
             if count <= len(self._found):

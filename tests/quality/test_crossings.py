@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from balloon_usd.quality.boxes import overlapping_boxes
-from balloon_usd.quality.crossings import pierced_triangles
+from balloon_usd.quality.crossings import pierced_among, pierced_triangles
 from balloon_usd.quality.depth import deepest
+from balloon_usd.quality.orientation import sides_of
 from balloon_usd.quality.walls import halves
 from tests.quality import surfaces
 from tests.quality.surfaces import block, by_hand
@@ -75,6 +76,35 @@ def test_a_vertex_sixty_nanometres_behind_a_face_pierces_it_and_one_in_it_does_n
     for depth, count in ((0.0, 0), (6e-8, 2)):
         points = np.concatenate([near, [[0.006, 0.006, -depth]]]) + 1.0
         assert len(pierced_triangles(points, triangles).triangles) == count
+
+
+def test_an_edge_two_micrometres_beside_a_triangle_does_not_pierce_it_however_flat_it_lies():
+    # Two bubbles of a crown that press on each other: rounded to 60 nm, the edge would pierce the triangle.
+    points = np.array(
+        [
+            [1.929174542427063, -0.26507368683815, -0.276908814907074],
+            [1.933136224746704, -0.26107141375541687, -0.27123257517814636],
+            [1.9342331886291504, -0.26276397705078125, -0.2755800485610962],
+            [1.9327186346054077, -0.2640863358974457, -0.27723345160484314],
+            [1.9275387525558472, -0.26377376914024353, -0.2731013596057892],
+        ]
+    )
+    edge, triangles, index = np.array([[0, 1]]), np.array([[2, 4, 3]]), np.array([0])
+    for unit, count in ((0.0, 0), (2.0**-24, 1)):
+        places = np.round(points / unit) * unit if unit else points
+        assert len(pierced_among(places, edge, triangles, index).triangles) == count
+
+
+def test_the_side_of_a_plane_is_exact_where_double_precision_is_not():
+    # 0.5 and 12 lie on the line x = y; steps of 2^-53 to either side of it are lost in products.
+    around = np.arange(-32, 33)
+    points = np.zeros((len(around), 3))
+    points[:, 0] = 0.5 + around * 2.0**-53
+    points[:, 1] = 0.5
+    a, b, c = (
+        np.tile(corner, (len(points), 1)) for corner in ([12.0, 12.0, 0], [24.0, 24.0, 0], [24, 24, 9])
+    )
+    assert sides_of(a, b, c, points).tolist() == np.sign(points[:, 0] - 0.5).astype(int).tolist()
 
 
 @pytest.mark.parametrize("seed", range(3))

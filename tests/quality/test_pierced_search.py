@@ -32,7 +32,7 @@ def test_pairs_of_random_quads_are_those_of_numpy_and_of_integers_of_any_size(se
     places = random.integers(0, 6, (60, 3))
     quads = np.array([random.choice(60, 4, replace=False) for _ in range(30)])
     points = (places * 2.0**-9).astype(np.float32)
-    found = PiercedSearch(quads, 60).find(points)
+    found = PiercedSearch(quads).find(points)
     assert_same(found, with_numpy(points, quads))
     pairs = {(*edge, t) for edge, t in zip(found.edges.tolist(), found.triangles.tolist(), strict=True)}
     assert pairs == by_hand(places, halves(quads), np.tile(quads, (2, 1)))
@@ -43,7 +43,7 @@ def test_a_triangle_is_a_quad_whose_last_corner_is_there_twice():
     random = np.random.default_rng(7)
     triangles = np.array([random.choice(40, 3, replace=False) for _ in range(40)])
     points = random.normal(0.0, 0.1, (40, 3)).astype(np.float32)
-    found = PiercedSearch(triangles[:, [0, 1, 2, 2]], 40).find(points)
+    found = PiercedSearch(triangles[:, [0, 1, 2, 2]]).find(points)
     assert_same(found, pierced_triangles(points.astype(np.float64), triangles))
     assert len(found.triangles) > 20
 
@@ -51,7 +51,7 @@ def test_a_triangle_is_a_quad_whose_last_corner_is_there_twice():
 def test_one_search_follows_a_surface_that_moves():
     # A tube comes down on another one, far from the origin, passes through it and leaves it.
     points, quads = together(tube(0.02, 0.3), tube(0.02, 0.3, across=True))
-    search = PiercedSearch(quads, len(points))
+    search = PiercedSearch(quads)
     # Its tree is built where all faces are in one place.
     assert_same(search.find(np.zeros_like(points, dtype=np.float32)), with_numpy(0.0 * points, quads))
     counts = []
@@ -70,7 +70,7 @@ def test_more_pairs_than_there_is_room_for_are_all_found():
     random = np.random.default_rng(3)
     quads = random.permutation(1200).reshape(-1, 4)
     points = random.uniform(0.0, 1.0, (1200, 3)).astype(np.float32)
-    found = PiercedSearch(quads, 1200).find(points)
+    found = PiercedSearch(quads).find(points)
     assert len(found.triangles) > ROOM
     assert_same(found, with_numpy(points, quads))
 
@@ -79,7 +79,7 @@ def test_more_pairs_than_there_is_room_for_are_all_found():
 def test_points_may_lie_on_the_device_already(device):
     points, quads = together(block((0, 0, 0), 0.1), block((0.09, 0.042, 0.041), 0.02))
     points = points.astype(np.float32)
-    search = PiercedSearch(quads, len(points), device)
+    search = PiercedSearch(quads, device)
     assert_same(search.find(wp.array(points, dtype=wp.vec3, device=device)), with_numpy(points, quads))
     assert_same(search.find(points), with_numpy(points, quads))
     # Four edges along x pierce the large side, and diagonals.

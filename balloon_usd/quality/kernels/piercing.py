@@ -1,18 +1,15 @@
-"""Edges that pierce faces, on a device: boxes in single precision, then the exact test in integers.
+"""Edges that may pierce faces, on a device: boxes in single precision, then the sides of planes in double.
 
-Faces are quads of two triangles, (a, b, c) and (a, c, d). Places are those of `quality.crossings`: vertices
-rounded to its lattice, on which all products fit 64 bits.
+Faces are quads of two triangles, (a, b, c) and (a, c, d). What rounding could decide is found, too.
 """
 
 import warp as wp
 
-place = wp.types.vector(length=3, dtype=wp.int64)
-"""A vertex on the lattice."""
+from balloon_usd.quality.orientation import ROUNDING
 
-ROUNDING = 1.0e-6
-"""How much wider boxes are than their faces, as a share of the distance from the origin: single precision
-has 6e-8.
-"""
+MOST_ROUNDING = wp.constant(wp.float64(ROUNDING))
+IN_PLANE = wp.constant(2)
+"""Side of a point that certainly lies in a plane."""
 
 
 @wp.struct
@@ -28,57 +25,13 @@ class Surface:
 
 
 @wp.kernel(enable_backward=False)
-def measure_faces(points: wp.array[wp.vec3], surface: Surface, widest: wp.array[wp.float64]):
-    """Find the longest side of the boxes round all triangles, m."""
-    quad = surface.quads[wp.tid()]
-    a, b, c, d = points[quad[0]], points[quad[1]], points[quad[2]], points[quad[3]]
-    wide = wp.max(
-        widest_side(wp.min(wp.min(a, b), c), wp.max(wp.max(a, b), c)),
-        widest_side(wp.min(wp.min(a, c), d), wp.max(wp.max(a, c), d)),
-    )
-    # Most faces are narrower than one before, and need no atomic.
-    if wide > widest[0]:
-        wp.atomic_max(widest, 0, wide)
-
-
-@wp.func
-def widest_side(low: wp.vec3, high: wp.vec3):
-    """Return the longest side of a box; differences of single precision are exact in double."""
-    x = wp.float64(high[0]) - wp.float64(low[0])
-    y = wp.float64(high[1]) - wp.float64(low[1])
-    z = wp.float64(high[2]) - wp.float64(low[2])
-    return wp.max(wp.max(x, y), z)
-
-
-@wp.kernel(enable_backward=False)
-def round_points(points: wp.array[wp.vec3], per_unit: wp.float64, places: wp.array[place]):
-    """Round vertices to the lattice; halves go to even numbers."""
-    i = wp.tid()
-    p = points[i]
-    places[i] = place(
-        wp.int64(wp.rint(wp.float64(p[0]) * per_unit)),
-        wp.int64(wp.rint(wp.float64(p[1]) * per_unit)),
-        wp.int64(wp.rint(wp.float64(p[2]) * per_unit)),
-    )
-
-
-@wp.kernel(enable_backward=False)
-def box_faces(
-    points: wp.array[wp.vec3],
-    surface: Surface,
-    unit: float,
-    lows: wp.array[wp.vec3],
-    highs: wp.array[wp.vec3],
-):
-    """Put a box round every face that holds its places too: those are half a unit away at most."""
+def box_faces(points: wp.array[wp.vec3], surface: Surface, lows: wp.array[wp.vec3], highs: wp.array[wp.vec3]):
+    """Put a box round every face."""
     f = wp.tid()
     quad = surface.quads[f]
     a, b, c, d = points[quad[0]], points[quad[1]], points[quad[2]], points[quad[3]]
-    low = wp.min(wp.min(a, b), wp.min(c, d))
-    high = wp.max(wp.max(a, b), wp.max(c, d))
-    more = wp.vec3(unit + ROUNDING * wp.max(wp.max(wp.abs(low)), wp.max(wp.abs(high))))
-    lows[f] = low - more
-    highs[f] = high + more
+    lows[f] = wp.min(wp.min(a, b), wp.min(c, d))
+    highs[f] = wp.max(wp.max(a, b), wp.max(c, d))
 
 
 @wp.kernel(enable_backward=False)
@@ -86,12 +39,12 @@ def find_pierced(
     tree: wp.uint64,
     lows: wp.array[wp.vec3],
     highs: wp.array[wp.vec3],
-    places: wp.array[place],
+    points: wp.array[wp.vec3],
     surface: Surface,
     count: wp.array[wp.int32],
     found: wp.array[wp.vec2i],
 ):
-    """Write down all pairs of an edge and a triangle that it pierces, in any order, and count them."""
+    """Write down all pairs of an edge and a triangle that it may pierce, in any order, and count them."""
     own = wp.tid()
     span = surface.owned[own]
     query = wp.bvh_query_aabb(tree, lows[own], highs[own])
@@ -100,20 +53,17 @@ def find_pierced(
         if other == own:
             continue
         quad = surface.quads[other]
-        a, b, c, d = places[quad[0]], places[quad[1]], places[quad[2]], places[quad[3]]
-        low = wp.min(wp.min(a, b), wp.min(c, d))
-        high = wp.max(wp.max(a, b), wp.max(c, d))
         for e in range(span[0], span[1]):
             ends = surface.edges[e]
             if is_corner(quad, ends[0]) or is_corner(quad, ends[1]):
                 continue
-            p, q = places[ends[0]], places[ends[1]]
-            # Numbers are small enough for the test where boxes overlap.
-            if apart(wp.min(p, q), wp.max(p, q), low, high):
+            p, q = points[ends[0]], points[ends[1]]
+            if apart(wp.min(p, q), wp.max(p, q), lows[other], highs[other]):
                 continue
-            if pierces(p, q, a, b, c):
+            a, b, c, d = points[quad[0]], points[quad[1]], points[quad[2]], points[quad[3]]
+            if may_pierce(p, q, a, b, c):
                 write_down(e, other, count, found)
-            if pierces(p, q, a, c, d):
+            if quad[2] != quad[3] and may_pierce(p, q, a, c, d):
                 write_down(e, other + surface.quads.shape[0], count, found)
 
 
@@ -124,7 +74,7 @@ def is_corner(quad: wp.vec4i, vertex: int):
 
 
 @wp.func
-def apart(low: place, high: place, other_low: place, other_high: place):
+def apart(low: wp.vec3, high: wp.vec3, other_low: wp.vec3, other_high: wp.vec3):
     """Tell whether two boxes neither overlap nor touch."""
     return (
         low[0] > other_high[0]
@@ -137,38 +87,46 @@ def apart(low: place, high: place, other_low: place, other_high: place):
 
 
 @wp.func
-def pierces(p: place, q: place, a: place, b: place, c: place):
-    """Tell whether the edge from p to q passes through the inside of a triangle."""
-    normal = cross(b - a, c - a)
-    if side(dot(normal, p - a)) * side(dot(normal, q - a)) >= 0:
+def may_pierce(p: wp.vec3, q: wp.vec3, a: wp.vec3, b: wp.vec3, c: wp.vec3):
+    """Tell whether the edge from p to q passes through the inside of a triangle, as far as rounding shows."""
+    below, above = side(a, b, c, p), side(a, b, c, q)
+    if below == IN_PLANE or above == IN_PLANE or below * above > 0:
         return False
-    along = q - p
-    first = side(dot(cross(along, a - p), b - p))
-    if first == 0 or first != side(dot(cross(along, b - p), c - p)):
+    first = side(p, q, a, b)
+    second = side(p, q, b, c)
+    if first == IN_PLANE or second == IN_PLANE or first * second < 0:
         return False
-    return first == side(dot(cross(along, c - p), a - p))
+    third = side(p, q, c, a)
+    return third != IN_PLANE and first * third >= 0 and second * third >= 0
 
 
 @wp.func
-def side(volume: wp.int64):
-    """Return the sign of a number."""
-    if volume > wp.int64(0):
-        return 1
-    if volume < wp.int64(0):
-        return -1
-    return 0
+def side(a: wp.vec3, b: wp.vec3, c: wp.vec3, point: wp.vec3):
+    """Return on which side of a plane a point lies: 1, -1, in it, or 0 where rounding could decide."""
+    u, v, w = difference(a, b), difference(a, c), difference(a, point)
+    volume = wp.dot(wp.cross(u, v), w)
+    size = wp.dot(crossed_sizes(wp.abs(u), wp.abs(v)), wp.abs(w))
+    if size == wp.float64(0.0):
+        return IN_PLANE
+    if wp.abs(volume) <= MOST_ROUNDING * size:
+        return 0
+    return wp.where(volume > wp.float64(0.0), 1, -1)
 
 
 @wp.func
-def dot(u: place, v: place):
-    """Return the scalar product."""
-    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
+def difference(start: wp.vec3, end: wp.vec3):
+    """Return the way from a point to another in double precision."""
+    return wp.vec3d(
+        wp.float64(end[0]) - wp.float64(start[0]),
+        wp.float64(end[1]) - wp.float64(start[1]),
+        wp.float64(end[2]) - wp.float64(start[2]),
+    )
 
 
 @wp.func
-def cross(u: place, v: place):
-    """Return the vector product."""
-    return place(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
+def crossed_sizes(u: wp.vec3d, v: wp.vec3d):
+    """Return the sums of the products in a vector product, whose factors have no signs."""
+    return wp.vec3d(u[1] * v[2] + u[2] * v[1], u[2] * v[0] + u[0] * v[2], u[0] * v[1] + u[1] * v[0])
 
 
 @wp.func
