@@ -172,8 +172,19 @@ def _plain(number: Decimal) -> str:
     return f"{float(number):g}"
 
 
+class Read(ABC):
+    """A quantity that is read from what a recipe says."""
+
+    @abstractmethod
+    def read(self, value: object) -> float:
+        """Read it, or refuse what is none or out of range."""
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.no_info_before_validator_function(self.read, handler(source))
+
+
 @dataclass(frozen=True)
-class Between:
+class Between(Read):
     """A finite number from `low` to `high`, in steps of `step` where that is given."""
 
     low: float
@@ -182,8 +193,8 @@ class Between:
     step: float | None = None
     whole: bool = False
 
-    def check(self, value: object) -> object:
-        """Refuse what is no number, or out of range."""
+    def read(self, value: object) -> float:
+        """Take a number as it is, or refuse what is none or out of range."""
         wanted = f"{self.low:g} to {self.high:g}{self.unit and ' ' + self.unit}"
         if self.step:
             wanted += f" in steps of {self.step:g}"
@@ -199,9 +210,6 @@ class Between:
             near = round(clamped / self.step) * self.step if self.step else clamped
             raise ValueError(f"{value:g} is out of range, expected {wanted}, the nearest is {near:g}")
         return value
-
-    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        return core_schema.no_info_before_validator_function(self.check, handler(source))
 
     def __get_pydantic_json_schema__(
         self, schema: CoreSchema, handler: GetJsonSchemaHandler
@@ -239,17 +247,6 @@ class LengthWithin:
         units, sign = "|".join(METRES), "\\+" if self.low >= 0.0 else "[-+]"
         text = {"type": "string", "pattern": rf"^\s*{sign}?[0-9.]+([eE][-+]?[0-9]+)?\s*({units})\s*$"}
         return {"anyOf": [{"type": "number", **least}, text]}
-
-
-class Read(ABC):
-    """A quantity that is read from what a recipe says."""
-
-    @abstractmethod
-    def read(self, value: object) -> float:
-        """Read it, or refuse what is none or out of range."""
-
-    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        return core_schema.no_info_before_validator_function(self.read, handler(source))
 
 
 @dataclass(frozen=True)
