@@ -187,6 +187,27 @@ def test_what_nothing_keeps_apart_is_put_back_at_rest_and_led_apart_there(pair):
     assert np.linalg.norm(pair.scene.x.numpy() - pushed, axis=1).max() < 2.0 * PUSHED
 
 
+def test_bubbles_that_nothing_keeps_apart_are_told_as_jammed_and_no_others(pair):
+    pushed = pair.push()
+    pair.untangling.leave()
+    pair.scene.x.assign(pushed + np.float32(0.05))
+    pair.watch_soon()
+    pair.untangling.begin_frame()
+    pair.untangling.watch()
+    jammed = np.flatnonzero(pair.scene.segment_jammed.numpy())
+    assert jammed.tolist() == pair.scene.bubbles_of(0)[[1, 2]].tolist()
+    pair.untangling.begin_frame()
+    assert not pair.scene.segment_jammed.numpy().any()
+
+
+def test_bubbles_that_are_kept_apart_are_not_jammed(pair):
+    pair.push()
+    pair.untangling.begin_frame()
+    pair.untangling.end_frame()
+    assert pair.crossings() == 0
+    assert not pair.scene.segment_jammed.numpy().any()
+
+
 def test_what_is_put_back_too_often_in_a_row_goes_on(pair):
     pushed = pair.push()
     pair.untangling.leave()

@@ -21,6 +21,7 @@ from balloon_usd.solver.kernels.arrays.rows import STRUT_SLOTS
 from balloon_usd.solver.latex.body import LatexBody, tube_body
 from balloon_usd.solver.latex.controls import LatexControls
 from balloon_usd.solver.latex.friction import Friction
+from balloon_usd.solver.latex.jams import Jams
 from balloon_usd.solver.latex.leak import Leak
 from balloon_usd.solver.latex.motions.table import LATEX_MOTIONS
 from balloon_usd.solver.latex.scene import build_scene
@@ -60,6 +61,7 @@ READ_BACK = (
     "ring_middle",
     "wall_load",
     "segment_shift",
+    "segment_jammed",
     "suspects",
 )
 """Arrays that are read back for every frame."""
@@ -110,6 +112,7 @@ class LatexModel(Model):
         performers = [Performer(sculpture, LATEX_MOTIONS) for sculpture in self._sculptures]
         readback = Readback(self.scene, READ_BACK)
         super().__init__(self.hands, performers, runs, Layout(self.scene, runs), readback)
+        self._jams = Jams(plans, self.layout.places, fps)
         self._start_readback()
 
     @staticmethod
@@ -135,6 +138,7 @@ class LatexModel(Model):
         read-back.
         """
         super().read_back()
+        self._jams.note(self._state["segment_jammed"][self.layout.bubbles])
         self._inflated = [
             b for s in self._sculptures for b, at in s.inflated_at.items() if at == self._reached
         ]
@@ -151,7 +155,8 @@ class LatexModel(Model):
 
     def failures(self) -> dict[int, str]:
         """Return failures that the frames do not show, by sculpture."""
-        return {self.scene.worlds[b]: cause for b in self._inflated if (cause := self._short_of_gas(b))}
+        short = {self.scene.worlds[b]: cause for b in self._inflated if (cause := self._short_of_gas(b))}
+        return self._jams.causes() | short
 
     def _short_of_gas(self, balloon: int) -> str | None:
         """Tell when inflating has ended without the gas that the plan asks for."""

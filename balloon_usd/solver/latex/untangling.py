@@ -66,8 +66,9 @@ class Untangling:
         self._keep_apart(frame_ends=1)
 
     def begin_frame(self) -> None:
-        """Forget how far walls were led in the last frame."""
-        self._launcher.zero(self._launcher.scene.segment_shift)
+        """Forget how far walls were led in the last frame, and which could not be kept apart."""
+        s = self._launcher.scene
+        self._launcher.zero(s.segment_shift, s.segment_jammed)
 
     def _keep_apart(self, *, frame_ends: int) -> None:
         """Let walls that would cross move as one, and lead apart those that still do; a graph goes on by

@@ -138,6 +138,9 @@ class Crossings:
     segment_shift: wp.array[float] = array(
         "segments", unit="m", meaning="how far its wall was led out of others in this frame, at most"
     )
+    segment_jammed: wp.array[int] = array(
+        "segments", meaning="1 where its wall could not be kept apart from others in this frame"
+    )
     sphere_rows: wp.array2d[float] = array(
         "chunks",
         SPHERE_ROWS * CHUNK_QUADS,

@@ -22,6 +22,7 @@ from balloon_usd.solver.kernels.physics.untangling import (
     about,
     closed,
     round_of,
+    segment_of,
 )
 
 MORE = wp.constant(0.02)
@@ -175,6 +176,8 @@ def end_keeping_apart(
     world = int_at(balloons.balloon_world, int_at(mesh.vertex_balloon, i))
     if crossings.untangling_round[world] == NOT_LOOKED:
         return
+    if crossings.untangling_round[world] == FAILED and crossings.way_back[i][3] > 0:
+        crossings.segment_jammed[segment_of(i, mesh)] = 1
     if is_put_back(world, between_searches, crossings):
         crossings.way_back[i] = wp.vec4i(0)
         state.x[i] = crossings.x_safe[i]

@@ -67,6 +67,12 @@ def round_of(i: int, mesh: Mesh, balloons: Balloons, crossings: Crossings):
 
 
 @wp.func
+def segment_of(i: int, mesh: Mesh):
+    """Return a segment of a vertex: at a joint one of the two."""
+    return mesh.quad_segment[wp.max(mesh.corners[i][0], 0) // 4]
+
+
+@wp.func
 def closed(i: int, mesh: Mesh, joints: Joints, hands: Hands):
     """Return whether a vertex is of a closed ring."""
     joint = int_at(mesh.vertex_joint, i)
@@ -204,7 +210,6 @@ def end_untangling(
         shift = seconds * hands.leading[balloon] * crossings.way_led[i]
     far = wp.length(shift)
     if far > 0.0:
-        segment = mesh.quad_segment[wp.max(mesh.corners[i][0], 0) // 4]
-        wp.atomic_max(crossings.segment_shift, segment, far)
+        wp.atomic_max(crossings.segment_shift, segment_of(i, mesh), far)
         state.x[i] = state.x[i] + shift
         crossings.x_safe[i] = state.x[i]
