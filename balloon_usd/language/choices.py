@@ -36,6 +36,12 @@ def one_of(choices: Iterable[str]) -> str:
     return "one of " + ", ".join(listed[:_CHOICES_LISTED]) + end
 
 
+def all_of(names: Sequence[str]) -> str:
+    """List one or more names: `left, right and tail`."""
+    *others, last = names
+    return f"{', '.join(others)} and {last}" if others else last
+
+
 def unknown(what: str, word: object, choices: Iterable[str]) -> str:
     """Compose `unknown bubble "lft_ear", did you mean "left_ear"?`, or list what is known."""
     known = list(choices)

@@ -6,12 +6,13 @@ import heapq
 from collections import defaultdict
 from typing import TYPE_CHECKING
 
+from balloon_usd.language.choices import all_of
 from balloon_usd.language.lengths import at_most, cm
 from balloon_usd.operations.caution import Caution
 from balloon_usd.operations.lock import UNEQUAL
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Iterator, Mapping
 
     from balloon_usd.plan.graph import GraphEdge, SculptureGraph
     from balloon_usd.plan.strip import Strip
@@ -38,7 +39,7 @@ def long_sides(strips: Mapping[str, Strip], graph: SculptureGraph) -> Iterator[C
         if len(others) > 1 and length > (1.0 + UNEQUAL) * round_by:
             yield Caution(
                 bubbles[edge.bubble].step,
-                f"{edge.bubble} ({cm(length)}) is longer than {_listed(others)} together ({cm(round_by)})",
+                f"{edge.bubble} ({cm(length)}) is longer than {all_of(others)} together ({cm(round_by)})",
                 "they close a ring, in which it cannot lie straight: it bows out, and they are drawn taut",
                 f"make it {at_most(round_by)} long, or the others longer",
             )
@@ -60,7 +61,3 @@ def _shortest_way(side: GraphEdge, ways: Ways, lengths: Mapping[str, float]) -> 
                 there = edge.end if edge.start == here else edge.start
                 heapq.heappush(coming, (far + lengths[edge.bubble], (*behind, edge.bubble), there))
     return ()
-
-
-def _listed(names: Sequence[str]) -> str:
-    return f"{', '.join(names[:-1])} and {names[-1]}"

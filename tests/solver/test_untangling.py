@@ -68,6 +68,16 @@ class Pair:
             array.fill_(WATCHED_FRAMES)
         self.scene.safe_seconds.fill_(self.untangling._between_searches)
 
+    def block(self) -> np.ndarray:
+        """Let one bubble be in the other already, and all go on as one, so that nothing keeps them apart; where
+        they were, m.
+        """
+        pushed = self.push()
+        self.untangling.leave()
+        self.scene.x.assign(pushed + np.float32(0.05))
+        self.watch_soon()
+        return pushed
+
     def closed(self) -> np.ndarray:
         """Whether each vertex is of a closed ring."""
         joint = self.scene.vertex_joint.numpy()
@@ -174,12 +184,8 @@ def test_what_keeps_walls_apart_gives_the_same_bits_again(pair):
 
 
 def test_what_nothing_keeps_apart_is_put_back_at_rest_and_led_apart_there(pair):
-    pushed = pair.push()
-    pair.untangling.leave()
-    # All goes on as one already, and crosses all the same.
-    pair.scene.x.assign(pushed + np.float32(0.05))
+    pushed = pair.block()
     pair.scene.v.fill_(1.0)
-    pair.watch_soon()
     pair.untangling.watch()
     assert pair.scene.put_back.numpy() == [1]
     assert not pair.scene.v.numpy().any()
@@ -188,10 +194,7 @@ def test_what_nothing_keeps_apart_is_put_back_at_rest_and_led_apart_there(pair):
 
 
 def test_bubbles_that_nothing_keeps_apart_are_told_as_jammed_and_no_others(pair):
-    pushed = pair.push()
-    pair.untangling.leave()
-    pair.scene.x.assign(pushed + np.float32(0.05))
-    pair.watch_soon()
+    pair.block()
     pair.untangling.begin_frame()
     pair.untangling.watch()
     jammed = np.flatnonzero(pair.scene.segment_jammed.numpy())
@@ -209,11 +212,8 @@ def test_bubbles_that_are_kept_apart_are_not_jammed(pair):
 
 
 def test_what_is_put_back_too_often_in_a_row_goes_on(pair):
-    pushed = pair.push()
-    pair.untangling.leave()
+    pushed = pair.block()
     pair.scene.put_back.fill_(MOST_PUT_BACK)
-    pair.scene.x.assign(pushed + np.float32(0.05))
-    pair.watch_soon()
     pair.untangling.watch()
     assert pair.scene.put_back.numpy() == [0]
     assert np.linalg.norm(pair.scene.x.numpy() - pushed, axis=1).max() > 0.05

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from balloon_usd.language.choices import all_of
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -15,7 +17,7 @@ if TYPE_CHECKING:
     from balloon_usd.solver.frame_arrays import Place
 
 LONGEST_JAM = 0.75
-"""Time after which a jam counts as failed, s. In 75 figures without crossings walls of a bubble could not be
+"""Time after which a jam counts as failed, s. In 70 figures without crossings walls of a bubble could not be
 kept apart for 0.3 s at most; in a net that closes over its spokes for 1.2 to 2.2 s, again and again, and each
 such frame takes as long as a hundred others.
 """
@@ -50,8 +52,8 @@ class Jams:
         longest = np.argsort(-frames, kind="stable")[:MOST_NAMED]
         bubbles = self._plans[plan].bubbles
         names = [bubbles[k].name for k in longest if frames[k] >= SHARE_NAMED * self._most]
-        text = f"{names[0]} is" if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]} are"
         return (
-            f"{text} jammed: for {LONGEST_JAM:g} s hands have pressed walls on each other that get past each "
-            "other on no side; joints locked in another order, longer bubbles or a thinner balloon leave room"
+            f"{all_of(names)} {'is' if len(names) == 1 else 'are'} jammed: for {LONGEST_JAM:g} s hands have "
+            "pressed walls on each other that get past each other on no side; joints locked in another "
+            "order, longer bubbles or a thinner balloon leave room"
         )
