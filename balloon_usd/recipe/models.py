@@ -32,7 +32,7 @@ class ModelTraits:
 
 MODELS: dict[ModelName, ModelTraits] = {
     "latex": ModelTraits(
-        version="latex 14",
+        version="latex 15",
         title="hyperelastic rubber and gas",
         winds=True,
         starts_blown_up=False,

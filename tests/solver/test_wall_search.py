@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from balloon_usd.solver.kernels.physics.facing_walls import DEPTH_LIMIT, FACING, ROUNDING
+from balloon_usd.solver.kernels.physics.facing_walls import DEPTH_LIMIT, FACING, ROUNDING, STAYING
 from balloon_usd.solver.kernels.physics.meeting import FOLDED, INSIDE, OPPOSITE
 from balloon_usd.solver.kernels.physics.patch import SIDE_SLIP
 from balloon_usd.solver.kernels.physics.surface import GROUP
@@ -26,16 +26,18 @@ def model():
     return simulation.model
 
 
-def searched(model, velocity, crossed=0, watched=0):
+def searched(model, velocity, crossed=0, watched=0, floating=0):
     """The arrays of the scene after one more search; `velocity`: (V, 3), m/s.
 
-    `crossed`, `watched`: whether its walls cross, and are kept apart at every search.
+    `crossed`, `watched`: whether its walls cross, and are kept apart at every search; `floating`: whether
+    hands have let go.
     """
     scene, search = model.scene, model.stepper._search
     kept = scene.v.numpy().copy()
     scene.v.assign(velocity)
     scene.crossed.fill_(crossed)
     scene.watched.fill_(watched)
+    scene.floating.fill_(floating)
     scene.touching.assign(np.ones(len(scene.bodies), dtype=np.int32))
     search.measure_quads()
     search.find()
@@ -130,6 +132,31 @@ def test_every_vertex_finds_the_wall_nearest_to_it_of_all_that_it_may_touch(mode
     assert found > 100
     # Where necks press on full bubbles.
     assert small > 5
+
+
+@pytest.mark.parametrize("floating", [0, 1], ids=["held", "let go of"])
+def test_only_after_the_let_go_a_wall_that_was_touched_is_kept_while_another_is_hardly_nearer(
+    model, floating
+):
+    still = np.zeros((len(model.scene.x), 3), dtype=np.float32)
+    s = searched(model, still)
+    targets, wanted = s["target"].copy(), {}
+    gain = STAYING * s["contact_offset"][0]
+    for vertex in np.flatnonzero(s["target"][:, 0] >= 0):
+        distance = distances(s, model.scene.touch, vertex, -ROUNDED)
+        distance[s["quad_segment"] != s["quad_segment"][s["target"][vertex, 0]]] = np.inf
+        closest, other = np.argsort(distance, kind="stable")[:2]
+        farther = distance[other] - distance[closest]
+        if ROUNDED < farther < np.inf and abs(farther - gain) > ROUNDED:
+            targets[vertex] = (other, -1)
+            wanted[vertex] = other if floating and farther < gain else closest
+    model.scene.target.assign(targets)
+    found = searched(model, still, floating=floating)["target"]
+    kept = sum(targets[vertex, 0] == wall for vertex, wall in wanted.items())
+    assert len(wanted) > 50
+    assert (20 < kept < len(wanted)) if floating else kept == 0
+    for vertex, wall in wanted.items():
+        assert wall in found[vertex], vertex
 
 
 def test_what_is_kept_apart_is_not_pressed_through_walls_that_it_is_behind(model):

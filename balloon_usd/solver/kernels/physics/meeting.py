@@ -44,6 +44,8 @@ class Seeker:
     """Deepest overlap taken for a contact on its side, m."""
     apart_depth: float
     """The same where walls are kept apart, m."""
+    staying: float
+    """Nearness that what it touched before gains, m."""
     neck: int
     """Joint in whose neck it lies; -1 for none."""
     offset: float
