@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from balloon_usd.balloon.detail import detail_named
 from balloon_usd.origin import origin_of
-from balloon_usd.plan.meshing import mesh_of
+from balloon_usd.plan.meshing import meshes_of
 from balloon_usd.plan.particles import experiment_spacing, start_particles
 from balloon_usd.quality.crossing_counter import CrossingCounter
 from balloon_usd.quality.walls import walls_of
@@ -55,7 +55,7 @@ def write_stage(
         ValueError: there is no such level of detail.
     """
     level = detail_named(getattr(frames, "detail", "draft") if detail is None else detail)
-    meshes = [mesh_of(strip, level) for strip in plan.strips.values()]
+    meshes = meshes_of(plan, level)
     description, last = describe_stage(plan, meshes), None
     with StageWriter(
         description, folder, detail=level.name, flat=flat, usdz=usdz, look=look, shot=shot

@@ -9,7 +9,7 @@ tube then are exactly those of the round tube, at every level of detail.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
 from typing import TYPE_CHECKING
@@ -40,6 +40,9 @@ LIP_FLARE = 1.35
 GRADING = 0.18
 """Growth of the axial spacing per distance from the nearest joint."""
 
+MIRRORED_FACE = [0, 3, 2, 1]
+"""Corners of a face from whose mirror image the outside is where it was."""
+
 Floats = NDArray[np.float32]
 
 
@@ -63,6 +66,17 @@ class BalloonMesh:
     """First vertex of every ring, (R,) int32; a ring's vertices are consecutive."""
     ring_along: NDArray[np.float64]
     """Unstressed distance from the knot of every ring, (R,) float64, m."""
+
+    def mirrored(self) -> BalloonMesh:
+        """Return the mirror image, left and right exchanged: the second edge of a face is hoop there.
+
+        Faces keep the diagonal at which renderers split them; print on a tube reads as before.
+        """
+        st = self.st[:, MIRRORED_FACE]
+        if self.around:
+            st = st * np.array([-1.0, 1.0], dtype=np.float32) + np.array([1.0, 0.0], dtype=np.float32)
+        points = self.points * np.array([1.0, -1.0, 1.0], dtype=np.float32)
+        return replace(self, points=points, quads=self.quads[:, MIRRORED_FACE], st=st)
 
     def ring_at(self, along: float) -> int:
         """Return the ring nearest to this unstressed distance from the knot (m)."""

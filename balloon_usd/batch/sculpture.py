@@ -13,7 +13,7 @@ from balloon_usd.endings import endings_wait
 from balloon_usd.files.failed_name import failed_name
 from balloon_usd.files.hashes import hashes_of
 from balloon_usd.origin import provenance_of
-from balloon_usd.plan.meshing import mesh_of
+from balloon_usd.plan.meshing import meshes_of
 from balloon_usd.quality.watch import QualityWatch, counted_over_time
 from balloon_usd.report import History, write_report
 from balloon_usd.solver.run_summary import RunSummary
@@ -46,7 +46,7 @@ class Sculpture:
         """Why there are no more frames before the last one, once that is known."""
         self._plan, self._order = plan, order
         level = detail_named(order.detail)
-        meshes = tuple(mesh_of(strip, level) for strip in plan.strips.values())
+        meshes = meshes_of(plan, level)
         self._codes = order.frames.within(plan.frame_count)
         self._run_summary = RunSummary(plan, meshes)
         # Crossings over time are the report's: those who want none want their frames soon.

@@ -14,7 +14,6 @@ from balloon_usd.operations.caution import Caution
 from balloon_usd.operations.closing import LENIENCE, ROUND
 from balloon_usd.operations.loop import SHORTEST
 from balloon_usd.operations.modifiers import OnBalloon, Pointed, Timed
-from balloon_usd.operations.moves import POINTS
 from balloon_usd.operations.moves import Bend as BendMove
 from balloon_usd.operations.operation import Operation
 
@@ -110,7 +109,7 @@ steps:
 
     def perform(self, score: Score, index: int) -> None:
         """Lead each bubble onto an arc."""
-        point = POINTS[self.point or "up"]
+        point = score.towards(self.point or "up")
         for bubble, angle in self.bend.items():
             start, end = score.layout.ends(bubble)
             guides = score.layout.guides(bubble)

@@ -43,6 +43,15 @@ ACROSS: dict[str, Vector] = {
 }
 """Where the first bubble of a chain comes to lie that points somewhere: left of the others, or above them."""
 
+OTHER_SIDE: dict[str, Front] = {"left": "right", "right": "left"}
+"""Sides that a mirror exchanges, as front or where something points."""
+
+
+def mirror_image(direction: Vector) -> Vector:
+    """Return a direction with left and right exchanged."""
+    x, y, z = direction
+    return x, -y, z
+
 
 @dataclass(frozen=True)
 class Move:
@@ -228,3 +237,5 @@ class Choreography:
     moves: tuple[Move, ...]
     seconds: float
     """Length of the animation, s."""
+    mirrored: bool = False
+    """Whether hands make the mirror image of what the recipe says, which frames show mirrored back."""

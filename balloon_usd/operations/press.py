@@ -9,7 +9,7 @@ from balloon_usd.language.lengths import at_most, cm
 from balloon_usd.language.names import Name
 from balloon_usd.language.quantities import Force, Length, length_entry, written_length
 from balloon_usd.operations.modifiers import Entries, OnBalloon, Pointed, Timed
-from balloon_usd.operations.moves import POINTS, Move
+from balloon_usd.operations.moves import Move
 from balloon_usd.operations.moves import Press as PressMove
 from balloon_usd.operations.operation import Operation
 from balloon_usd.operations.score import SETTLE_SECONDS
@@ -127,7 +127,7 @@ steps:
             f"press: {press.bubble}",
             balloon=bubble.balloon,
             along=bubble.rest_place(at),
-            point=POINTS[self.point or "down"],
+            point=score.towards(self.point or "down"),
             force=press.force or 0.0,
             depth=press.depth or 0.0,
             holds=tuple(ring for ring, away in ends if away > FAR_FROM_FINGER * bubble.length),

@@ -20,7 +20,9 @@ from balloon_usd.operations.moves import (
     Pinch,
     Spin,
     TurnFold,
+    Vector,
     Weld,
+    mirror_image,
 )
 from balloon_usd.operations.tempo import PACES, Pace
 
@@ -134,6 +136,8 @@ class Score:
     blown_up: bool
     """Whether balloons start blown up and joints freeze instead of being wound, as in model kosaka."""
     pace: Pace = PACES["calm"]
+    mirrored: bool = False
+    """Whether hands make the mirror image of what the recipe says."""
     now: float = 0.0
     moves: list[Move] = field(default_factory=list)
     pieces: DisjointSets[str] = field(default_factory=DisjointSets)
@@ -242,7 +246,14 @@ class Score:
         seconds /= self.pace.leading
         aim = point or "up"
         gather = Gather(self.now, seconds, index, text, corners=corners, cheeks=cheeks, pulled=pulled)
-        self.add(replace(gather, point=POINTS[aim], across=ACROSS[aim]))
+        self.add(replace(gather, point=self.towards(aim), across=self._side(ACROSS[aim])))
+
+    def towards(self, point: Point) -> Vector:
+        """Return the unit direction in which hands lead what the recipe points somewhere."""
+        return self._side(POINTS[point])
+
+    def _side(self, direction: Vector) -> Vector:
+        return mirror_image(direction) if self.mirrored else direction
 
     def weld(self, rings: tuple[int, ...], turns: float, text: str, index: int) -> None:
         """Twist joints that lie together into one."""

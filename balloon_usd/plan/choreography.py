@@ -6,8 +6,18 @@ import math
 from typing import TYPE_CHECKING
 
 from balloon_usd.operations.inflate import Inflate as InflateStep
-from balloon_usd.operations.modifiers import Timed
-from balloon_usd.operations.moves import Choreography, Hold, Inflate, LetGo, Loosen, Move, Pinch, SetDown
+from balloon_usd.operations.modifiers import Pointed, Timed
+from balloon_usd.operations.moves import (
+    OTHER_SIDE,
+    Choreography,
+    Hold,
+    Inflate,
+    LetGo,
+    Loosen,
+    Move,
+    Pinch,
+    SetDown,
+)
 from balloon_usd.operations.score import Score
 from balloon_usd.operations.tempo import PACES
 from balloon_usd.plan.laid_out import LaidOut
@@ -60,7 +70,8 @@ def choreograph(recipe: Recipe, strips: Mapping[str, Strip], table: RingTable) -
             in the file.
     """
     blown_up = recipe.physics.traits.starts_blown_up
-    score = Score(LaidOut(strips, table), recipe.problem, blown_up, PACES[recipe.tempo])
+    mirrored = _points_right(recipe)
+    score = Score(LaidOut(strips, table), recipe.problem, blown_up, PACES[recipe.tempo], mirrored)
     if score.blown_up:
         score.add(Move(0.0, SPREAD_SECONDS, -1, "air spreads"))
     elif balloons := _of_the_beginning(recipe):
@@ -84,9 +95,17 @@ def choreograph(recipe: Recipe, strips: Mapping[str, Strip], table: RingTable) -
     if (recipe.pose, recipe.front) != ("as made", "forward"):
         doing, done = POSING[recipe.pose]
         seconds, last = POSE_SECONDS if recipe.front == "forward" else TURN_SECONDS, len(recipe.steps)
-        score.add(SetDown(score.now, seconds, last, doing, pose=recipe.pose, front=recipe.front))
+        front = OTHER_SIDE.get(recipe.front, recipe.front) if mirrored else recipe.front
+        score.add(SetDown(score.now, seconds, last, doing, pose=recipe.pose, front=front))
         score.add(Move(score.now, POSED_SECONDS, last, done))
-    return Choreography(tuple(score.moves), score.now)
+    return Choreography(tuple(score.moves), score.now, mirrored)
+
+
+def _points_right(recipe: Recipe) -> bool:
+    """Tell whether the first step that leads anything aside points right: what points left is made as it is,
+    so that both are mirror images to the last bit.
+    """
+    return next((step.point for step in recipe.steps if isinstance(step, Pointed)), None) == "right"
 
 
 def _of_the_beginning(recipe: Recipe) -> list[str]:

@@ -11,6 +11,7 @@ from balloon_usd.plan.rings import guide_places
 
 if TYPE_CHECKING:
     from balloon_usd.balloon.detail import Detail
+    from balloon_usd.plan.model import Plan
     from balloon_usd.plan.strip import Strip
 
 
@@ -19,8 +20,14 @@ def joint_places(strip: Strip) -> tuple[float, ...]:
     return tuple(bubble.rest_end for bubble in strip.bubbles[:-1])
 
 
+def meshes_of(plan: Plan, detail: Detail) -> tuple[BalloonMesh, ...]:
+    """Return the meshes of the balloons of a plan at a level of detail, as frames show them."""
+    meshes = tuple(mesh_of(strip, detail) for strip in plan.strips.values())
+    return tuple(mesh.mirrored() for mesh in meshes) if plan.mirrored else meshes
+
+
 def mesh_of(strip: Strip, detail: Detail) -> BalloonMesh:
-    """Return the mesh of one balloon at a level of detail."""
+    """Return the mesh of one balloon at a level of detail, as hands have it."""
     if strip.shape is not None:
         return shape_mesh(strip.shape.surface, detail)
     ends = tuple(bubble.rest_end for bubble in strip.bubbles)

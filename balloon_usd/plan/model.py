@@ -72,6 +72,11 @@ class Plan:
         return any(strip.shape is not None for strip in self.strips.values())
 
     @property
+    def mirrored(self) -> bool:
+        """Whether frames show the mirror image of what hands make, left and right exchanged."""
+        return self.choreography.mirrored != self.recipe.mirror
+
+    @property
     def frame_count(self) -> int:
         """Number of frames of the animation; the first shows the balloons before anything is done."""
         return 1 + math.ceil(self.choreography.seconds * self.recipe.fps - ROUNDING)

@@ -46,6 +46,8 @@ def head_lines(plan: Plan) -> Iterator[str]:
     if recipe.source:
         yield f"after {recipe.source}"
     yield f"model {recipe.physics.model}: {recipe.physics.traits.title}"
+    if recipe.mirror:
+        yield "mirrored: what points left comes out right"
 
 
 def _strip_lines(strip: Strip) -> Iterator[str]:
@@ -121,7 +123,7 @@ def _graph_lines(plan: Plan) -> Iterator[str]:
     for event in plan.recipe.piece.history:
         if isinstance(event, Joined):
             for balloon in (name for name, step in led_in.items() if step == event.step):
-                side = "right" if parked(plan.strips)[balloon] > 0.0 else "left"
+                side = "right" if (parked(plan.strips)[balloon] > 0.0) != plan.mirrored else "left"
                 yield f"  step {event.step + 1} leads in {balloon} from the {side}"
         if isinstance(event, Joined) and not plan.recipe.steps[event.step].closes:
             what = f"{plan.recipe.steps[event.step].word}s {', '.join(map(str, event.ends))}"
@@ -168,12 +170,13 @@ def caution_lines(cautions: tuple[Caution, ...]) -> Iterator[str]:
 def plan_json(plan: Plan) -> dict[str, Any]:
     """Return the plan as plain data, ready for JSON: SI units, step indices from 0."""
     aside, led_in = parked(plan.strips), _led_in(plan)
+    side = -1.0 if plan.mirrored else 1.0
     return {
         **head_json(plan),
         "balloons": [
             {
                 **_balloon_json(strip, plan.budgets.get(name)),
-                "aside": aside.get(name, 0.0),
+                "aside": side * aside.get(name, 0.0),
                 "led_in": led_in.get(name),
             }
             for name, strip in plan.strips.items()

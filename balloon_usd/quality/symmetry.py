@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from balloon_usd.operations.moves import OTHER_SIDE
 from balloon_usd.quality.measures import MEASURES
 
 if TYPE_CHECKING:
@@ -22,8 +23,6 @@ if TYPE_CHECKING:
 LEFT, RIGHT = "left_", "right_"
 SAME_LENGTH = 1e-6
 """Largest difference of planned lengths of twins, m."""
-MIRRORED = {"left": "right", "right": "left"}
-"""Where the right one of a pair points if the left one does not point the same way."""
 PLACES = 9
 """Places along each bubble that are mirrored."""
 
@@ -82,7 +81,8 @@ def _point(plan: Plan, bubble: PlannedBubble) -> str:
 
 
 def _mirrored_point(point: str) -> str:
-    return MIRRORED.get(point, point)
+    """Return where the right one of a pair points if the left one points there."""
+    return OTHER_SIDE.get(point, point)
 
 
 def mirrored(pairs: Mapping[str, tuple[Floats, Floats]]) -> dict[str, float]:

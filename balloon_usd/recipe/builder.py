@@ -43,6 +43,7 @@ class RecipeBuilder:
         tempo: Tempo | None = None,
         pose: Pose | None = None,
         front: Front | None = None,
+        mirror: bool = False,
     ) -> None:
         self._units = units
         head = {"title": title or None, "source": source or None, "units": units, "fps": fps, "tempo": tempo}
@@ -50,7 +51,7 @@ class RecipeBuilder:
         self._name = name
         self._balloons: dict[str, Entries] = {}
         self._steps: list[Entries] = []
-        self._end = _given({"pose": pose, "front": front})
+        self._end = _given({"pose": pose, "front": front, "mirror": mirror or None})
         self._physics: Entries = {}
 
     def balloon(

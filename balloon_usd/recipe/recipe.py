@@ -9,6 +9,7 @@ from pydantic import (
     ConfigDict,
     Field,
     PrivateAttr,
+    StrictBool,
     ValidationError,
     ValidationInfo,
     model_validator,
@@ -79,6 +80,8 @@ class Recipe(Entries):
     origin, hangs from a thread, or is held with its middle at the origin."""
     front: Front = "forward"
     """Which side of the figure, as it is made, is its front: in the end it is turned to face -x."""
+    mirror: StrictBool = False
+    """Whether the finished stage is the mirror image of what the recipe says, left and right exchanged."""
     physics: Physics = Physics()
     """How it is simulated."""
 

@@ -54,6 +54,8 @@ class Batch:
         with capture_lock():
             self.model: Model = model(plans, meshes, self._fps, substeps, device, threads)
         self._checks = BatchCheck(plans, meshes, self.model.layout.places, self._fps, substeps)
+        self._mirrored = [world for world, plan in enumerate(plans) if plan.mirrored]
+        """Plans whose frames show the mirror image of what hands make."""
         self._statuses: Sequence[Status | None] = [None] * len(plans)
         """Latest status of every plan."""
 
@@ -89,6 +91,9 @@ class Batch:
             for world, placement in placements.items():
                 for points in into.places_of(self.model.layout.places[world]):
                     placement.put(points)
+            for world in self._mirrored:
+                for points in into.places_of(self.model.layout.places[world]):
+                    points[:, 1] *= -1.0
             changes = self._changes(index, statuses, causes)
         return Snapshot(index + 1, into, self._made(index), changes)
 

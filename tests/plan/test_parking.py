@@ -81,6 +81,14 @@ def test_the_plan_tells_which_step_leads_in_what_from_where():
     assert [(each["aside"], each["led_in"]) for each in data] == [(0.0, None), (0.5, 3), (-0.5, 4)]
 
 
+def test_in_a_mirror_they_are_led_in_from_the_other_side():
+    plan = plan_of(Recipe.parse(three().recipe.to_yaml() + "mirror: true\n"))
+    text, data = plan_text(plan), plan_json(plan)["balloons"]
+    assert "mirrored: what points left comes out right" in text
+    assert "step 4 leads in blue from the left" in text
+    assert [each["aside"] for each in data] == [0.0, -0.5, 0.5]
+
+
 def test_leading_in_takes_the_time_of_its_way_at_the_tempo():
     (calm, _), (brisk, _) = led_in(three())[1], led_in(three(tempo="tempo: brisk"))[1]
     assert calm.seconds == pytest.approx((0.5**2 + 0.04**2) ** 0.5 / LEADING_IN_SPEED)

@@ -292,6 +292,7 @@ HEADS = [
         "fps: 0 is out of range, expected 1 to 240 frames/s, the nearest is 1",
     ),
     ("units: cm", "units: cm\nfront: rigth", "4:8", 'front: unknown front "rigth", did you mean "right"?'),
+    ("units: cm", "units: cm\nmirror: yes", "4:9", 'mirror: "yes" does not fit, expected true or false'),
     ("units: cm", "units: cm\npose: stant", "4:7", 'pose: unknown pose "stant", did you mean "stand"?'),
     ("units: cm", "units: miles", "3:8", 'units: unknown units "miles", expected one of mm, cm, m, in, ft'),
     ("units: cm", "units: CM", "3:8", 'units: unknown units "CM", did you mean "cm"?'),

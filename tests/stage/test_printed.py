@@ -35,6 +35,19 @@ def test_two_rows_of_dashes_lie_opposite_each_other_on_a_tube(detail):
     )
 
 
+def test_print_on_a_tube_reads_the_same_in_a_mirror():
+    (strip,) = plan(Recipe.parse(TUBE)).strips.values()
+    mesh = mesh_of(strip, detail_named("draft"))
+    for each in (mesh, mesh.mirrored()):
+        corners, st = each.points[each.quads], each.st
+        a, b = corners[:, 1] - corners[:, 0], corners[:, 3] - corners[:, 0]
+        s, t = st[:, 1] - st[:, 0], st[:, 3] - st[:, 0]
+        outward = np.cross(a, b)
+        tube = np.abs(outward[:, 0]) < 0.1 * np.linalg.norm(outward, axis=1)
+        assert (outward[tube, 1:] * corners[tube, :, 1:].mean(axis=1)).sum(axis=1).min() > 0.0
+        assert (np.sign(s[tube, 0] * t[tube, 1] - s[tube, 1] * t[tube, 0]) == 1.0).all()
+
+
 @pytest.mark.parametrize("form", [{}, {"flat": True}, {"usdz": True}])
 def test_the_look_print_has_a_colour_for_every_quad(form, tmp_path):
     described = sculpture()
