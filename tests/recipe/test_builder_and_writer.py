@@ -51,7 +51,15 @@ def dog() -> RecipeBuilder:
 
 def full() -> RecipeBuilder:
     return (
-        RecipeBuilder("all", title='a "title": #1\nline two', source="here", units="in", fps=30, pose="hang", mirror=True)
+        RecipeBuilder(
+            "all",
+            title='a "title": #1\nline two',
+            source="here",
+            units="in",
+            fps=30,
+            pose="hang",
+            mirror=True,
+        )
         .balloon("one", size=260, color=[0.1, 0.2, 1.0], inflated="40 cm", radius=0.008, thickness=0.0003)
         .balloon("two", size=160, color="#1f5fd0", tail=0.05, length="1.5 m")
         .bubbles({"a": 0.1}, b="4 in", balloon="one", turns=2.5, seconds=1, note="on")

@@ -67,7 +67,9 @@ def frames(text):
 def volume(points, quads):
     """Signed volume of a closed surface, m3: positive where its faces are counter-clockwise from outside."""
     a, b, c, d = (points[quads[:, k]].astype(np.float64) for k in range(4))
-    return float(np.einsum("ij,ij->i", np.cross(a, b), c).sum() + np.einsum("ij,ij->i", np.cross(a, c), d).sum())
+    return float(
+        np.einsum("ij,ij->i", np.cross(a, b), c).sum() + np.einsum("ij,ij->i", np.cross(a, c), d).sum()
+    )
 
 
 @pytest.mark.parametrize("step", STEPS)
