@@ -15,7 +15,7 @@ import numpy as np
 
 from balloon_usd.balloon.ringed_faces import inner_vertices, ring_starts, ringed_quads
 from balloon_usd.balloon.sizes import NECK_REACH
-from balloon_usd.balloon.tube_mesh import KNOT_LENGTH, LIP_LENGTH
+from balloon_usd.balloon.tube_mesh import KNOT_LENGTH, LIP_LENGTH, MIRRORED_FACE
 from balloon_usd.quality.joints import APART
 from balloon_usd.quality.walls import CAPSULE_NECK_REACH, NO_NECK
 
@@ -52,7 +52,7 @@ class Neck:
 
 
 def necks_of(quads: Numbers, st: Floats, bubbles: Numbers, first: Floats) -> list[Neck]:
-    """Return the necks of a balloon; none where the mesh is no row of rings.
+    """Return the necks of a balloon, or of the mirror image of one; none where the mesh is no row of rings.
 
     Args:
         quads: (F, 4) vertices.
@@ -60,9 +60,13 @@ def necks_of(quads: Numbers, st: Floats, bubbles: Numbers, first: Floats) -> lis
         bubbles: of the faces, (F,).
         first: points (V, 3) of the earliest frame, m.
     """
-    around = _around(quads, len(first))
+    around, mirrored = _around(quads, len(first)), 0
+    if not around:
+        around = mirrored = _around(quads[:, MIRRORED_FACE], len(first))
     if not around or len(st) != len(quads):
         return []
+    if mirrored:
+        st = st[:, MIRRORED_FACE]
     rings = ring_starts(around, _rings(len(first), around))[:, None].astype(np.int64) + np.arange(around)
     faces = slice((around // 4) ** 2, (around // 4) ** 2 + (len(rings) - 1) * around)
     rows = bubbles[faces].reshape(-1, around)[:, 0]

@@ -14,7 +14,7 @@ from balloon_usd.balloon.detail import detail_named
 from balloon_usd.check import count_crossings, crossings_document, crossings_line
 from balloon_usd.check.stage_walls import StageWalls
 from balloon_usd.plan import plan as plan_of
-from balloon_usd.plan.meshing import mesh_of
+from balloon_usd.plan.meshing import meshes_of
 from balloon_usd.quality.crossing_counter import CrossingCounter
 from balloon_usd.quality.walls import walls_of
 from balloon_usd.recipe import Recipe
@@ -145,9 +145,10 @@ def crumpled(plan, meshes):
     return Frame(plan.frame_count, (points,), (stretch,), bubbles, bubbles * 1e-4, "hold")
 
 
-def test_a_stage_alone_gives_the_numbers_of_its_run(tmp_path):
-    plan = plan_of(Recipe.parse(EARS, file="ears.yaml"))
-    meshes = [mesh_of(strip, detail_named("draft")) for strip in plan.strips.values()]
+@pytest.mark.parametrize("mirror", ["", "mirror: true\n"], ids=["as made", "mirrored"])
+def test_a_stage_alone_gives_the_numbers_of_its_run(mirror, tmp_path):
+    plan = plan_of(Recipe.parse(EARS + mirror, file="ears.yaml"))
+    meshes = meshes_of(plan, detail_named("draft"))
     last = crumpled(plan, meshes)
     stage = write_plan(plan, [last], tmp_path, detail="draft", flat=True).files[0]
     report = count_crossings(str(stage))
@@ -159,7 +160,7 @@ def test_a_stage_alone_gives_the_numbers_of_its_run(tmp_path):
 @pytest.mark.parametrize("recipe", ["kosaka/bubbles", "book/maple_nj", "meshes/heart"])
 def test_necks_are_found_in_tubes_and_capsules_and_shapes_have_none(recipe, tmp_path):
     plan = plan_of(Recipe.load(RECIPES / f"{recipe}.yaml"))
-    meshes = [mesh_of(strip, detail_named("draft")) for strip in plan.strips.values()]
+    meshes = meshes_of(plan, detail_named("draft"))
     airs = describe_stage(plan, meshes).airs
     bubbles = np.ones(len(plan.bubbles), dtype=np.float32)
     start = Frame(

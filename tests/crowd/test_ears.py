@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
+from balloon_usd.operations.moves import Loosen
+from balloon_usd.plan import plan
 from balloon_usd.recipe import Recipe
+from balloon_usd.solver.simulation import simulate_many
 from tests.crowd.watched import crossings, watched
 
 EAR = """
@@ -18,6 +22,8 @@ steps:
   - ear: {ear: 4}
   - rest: rest
 """
+FLUTTER = 3e-4
+"""Change of a vertex's way from frame to frame that is seen, m."""
 IN_A_ROW = """
 format: 1
 name: in_a_row
@@ -35,6 +41,17 @@ steps:
 
 def test_an_ear_as_long_as_wide_never_goes_through_itself():
     assert not crossings(watched(Recipe.parse(EAR)))
+
+
+def test_ears_that_press_on_each_other_lie_still_while_hands_loosen_their_grip():
+    planned = plan(Recipe.parse(IN_A_ROW.format(size=646, inflated=60, body=18, ear=9)))
+    loosened = next(move for move in planned.choreography.moves if isinstance(move, Loosen))
+    fps = planned.recipe.fps
+    last_second = range(round((loosened.end - 1.0) * fps), round(loosened.end * fps))
+    simulation = simulate_many([planned], detail="draft", device="cpu")
+    frames = [frame.points[0] for (frame,) in simulation.frames() if frame.time_code in last_second]
+    turns = np.linalg.norm(np.diff(frames, n=2, axis=0), axis=2).mean(axis=0)
+    assert (turns > FLUTTER).sum() < 40
 
 
 @pytest.mark.long

@@ -145,7 +145,9 @@ def test_only_after_the_let_go_a_wall_that_was_touched_is_kept_while_another_is_
     for vertex in np.flatnonzero(s["target"][:, 0] >= 0):
         distance = distances(s, model.scene.touch, vertex, -ROUNDED)
         distance[s["quad_segment"] != s["quad_segment"][s["target"][vertex, 0]]] = np.inf
-        closest, other = np.argsort(distance, kind="stable")[:2]
+        by_distance = np.argsort(distance, kind="stable")
+        last = np.isfinite(distance).sum() - 1
+        closest, other = by_distance[0], by_distance[last if vertex % 2 else 1]
         farther = distance[other] - distance[closest]
         if ROUNDED < farther < np.inf and abs(farther - gain) > ROUNDED:
             targets[vertex] = (other, -1)

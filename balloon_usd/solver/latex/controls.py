@@ -49,6 +49,8 @@ class LatexControls(Hands):
         self.pump_flow = np.zeros(len(scene.bodies), dtype=np.float32)
         self.pump_limit = np.ones(len(scene.bodies), dtype=np.float32)
         self.pump_goal = np.zeros(len(scene.bodies))
+        self.packed_drag = np.zeros(len(scene.bodies), dtype=np.float32)
+        """Drag on the rubber of every balloon that is folded up in a neck, besides, 1/s."""
         self.spins = Spins(scene)
         self.softening = scene.softening_rate.numpy().copy()
         self.amount, self.volume = scene.amount.numpy().copy(), scene.volume.numpy().copy()
@@ -196,6 +198,7 @@ class LatexControls(Hands):
                 "pump_goal": self.pump_goal,
                 "softening_rate": self.softening,
                 "spins": self.spins.rows,
+                "packed_drag": self.packed_drag,
             }
         )
 

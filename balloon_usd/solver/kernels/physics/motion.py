@@ -111,6 +111,9 @@ def step_of_vertex(
     pull = wp.vec3(0.0, 0.0, -float_at(balloons.gravity, b) * float_at(rubber.true_mass, i))
     # Drag takes from the velocity only: it must not weaken forces against those that act on whole rings.
     kept = wp.max(1.0 - float_at(balloons.drag, b) * dt, 0.0)
+    packed = float_at(balloons.packed_drag, b)
+    if packed > 0.0 and int_at(mesh.vertex_neck, i) >= 0:
+        kept = wp.max(kept - packed * dt, 0.0)
     velocity = kept * coherent_vec3(state.v, i, shared) + (f + pull) * (dt / float_at(mesh.mass, i))
     slowness = float_at(state.slowness, i)
     if slowness > 0.0:

@@ -27,6 +27,11 @@ still on its way when hands let go.
 """
 LEAST_LEADING = 5.0e-4
 """What is left of the speed at which walls are led out of others, m/s: what cannot be led out stays calm."""
+PACKED_DRAG = 300.0
+"""Drag on rubber that is folded up in a neck of a figure that holds, 1/s. Packed, it does not move; but more
+walls press on one vertex there than it may touch, others at every search, and it jittered at up to 1 m/s.
+With 1000/s necks hold on to the figure, which then creeps on after the let-go.
+"""
 MOST_BRAKED = 24.0
 """Drag at the end, in that while hands work: flat tails have swung out then."""
 
@@ -49,6 +54,8 @@ class Loosen(Motion):
         self._drag = sculpture.scene.settings.drag
         self._puts_down = not sculpture.plan.loose
         self._hands.floating[self._bodies] = 1
+        if self._puts_down:
+            self._hands.packed_drag[self._bodies] = PACKED_DRAG
 
     def advance(self, share: float) -> None:
         """Loosen the grip by a share; in the end brake what moves, unless it is to untwist."""
