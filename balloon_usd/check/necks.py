@@ -60,13 +60,13 @@ def necks_of(quads: Numbers, st: Floats, bubbles: Numbers, first: Floats) -> lis
         bubbles: of the faces, (F,).
         first: points (V, 3) of the earliest frame, m.
     """
-    around, mirrored = _around(quads, len(first)), 0
-    if not around:
-        around = mirrored = _around(quads[:, MIRRORED_FACE], len(first))
-    if not around or len(st) != len(quads):
+    if len(st) != len(quads):
         return []
-    if mirrored:
-        st = st[:, MIRRORED_FACE]
+    around = _around(quads, len(first))
+    if not around:
+        around, st = _around(quads[:, MIRRORED_FACE], len(first)), st[:, MIRRORED_FACE]
+    if not around:
+        return []
     rings = ring_starts(around, _rings(len(first), around))[:, None].astype(np.int64) + np.arange(around)
     faces = slice((around // 4) ** 2, (around // 4) ** 2 + (len(rings) - 1) * around)
     rows = bubbles[faces].reshape(-1, around)[:, 0]

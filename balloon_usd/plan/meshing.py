@@ -22,8 +22,13 @@ def joint_places(strip: Strip) -> tuple[float, ...]:
 
 def meshes_of(plan: Plan, detail: Detail) -> tuple[BalloonMesh, ...]:
     """Return the meshes of the balloons of a plan at a level of detail, as frames show them."""
-    meshes = tuple(mesh_of(strip, detail) for strip in plan.strips.values())
+    meshes = made_meshes(plan, detail)
     return tuple(mesh.mirrored() for mesh in meshes) if plan.mirrored else meshes
+
+
+def made_meshes(plan: Plan, detail: Detail) -> tuple[BalloonMesh, ...]:
+    """Return the meshes of the balloons of a plan at a level of detail, as hands have them."""
+    return tuple(mesh_of(strip, detail) for strip in plan.strips.values())
 
 
 def mesh_of(strip: Strip, detail: Detail) -> BalloonMesh:

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, TypeVar, cast
 import warp as wp
 
 from balloon_usd.balloon.detail import Detail, detail_named
-from balloon_usd.plan.meshing import mesh_of, meshes_of
+from balloon_usd.plan.meshing import made_meshes, meshes_of
 from balloon_usd.processes.cores import usable_cores
 from balloon_usd.solver.batch import Batch, snapshots_of
 from balloon_usd.solver.device import device_named
@@ -69,7 +69,7 @@ class Simulation:
         self.substeps = _substeps(self.plans, maker.usual_substeps(detail), self.fps)
         self.meshes: list[tuple[BalloonMesh, ...]] = [meshes_of(plan, detail) for plan in self.plans]
         """As frames show them; hands may have their mirror images."""
-        made = [tuple(mesh_of(strip, detail) for strip in plan.strips.values()) for plan in self.plans]
+        made = [made_meshes(plan, detail) for plan in self.plans]
         on_gpu = wp.get_device(device).is_cuda
         cores = 1 if on_gpu or model not in THREADED else threads or usable_cores()
         self._threads = min(cores, len(self.plans))

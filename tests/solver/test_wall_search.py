@@ -30,7 +30,7 @@ def searched(model, velocity, crossed=0, watched=0, floating=0):
     """The arrays of the scene after one more search; `velocity`: (V, 3), m/s.
 
     `crossed`, `watched`: whether its walls cross, and are kept apart at every search; `floating`: whether
-    hands have let go.
+    hands loosen their grip.
     """
     scene, search = model.scene, model.stepper._search
     kept = scene.v.numpy().copy()
@@ -134,8 +134,8 @@ def test_every_vertex_finds_the_wall_nearest_to_it_of_all_that_it_may_touch(mode
     assert small > 5
 
 
-@pytest.mark.parametrize("floating", [0, 1], ids=["held", "let go of"])
-def test_only_after_the_let_go_a_wall_that_was_touched_is_kept_while_another_is_hardly_nearer(
+@pytest.mark.parametrize("floating", [0, 1], ids=["held", "loosened"])
+def test_once_hands_loosen_their_grip_what_was_touched_is_kept_while_another_is_hardly_nearer(
     model, floating
 ):
     still = np.zeros((len(model.scene.x), 3), dtype=np.float32)

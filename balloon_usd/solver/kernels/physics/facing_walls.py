@@ -33,8 +33,8 @@ ROUNDING = wp.constant(0.1)
 another. What seemed to be was flung through a third wall, and by 7 mm in a frame after the let-go.
 """
 STAYING = wp.constant(0.6)
-"""Nearness that a wall gains while it is touched after the let-go, in the distance at which walls begin to
-press: where two were about as near, finished figures fluttered (vertices that change direction by 0.3 mm a
+"""Nearness that a wall gains while it is touched once hands loosen their grip, in the distance at which walls
+begin to press: where two were about as near, figures fluttered (vertices that change direction by 0.3 mm a
 frame: 2295 -> 1063 in 48 figures). Where hands still press, the nearest wall must be pressed on.
 """
 OWN = wp.constant(256)
