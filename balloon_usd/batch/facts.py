@@ -77,7 +77,7 @@ def _judge(plan: Plan, order: Order) -> Facts | Refusal:
     from balloon_usd.balloon.detail import detail_named  # noqa: PLC0415
     from balloon_usd.batch.reading import packed  # noqa: PLC0415
     from balloon_usd.origin import origin_of  # noqa: PLC0415
-    from balloon_usd.plan.meshing import meshes_of  # noqa: PLC0415
+    from balloon_usd.plan.meshing import made_meshes  # noqa: PLC0415
 
     recipe = plan.recipe
     name, provenance = recipe.name, origin_of(plan)
@@ -98,7 +98,7 @@ def _judge(plan: Plan, order: Order) -> Facts | Refusal:
         recipe.fps,
         codes[-1],
         len(codes),
-        sum(len(mesh.points) for mesh in meshes_of(plan, level)),
+        sum(len(mesh.points) for mesh in made_meshes(plan, level)),
         _group(plan),
         tuple(map(str, recipe.notices)),
         tuple(_cautions(plan)),

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from balloon_usd.balloon.tube_mesh import MIRRORED_FACE
 from balloon_usd.check.necks import joints_between, necks_of
 from balloon_usd.check.opening import UnreadableError
 from balloon_usd.openusd import Usd, UsdGeom
@@ -133,7 +134,7 @@ def _wall_mesh(mesh: Any) -> WallMesh | None:
     fits = st.shape == (len(corners), 2) and (counts == 4).all()
     necks = necks_of(quads, st.reshape(-1, 4, 2), bubbles, first.astype(np.float64)) if fits else []
     if mesh.GetOrientationAttr().Get() == UsdGeom.Tokens.leftHanded:
-        quads = quads[:, [0, 3, 2, 1]]
+        quads = quads[:, MIRRORED_FACE]
     return WallMesh(mesh, len(first), quads, bubbles[face], names, owner, necks)
 
 

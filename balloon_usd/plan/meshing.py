@@ -22,8 +22,12 @@ def joint_places(strip: Strip) -> tuple[float, ...]:
 
 def meshes_of(plan: Plan, detail: Detail) -> tuple[BalloonMesh, ...]:
     """Return the meshes of the balloons of a plan at a level of detail, as frames show them."""
-    meshes = made_meshes(plan, detail)
-    return tuple(mesh.mirrored() for mesh in meshes) if plan.mirrored else meshes
+    return shown_meshes(plan, made_meshes(plan, detail))
+
+
+def shown_meshes(plan: Plan, made: tuple[BalloonMesh, ...]) -> tuple[BalloonMesh, ...]:
+    """Return meshes as frames show them; `made`: as hands have them."""
+    return tuple(mesh.mirrored() for mesh in made) if plan.mirrored else made
 
 
 def made_meshes(plan: Plan, detail: Detail) -> tuple[BalloonMesh, ...]:

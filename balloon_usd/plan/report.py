@@ -123,12 +123,18 @@ def _graph_lines(plan: Plan) -> Iterator[str]:
     for event in plan.recipe.piece.history:
         if isinstance(event, Joined):
             for balloon in (name for name, step in led_in.items() if step == event.step):
-                side = "right" if (parked(plan.strips)[balloon] > 0.0) != plan.mirrored else "left"
+                side = "right" if _aside(plan)[balloon] > 0.0 else "left"
                 yield f"  step {event.step + 1} leads in {balloon} from the {side}"
         if isinstance(event, Joined) and not plan.recipe.steps[event.step].closes:
             what = f"{plan.recipe.steps[event.step].word}s {', '.join(map(str, event.ends))}"
             yield f"  step {event.step + 1} {what} (joint {graph.joint_of(event.ends[0]).index})"
     yield from joint_lines(graph)
+
+
+def _aside(plan: Plan) -> dict[str, float]:
+    """Return how far to the side (+y) frames show each balloon until it is joined, by its name, m."""
+    places = parked(plan.strips)
+    return {name: 0.0 - place for name, place in places.items()} if plan.mirrored else places
 
 
 def _led_in(plan: Plan) -> dict[str, int]:
@@ -169,14 +175,13 @@ def caution_lines(cautions: tuple[Caution, ...]) -> Iterator[str]:
 
 def plan_json(plan: Plan) -> dict[str, Any]:
     """Return the plan as plain data, ready for JSON: SI units, step indices from 0."""
-    aside, led_in = parked(plan.strips), _led_in(plan)
-    side = -1.0 if plan.mirrored else 1.0
+    aside, led_in = _aside(plan), _led_in(plan)
     return {
         **head_json(plan),
         "balloons": [
             {
                 **_balloon_json(strip, plan.budgets.get(name)),
-                "aside": side * aside.get(name, 0.0),
+                "aside": aside.get(name, 0.0),
                 "led_in": led_in.get(name),
             }
             for name, strip in plan.strips.items()

@@ -61,12 +61,10 @@ def _search(walls: Walls, device: str) -> PiercedSearch | None:
     """Return what searches on a device; None where Warp was built without a backend for CPUs, and NumPy does
     it.
     """
-    import warp as wp  # noqa: PLC0415
-
     from balloon_usd.quality.pierced_search import PiercedSearch  # noqa: PLC0415
-    from balloon_usd.solver.device import device_named, start_warp  # noqa: PLC0415
+    from balloon_usd.solver.device import device_named, has_backend, start_warp  # noqa: PLC0415
 
     start_warp()
-    if device == "cpu" and not wp.is_cpu_available():
+    if not has_backend(device):
         return None
     return PiercedSearch(walls.quads, device_named(device))

@@ -30,6 +30,11 @@ def start_warp() -> None:
         wp.get_devices()
 
 
+def has_backend(device: str) -> bool:
+    """Tell whether Warp runs kernels on a device: a build for GPUs alone lists the CPU too."""
+    return device != "cpu" or wp.is_cpu_available()
+
+
 def device_named(name: str) -> str:
     """Return the device of a name: auto is the first CUDA device, else the CPU; cuda is the first one.
 

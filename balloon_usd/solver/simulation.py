@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, TypeVar, cast
 import warp as wp
 
 from balloon_usd.balloon.detail import Detail, detail_named
-from balloon_usd.plan.meshing import made_meshes, meshes_of
+from balloon_usd.plan.meshing import made_meshes, shown_meshes
 from balloon_usd.processes.cores import usable_cores
 from balloon_usd.solver.batch import Batch, snapshots_of
 from balloon_usd.solver.device import device_named
@@ -67,9 +67,11 @@ class Simulation:
         model = _the_one("model", [plan.recipe.physics.model for plan in plans])
         maker = model_named(model)
         self.substeps = _substeps(self.plans, maker.usual_substeps(detail), self.fps)
-        self.meshes: list[tuple[BalloonMesh, ...]] = [meshes_of(plan, detail) for plan in self.plans]
-        """As frames show them; hands may have their mirror images."""
         made = [made_meshes(plan, detail) for plan in self.plans]
+        self.meshes: list[tuple[BalloonMesh, ...]] = [
+            shown_meshes(*each) for each in zip(self.plans, made, strict=True)
+        ]
+        """As frames show them; hands may have their mirror images."""
         on_gpu = wp.get_device(device).is_cuda
         cores = 1 if on_gpu or model not in THREADED else threads or usable_cores()
         self._threads = min(cores, len(self.plans))

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from balloon_usd.balloon.capsule_mesh import capsule_mesh
+from tests.balloon.volume import volume_of
 
 LENGTH, RADIUS = 0.20, 0.0255
 
@@ -19,12 +20,6 @@ def experiment(around=32, ends=(0.05, 0.08, LENGTH)):
 def edge_lengths(mesh):
     edges = np.concatenate([mesh.quads[:, [k, (k + 1) % 4]] for k in range(4)])
     return np.linalg.norm(mesh.points[edges[:, 0]] - mesh.points[edges[:, 1]], axis=1)
-
-
-def volume_of(mesh):
-    corners = mesh.points[mesh.quads].astype(float)
-    area = 0.5 * np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
-    return np.sum(corners.mean(axis=1) * area) / 3.0
 
 
 def test_the_experiments_capsule_has_the_vertices_and_faces_of_the_thesis():
@@ -49,7 +44,8 @@ def test_every_edge_is_shared_by_two_quads_in_opposite_directions(around, length
 @pytest.mark.parametrize("around", [32, 48, 64])
 def test_the_surface_faces_outwards_and_comes_nearer_to_the_capsules_volume(around):
     exact = math.pi * RADIUS**2 * (LENGTH - 2.0 * RADIUS + 4.0 / 3.0 * RADIUS)
-    missing = 1.0 - volume_of(experiment(around)) / exact
+    mesh = experiment(around)
+    missing = 1.0 - volume_of(mesh.points, mesh.quads) / exact
     # A polygon of n sides lacks 2 pi^2 / (3 n^2) of its circle.
     assert 0.0 < missing < 1.3 * 2.0 * math.pi**2 / (3.0 * around**2)
 

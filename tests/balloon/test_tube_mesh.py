@@ -8,6 +8,7 @@ import pytest
 from balloon_usd.balloon.detail import DETAILS, detail_named
 from balloon_usd.balloon.sizes import SIZES, size_named
 from balloon_usd.balloon.tube_mesh import ring_stations, tube_mesh
+from tests.balloon.volume import volume_of
 
 JOINTS = (0.0287, 0.0574, 0.09)
 
@@ -34,9 +35,7 @@ def test_every_vertex_is_used_and_the_surface_is_a_sphere():
 
 def test_the_surface_faces_outwards_and_holds_the_tubes_volume():
     mesh, size = dog_tube("full"), size_named("260")
-    corners = mesh.points[mesh.quads].astype(float)
-    area = 0.5 * np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
-    volume = np.sum(corners.mean(axis=1) * area) / 3.0
+    volume = volume_of(mesh.points, mesh.quads)
     assert volume == pytest.approx(np.pi * size.radius**2 * size.length, rel=0.08)
 
 

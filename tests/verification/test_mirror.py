@@ -8,6 +8,7 @@ import pytest
 from balloon_usd.plan import plan
 from balloon_usd.recipe import Recipe
 from balloon_usd.solver.simulation import simulate_many
+from tests.balloon.volume import volume_of
 
 IN_A_MIRROR = np.array([1.0, -1.0, 1.0], dtype=np.float32)
 FIGURE = """
@@ -64,14 +65,6 @@ def frames(text):
     return np.stack(points), simulation.meshes[0]
 
 
-def volume(points, quads):
-    """Signed volume of a closed surface, m3: positive where its faces are counter-clockwise from outside."""
-    a, b, c, d = (points[quads[:, k]].astype(np.float64) for k in range(4))
-    return float(
-        np.einsum("ij,ij->i", np.cross(a, b), c).sum() + np.einsum("ij,ij->i", np.cross(a, c), d).sum()
-    )
-
-
 @pytest.mark.parametrize("step", STEPS)
 def test_what_points_left_is_the_mirror_image_of_what_points_right(verify, step):
     figures = [FIGURE.replace("STEP", STEPS[step]).replace("SIDE", side) for side in ("left", "right")]
@@ -80,7 +73,7 @@ def test_what_points_left_is_the_mirror_image_of_what_points_right(verify, step)
     verify("V34", f"{step} to the left off the mirror image of that to the right, mm", off, 0.0, 0.5)
     # To which side, and not inside out.
     assert left[-1, :, 1].min() < -0.04 < 0.04 < right[-1, :, 1].max()
-    assert volume(right[-1], meshes[0].quads) > 0.0
+    assert volume_of(right[-1], meshes[0].quads) > 0.0
 
 
 @pytest.mark.parametrize("text", [TWO_BALLOONS, PRESSED], ids=["two balloons that stand", "kosaka"])
@@ -92,7 +85,7 @@ def test_mirror_exchanges_left_and_right_in_every_frame(text):
     first = 0
     for mesh in meshes:
         own = mirrored[-1, first : first + len(mesh.points)]
-        assert volume(own, mesh.quads) > 0.0
+        assert volume_of(own, mesh.quads) > 0.0
         first += len(mesh.points)
 
 
