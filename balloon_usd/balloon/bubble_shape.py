@@ -24,12 +24,13 @@ import numpy as np
 from balloon_usd.balloon.ball_shape import BallFamily, ball_family
 from balloon_usd.balloon.bubble_quadrature import axial_stretch, bubble_at_stretch, legendre
 from balloon_usd.balloon.halving import halved
+from balloon_usd.balloon.rubber import relaxed_stretches
 from balloon_usd.balloon.tube_theory import inflated_rubber, maxwell_state
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from balloon_usd.balloon.rubber import Floats, Rubber
+    from balloon_usd.balloon.rubber import Floats, Rubber, UnloadedRubber
     from balloon_usd.balloon.sizes import BalloonSize
     from balloon_usd.balloon.tube_theory import TubeState
 
@@ -193,13 +194,30 @@ def neck_rubber_of_length(size: BalloonSize, rubber: Rubber, length: float, radi
     return _neck_rubber(size, rubber, bubble_of_length(size, rubber, length), radius)
 
 
+@lru_cache(maxsize=32)
+def strand_stress(rubber: Rubber) -> float:
+    """Return the nominal stress (Pa) along the wall of a long bubble where it runs into a neck.
+
+    Raises:
+        ValueError: the rubber cannot hold a bubble.
+    """
+    law, maxwell = inflated_rubber(rubber), maxwell_state(rubber)
+    stretch = _stretch_in_neck(law, maxwell.p_star, maxwell.bulged.a)
+    taut = relaxed_stretches(np.full(1, _NEAR_AXIS), np.full(1, stretch))
+    return float(law.nominal_stress(*taut)[1][0])
+
+
 def _neck_rubber(size: BalloonSize, rubber: Rubber, shape: BubbleShape, radius: float) -> float:
-    law, p_star = inflated_rubber(rubber), shape.pressure * maxwell_state(rubber).p_star
-    widest = np.array([0.5 * shape.diameter / size.radius])
-    middle = axial_stretch(law, widest, 0.5 * p_star * widest**2, axial_force=True)
+    p_star = shape.pressure * maxwell_state(rubber).p_star
+    return radius / _stretch_in_neck(inflated_rubber(rubber), p_star, 0.5 * shape.diameter / size.radius)
+
+
+def _stretch_in_neck(law: UnloadedRubber, p_star: float, widest: float) -> float:
+    """Return the meridional stretch near the axis of a bubble at p* (Pa), by its largest hoop stretch."""
+    hoop = np.array([widest])
+    middle = axial_stretch(law, hoop, 0.5 * p_star * hoop**2, axial_force=True)
     near_axis = np.full(1, _NEAR_AXIS)
-    stretch = axial_stretch(law, near_axis, legendre(law, widest, middle), axial_force=False)
-    return radius / float(stretch[0])
+    return float(axial_stretch(law, near_axis, legendre(law, hoop, middle), axial_force=False)[0])
 
 
 @dataclass(frozen=True, eq=False)

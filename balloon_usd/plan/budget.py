@@ -41,7 +41,9 @@ class Budget:
     tail: float
     """Flat tail at the start, m."""
     cost_per_twist: float
-    """Flat tail that one twist of a long bubble fills, m."""
+    """Flat tail that one twist of a long bubble fills whose turns draw no rubber in, m."""
+    drawn: float
+    """Unstressed rubber that turns draw into all necks, m: they fill as much tail and a little more."""
     twists: tuple[TwistEntry, ...]
     """After every bubble that is twisted off, in order."""
     tail_needed: float
@@ -125,6 +127,7 @@ def budget_of(strip: Strip) -> Budget:
         balloon=strip.balloon,
         tail=strip.tail,
         cost_per_twist=twist_cost(strip.size, rubber),
+        drawn=sum(bubble.drawn[1] for bubble in strip.bubbles),
         twists=tuple(twists),
         tail_needed=room.least,
         most_tail=room.most,

@@ -7,6 +7,7 @@ from itertools import chain
 from typing import TYPE_CHECKING
 
 from balloon_usd.balloon.bubble_shape import smallest_ball, softest_ball
+from balloon_usd.balloon.wound_neck import PACKING_TURNS
 from balloon_usd.language.lengths import at_least, at_most, cm
 from balloon_usd.operations.caution import Caution
 from balloon_usd.operations.modifiers import HOLDING_TURNS, Turned
@@ -84,7 +85,7 @@ def _turns(recipe: Recipe) -> Iterator[Caution]:
             yield Caution(
                 index,
                 f"a twist of {_turns_text(step.turns)} strains its neck",
-                "every turn beyond the first winds up rubber, and too many cut it",
+                f"every turn beyond {PACKING_TURNS:g} draws rubber into it, and too many cut it",
                 "turns: 3",
             )
 

@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING
 
 from balloon_usd.balloon.rubber import rubber_named
 from balloon_usd.balloon.tube_theory import gauge_pressure, maxwell_state
+from balloon_usd.balloon.wound_neck import drawn_rubber
 from balloon_usd.language.lengths import at_least, at_most, cm
 from balloon_usd.language.problem import RecipeError, quoted
 from balloon_usd.operations.bend import Bend
+from balloon_usd.operations.modifiers import Turned
 from balloon_usd.plan.capsule import capsule_bubbles
 from balloon_usd.plan.laying_shapes import overlap_problems, shaped_strip
 from balloon_usd.plan.open_tube import (
@@ -98,22 +100,22 @@ def _tube(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> Strip
     tail = _tail(recipe, name, size, rubber)
     tube = inflated_tube(size, rubber, tail)
     bubbles: list[PlannedBubble] = []
-    along, rest_along = 0.0, 0.0
+    along, rest_along, drawn_before = 0.0, 0.0, 0.0
     bent = {each for step in recipe.steps if isinstance(step, Bend) for each in step.names}
-    for made in _made(recipe, name):
-        index, kind, bubble, length, gas = made
+    for made in _wound(recipe, name, size, rubber):
+        index, kind, bubble, length, gas, drawn = made
         shape, left = tube.pinched(made.twisted)
         if not left.blown_up:
             path: Path = ("steps", index, recipe.steps[index].word, bubble)
             raise RecipeError([recipe.problem(path, _misfit(recipe, name, tail, bubble, length, tube))])
-        rest_end = rest_along + shape.rest_length
+        rest_end = rest_along + 0.5 * (drawn_before + drawn) + shape.rest_length
         place = along, along + length, rest_along, rest_end
         pressure = shape.pressure * gauge_pressure(size, maxwell_state(tube.rubber).p_star)
         planned = PlannedBubble(bubble, name, kind, length, *place, shape.volume, index, pressure)
-        bubbles.append(replace(planned, bent=bubble in bent, gas=gas))
-        tube, along, rest_along = left, along + length, rest_end
+        bubbles.append(replace(planned, bent=bubble in bent, gas=gas, drawn=(drawn_before, drawn)))
+        tube, along, rest_along, drawn_before = left, along + length, rest_end, drawn
     rest = _rest_of_tube(recipe, name, tube, along, rest_along)
-    bubbles.append(replace(rest, bent=rest.name in bent))
+    bubbles.append(replace(rest, bent=rest.name in bent, drawn=(drawn_before, 0.0)))
     return Strip(name, size, rubber, tail, tuple(bubbles))
 
 
@@ -127,7 +129,7 @@ def _tail(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> float
         return max(size.length * (1.0 - balloon.inflated / full), 0.0)
     tail, most = balloon.tail or 0.0, size.length - end_rest_length(size, softened(rubber))
     if tail >= most:
-        fitting = fitting_tail(size, rubber, [made.twisted for made in _made(recipe, name)])
+        fitting = fitting_tail(size, rubber, [made.twisted for made in _wound(recipe, name, size, rubber)])
         most = most if fitting is None else min(fitting, most)
         text = f"a tail of {cm(tail)} leaves nothing of a {size.name}, expected at most {at_most(most)}"
         raise RecipeError([recipe.problem(("balloons", name, "tail"), text)])
@@ -146,6 +148,16 @@ def _made(recipe: Recipe, name: str) -> list[Made]:
         step = recipe.steps[index]
         assert step.bubble_kind is not None, "a step that makes bubbles says of which kind"
         found.append(Made(index, step.bubble_kind, bubble, step.lengths[bubble], step.gas_left))
+    return found
+
+
+def _wound(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> list[Made]:
+    """What the steps make of a tube, with the rubber that their turns draw into the necks."""
+    found = []
+    for made in _made(recipe, name):
+        step = recipe.steps[made.step]
+        turns = step.turns if isinstance(step, Turned) and recipe.physics.traits.winds else 0.0
+        found.append(made._replace(drawn=drawn_rubber(size, softened(rubber), turns)))
     return found
 
 
@@ -177,7 +189,7 @@ def _rest_of_tube(
 
 def _misfit(recipe: Recipe, name: str, tail: float, bubble: str, length: float, tube: OpenTube) -> str:
     text = f"{quoted(bubble)} of {cm(length)} does not fit: {cm(tube.inflated_length)} of {name} is left"
-    wanted = [made.twisted for made in _made(recipe, name)]
+    wanted = [made.twisted for made in _wound(recipe, name, tube.size, tube.rubber)]
     fitting = fitting_tail(tube.size, tube.rubber, wanted)
     inflated = recipe.balloons[name].inflated
     if fitting is not None and inflated is None:

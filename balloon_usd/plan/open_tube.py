@@ -40,10 +40,12 @@ class Twisted(NamedTuple):
     """Inflated length, m."""
     gas: float = 1.0
     """Share of the gas of that length that hands leave in it: a soft one keeps less."""
+    drawn: float = 0.0
+    """Unstressed rubber that its turns draw into the neck behind it, m."""
 
     def scaled(self, share: float) -> Twisted:
-        """Return a bubble of a share of its length."""
-        return Twisted(share * self.length, self.gas)
+        """Return a bubble of a share of its length, with as many turns."""
+        return self._replace(length=share * self.length)
 
 
 @dataclass(frozen=True)
@@ -104,7 +106,9 @@ class OpenTube:
             pressure=shape.pressure * now.p_star / bulged.p_star,
         )
         left = replace(
-            self, rest_length=self.rest_length - shape.rest_length, volume=self.volume - shape.volume
+            self,
+            rest_length=self.rest_length - shape.rest_length - bubble.drawn,
+            volume=self.volume - shape.volume,
         )
         return shape, left
 
@@ -163,9 +167,9 @@ def tail_range(size: BalloonSize, rubber: Rubber, bubbles: Sequence[Twisted]) ->
     gained = bulged - tail_volume_per_rest_length(size, rubber)
     shapes = [bubble_of_length(size, rubber, bubble.length) for bubble in bubbles]
     gas = sum(bubble.gas * shape.volume for bubble, shape in zip(bubbles, shapes, strict=True))
-    used = (bulged * sum(shape.rest_length for shape in shapes) - gas) / gained
-    taken = sum(shape.rest_length for shape in shapes) + end_rest_length(size, rubber)
-    return TailRange(used, size.length - taken + used)
+    rest = sum(shape.rest_length + bubble.drawn for bubble, shape in zip(bubbles, shapes, strict=True))
+    used = (bulged * rest - gas) / gained
+    return TailRange(used, size.length - rest - end_rest_length(size, rubber) + used)
 
 
 def fitting_tail(size: BalloonSize, rubber: Rubber, bubbles: Sequence[Twisted]) -> float | None:

@@ -103,9 +103,12 @@ def _budget_lines(plan: Plan, budget: Budget) -> Iterator[str]:
     if plan.recipe.physics.traits.winds:
         gas += f" at {budget.pressure / 1e3:.1f} kPa, {budget.gas_amount:.3f} mol"
     yield f"  blow up {cm(budget.inflated_length)}, leave {cm(budget.tail)} flat: {gas}"
+    each = f"about {cm(budget.cost_per_twist)} each"
+    if budget.drawn > 0.0:
+        each += f", and {cm(budget.drawn)} that turns draw in"
     yield (
         f"  {twists} {'twist uses' if twists == 1 else 'twists use'} {cm(budget.tail_used)} of flat tail "
-        f"(about {cm(budget.cost_per_twist)} each), {cm(budget.tail_left)} are left"
+        f"({each}), {cm(budget.tail_left)} are left"
     )
     if budget.most_tail > budget.tail_needed:
         yield (
@@ -236,7 +239,7 @@ def _balloon_json(strip: Strip, budget: Budget | None) -> dict[str, Any]:
         "tail": strip.tail,
         "inflated_length": strip.capsule_length if budget is None else budget.inflated_length,
         "shape": None if strip.shape is None else _shape_json(strip.shape),
-        "bubbles": [asdict(bubble) for bubble in strip.bubbles],
+        "bubbles": [asdict(bubble) | {"drawn": list(bubble.drawn)} for bubble in strip.bubbles],
         "budget": None if budget is None else _budget_json(budget),
     }
 
@@ -260,6 +263,7 @@ def _budget_json(budget: Budget) -> dict[str, Any]:
         "tail_left": budget.tail_left,
         "most_tail": budget.most_tail,
         "cost_per_twist": budget.cost_per_twist,
+        "drawn": budget.drawn,
         "shortest_inflation": budget.shortest_inflation,
         "longest_inflation": budget.longest_inflation,
         "volume": budget.volume,

@@ -28,11 +28,13 @@ class Made(NamedTuple):
     """Inflated length, m."""
     gas: float = 1.0
     """Share of the gas of that length that hands leave in it."""
+    drawn: float = 0.0
+    """Unstressed rubber that its turns draw into the neck behind it, m; only of tubes."""
 
     @property
     def twisted(self) -> Twisted:
         """What it takes of a tube."""
-        return Twisted(self.length, self.gas)
+        return Twisted(self.length, self.gas, self.drawn)
 
 
 @dataclass(frozen=True)
@@ -62,16 +64,23 @@ class PlannedBubble:
     """Whether a step bends it: hands then hold it at more places."""
     gas: float = 1.0
     """Share of the gas of its length that hands leave in it: below 1 of a soft one."""
+    drawn: tuple[float, float] = (0.0, 0.0)
+    """Unstressed rubber that turns draw in all into the necks before and behind it, half of it from it, m."""
 
     @property
     def twisted(self) -> Twisted:
         """What it takes of a tube."""
-        return Twisted(self.length, self.gas)
+        return Twisted(self.length, self.gas, self.drawn[1])
 
     @property
     def rest_length(self) -> float:
         """Length of its rubber, m: unstressed, or in a capsule before it is twisted."""
         return self.rest_end - self.rest_start
+
+    @property
+    def wall_length(self) -> float:
+        """The same without what turns draw into its necks, m."""
+        return self.rest_length - 0.5 * sum(self.drawn)
 
 
 @dataclass(frozen=True)

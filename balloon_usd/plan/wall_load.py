@@ -42,9 +42,9 @@ def wall_loads(strip: Strip, budget: Budget, graph: SculptureGraph) -> Iterator[
     start = before = float(strip.rubber.energy(bulged.a, bulged.b))
     for bubble, twist in zip(strip.bubbles, budget.twists, strict=False):
         sealed = 0.5 * (before + twist.energy)
-        lengths.append(bubble.rest_length)
+        lengths.append(bubble.wall_length)
         energies.append(sealed * _bent(strip, bubble, graph, sealed / start))
-        filled = max(strip.size.length - bubble.rest_end - twist.tail_left, 0.0)
+        filled = max(strip.size.length - bubble.rest_end - 0.5 * bubble.drawn[1] - twist.tail_left, 0.0)
         yield burst_load(strip.rubber, section * np.array([*lengths, filled]), [*energies, twist.energy])
         before = twist.energy
 

@@ -32,7 +32,7 @@ class ModelTraits:
 
 MODELS: dict[ModelName, ModelTraits] = {
     "latex": ModelTraits(
-        version="latex 15",
+        version="latex 16",
         title="hyperelastic rubber and gas",
         winds=True,
         starts_blown_up=False,

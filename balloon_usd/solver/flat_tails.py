@@ -12,7 +12,9 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from balloon_usd.balloon.ringed_faces import polygon_share
-from balloon_usd.operations.moves import Pinch
+from balloon_usd.balloon.wound_neck import drawn_rubber
+from balloon_usd.operations.moves import Pinch, Spin
+from balloon_usd.operations.tempo import eased
 from balloon_usd.plan.open_tube import OpenTube, softened
 
 if TYPE_CHECKING:
@@ -38,6 +40,14 @@ class _Neck(NamedTuple):
     """When it is closed, s."""
     made: int
     """Bubbles of its balloon that are made then."""
+    turning: Spin | None
+    """Its turns, where it is wound."""
+
+    def turned(self, time: float) -> float:
+        """Return the full turns that are wound into it at a time, s."""
+        if self.turning is None:
+            return 0.0
+        return self.turning.turns * eased((time - self.turning.start) / self.turning.seconds)
 
 
 class _Tube(NamedTuple):
@@ -79,17 +89,20 @@ class FlatTails:
         necks = [each for each in tube.necks if each.start <= time and each.name not in frame.undone]
         made = necks[-1].made if necks else 0
         if not necks or time >= necks[-1].end:
-            return self._behind(frame, tube, made)
+            turns = necks[-1].turned(time) if necks else 0.0
+            return self._behind(frame, tube, made, turns)
         # A neck that is closing parts the gas by and by.
         share = (time - necks[-1].start) / (necks[-1].end - necks[-1].start)
-        before = necks[-2].made if len(necks) > 1 else 0
-        open_still = self._behind(frame, tube, before)
-        return (1.0 - share) * open_still + share * self._behind(frame, tube, made)
+        before, turns = (necks[-2].made, necks[-2].turned(time)) if len(necks) > 1 else (0, 0.0)
+        open_still = self._behind(frame, tube, before, turns)
+        return (1.0 - share) * open_still + share * self._behind(frame, tube, made, 0.0)
 
-    def _behind(self, frame: Frame, tube: _Tube, made: int) -> float:
-        """Return the flat tail of what is open behind so many bubbles, m."""
+    def _behind(self, frame: Frame, tube: _Tube, made: int, turns: float) -> float:
+        """Return the flat tail of what is open behind so many bubbles and a neck of so many turns, m."""
         strip, mesh = tube.strip, tube.mesh
         start = strip.bubbles[made].rest_start
+        if turns:
+            start += 0.5 * drawn_rubber(strip.size, softened(strip.rubber), turns)
         if self._plan.recipe.physics.traits.starts_blown_up:
             return thin_rubber(mesh, frame.points[tube.balloon], start, strip.size.radius)
         gas = frame.volume[tube.first + made : tube.first + len(strip.bubbles)]
@@ -99,9 +112,10 @@ class FlatTails:
 def _necks(plan: Plan, strip: Strip) -> tuple[_Neck, ...]:
     names = [bubble.name for bubble in strip.bubbles]
     pinches = [move for move in plan.choreography.moves if isinstance(move, Pinch)]
+    turning = {move.ring: move for move in plan.choreography.moves if isinstance(move, Spin)}
     rings = [(plan.table.rings[move.ring], move) for move in pinches]
     return tuple(
-        _Neck(ring.name, move.start, move.end, names.index(ring.bubble) + 1)
+        _Neck(ring.name, move.start, move.end, names.index(ring.bubble) + 1, turning.get(move.ring))
         for ring, move in rings
         if ring.balloon == strip.balloon
     )

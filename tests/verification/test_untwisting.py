@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from functools import cache
 from typing import Any, NamedTuple
 
@@ -119,14 +118,16 @@ def test_a_figure_that_untwists_stays_where_it_is(verify):
     verify("V25", "drift of what untwists, in its length", drift / size, 0.0, 1e-3)
 
 
-def test_it_unwinds_in_about_a_second_and_the_lesser_part_turns_more(verify, note):
+def test_each_joint_unwinds_within_half_a_second(note):
     simulation, seen = performed(3)
     begin = let_go(simulation)
     moments = {name: next(s.time for s in seen if name in s.frame.undone) - begin for name in BOTH}
-    torque = simulation.model.performers[0].sculpture.torsion.joints[2].stiffness * 6.0 * math.pi
+    torque = simulation.model.performers[0].sculpture.torsion.joints[2].most_torque
     told = ", ".join(f"{name} after {time:.2f} s" for name, time in sorted(moments.items()))
     note("V25", f"three turns spring back with {1e3 * torque:.1f} mN m; open: {told}")
-    assert all(0.1 < time < 2.0 for time in moments.values())
+    first, second = sorted(moments.values())
+    assert 0.05 < first < 0.4
+    assert 0.05 < second - first < 0.4
 
 
 @pytest.mark.parametrize("turns", [0.5, 3])

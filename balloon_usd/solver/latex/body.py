@@ -45,6 +45,10 @@ class LatexBody(Body):
     """Rubber that a closed neck hides from every segment, (S,) float64, as a share of the length that two
     leave it; None for none.
     """
+    drawn: NDArray[np.float64] | None = None
+    """Rubber that turns draw out of every segment into the necks before and behind it, (S, 2) float64, as a
+    share of the same; None for none.
+    """
     gap: float = math.inf
     """Distance of walls that lie close to each other at the start, m: little gas between them is stiff."""
     packs: bool = False
@@ -87,6 +91,7 @@ def tube_body(
     guides: tuple[float, ...],
     knot_pressure: float,
     short: Mapping[int, float] | None = None,
+    drawn: tuple[float, ...] | None = None,
 ) -> LatexBody:
     """Return the body of a twisting balloon: lip, knot bead, and a chamber between every two joints.
 
@@ -94,6 +99,7 @@ def tube_body(
     close.
     `knot_pressure`: gauge pressure sealed into the knot bead, Pa.
     `short`: inflated lengths of bubbles too short to tell by their rubber, m, by their number.
+    `drawn`: unstressed rubber that turns draw into the neck of every joint, m.
     """
     n = mesh.around
     bead = int(np.searchsorted(mesh.ring_along, -1e-9))
@@ -116,7 +122,8 @@ def tube_body(
     wall[: borders[0]] *= LIP_THICKNESS
     neck = NECK_RADIUS * radius
     bulged = maxwell_state(rubber).bulged
-    necks = _Necks.of(mesh, rubber, radius, joints, neck * math.cos(math.pi / n), short or {})
+    point = neck * math.cos(math.pi / n)
+    necks = _Necks.of(mesh, rubber, radius, joints, point, short or {}, drawn or (0.0,) * len(joints))
     ring_of = _nearest(mesh.ring_along, mesh.along)
     return LatexBody(
         points=_tapered(mesh, necks.whole, [mesh.ring_along[lip], mesh.ring_along[bead]], neck),
@@ -125,6 +132,7 @@ def tube_body(
         thickness=wall,
         rubber=rubber,
         hidden=np.concatenate([[0.0, 0.0], necks.shares]),
+        drawn=np.concatenate([np.zeros((2, 2)), necks.drawn_shares]),
         worked=seed * float(rubber.energy(bulged.a, bulged.b)),
         radius=radius,
         contact_offset=CONTACT_OFFSET * radius,
@@ -176,6 +184,8 @@ class _Necks:
     """Places of the knot, of all joints and of the tip, m."""
     hidden: NDArray[np.float64]
     """Length that each of its necks hides from every bubble, m."""
+    drawn: NDArray[np.float64]
+    """Length that turns draw out of every bubble into its necks before and behind, (bubbles, 2), m."""
     knot: float
     """What the knot hides from the tube before it is twisted, m."""
 
@@ -188,16 +198,19 @@ class _Necks:
         joints: tuple[float, ...],
         neck: float,
         short: Mapping[int, float],
+        drawn: tuple[float, ...],
     ) -> Self:
-        """Return those of a tube, of necks of one radius (m)."""
+        """Return those of a tube, of necks of one radius (m), into which turns draw rubber (m)."""
         x = mesh.points[:, 0].astype(np.float64)
         size = BalloonSize("tube", radius, float(x.max()), radius)
         marks = np.array([0.0, *joints, x.max()])
-        lengths = np.diff(marks)
+        halves = 0.5 * np.array([0.0, *drawn, 0.0])
+        drawn_out = np.stack([halves[:-1], halves[1:]], axis=1)
+        lengths = np.diff(marks) - drawn_out.sum(axis=1)
         hidden = np.array([neck_rubber(size, softened(rubber), float(s), neck) for s in lengths])
         for k, length in short.items():
             hidden[k] = neck_rubber_of_length(size, softened(rubber), length, neck)
-        return cls(x, marks, hidden, neck_rubber(size, softened(rubber), size.length, neck))
+        return cls(x, marks, hidden, drawn_out, neck_rubber(size, softened(rubber), size.length, neck))
 
     @property
     def lengths(self) -> NDArray[np.float64]:
@@ -211,17 +224,28 @@ class _Necks:
 
     @property
     def twisted(self) -> NDArray[np.float64]:
-        """The same when all joints are closed, (V,) m; the tip has no neck."""
-        return self._place(self._by_all)
+        """The same when all joints are closed and wound, (V,) m; the tip has no neck."""
+        return self._place(self._lost)
 
     @property
     def shares(self) -> NDArray[np.float64]:
-        """What each joint hides from every bubble, in the length that it has when all are closed."""
+        """What each joint hides from every bubble, in the length that it has between finished ones."""
         joints = np.full(len(self.hidden), 2.0)
         joints[0] -= 1.0
         joints[-1] -= 1.0
         each: NDArray[np.float64] = (self._by_all - self._by_knot) / np.maximum(joints, 1.0)
-        return each / (self.lengths - self._by_all)
+        return each / (self.lengths - self._lost)
+
+    @property
+    def drawn_shares(self) -> NDArray[np.float64]:
+        """What turns draw out of every bubble into its necks before and behind, in the same, (bubbles, 2)."""
+        shares: NDArray[np.float64] = self.drawn / (self.lengths - self._lost)[:, None]
+        return shares
+
+    @property
+    def _lost(self) -> NDArray[np.float64]:
+        lost: NDArray[np.float64] = self._by_all + self.drawn.sum(axis=1)
+        return lost
 
     @property
     def _by_all(self) -> NDArray[np.float64]:

@@ -34,6 +34,8 @@ class LatexControls(Hands):
         self.passage_goal = self.passage.copy()
         self.neck_closed = self.closed.astype(np.float32)
         """How far every joint is closed, and so hides the rubber of its neck, 0 to 1."""
+        self.neck_wound = np.zeros(len(self.passage), dtype=np.float32)
+        """How much of what the turns of every joint draw in is drawn in, 1 of a finished one."""
         self.neck_flow = np.zeros(len(self.passage), dtype=np.float32)
         """Gas that hands push through a neck in the coming frame, from before to behind it, mol/s."""
         self._pushing = False
@@ -50,7 +52,9 @@ class LatexControls(Hands):
         self.pump_limit = np.ones(len(scene.bodies), dtype=np.float32)
         self.pump_goal = np.zeros(len(scene.bodies))
         self.packed_drag = np.zeros(len(scene.bodies), dtype=np.float32)
-        """Drag on the rubber of every balloon that is folded up in a neck, besides, 1/s."""
+        """Drag on the rubber of every balloon that is folded up in a neck, besides, 1/s; a share of it on what
+        two walls squeeze.
+        """
         self.spins = Spins(scene)
         self.softening = scene.softening_rate.numpy().copy()
         self.amount, self.volume = scene.amount.numpy().copy(), scene.volume.numpy().copy()
@@ -94,10 +98,14 @@ class LatexControls(Hands):
         """Let a neck hide its rubber from the bubbles beside it, as far as it is closed, 0 to 1."""
         self.neck_closed[joint] = closed
 
+    def draw_rubber(self, joint: int, wound: float) -> None:
+        """Let the turns of a neck draw a share of what they draw in all out of the bubbles beside it."""
+        self.neck_wound[joint] = wound
+
     @property
     def rest_length(self) -> Floats:
-        """Length at rest of every segment, as a share of that between closed necks, (S,)."""
-        return self.scene.hidden_rubber.rest_length(self.neck_closed)
+        """Length at rest of every segment, as a share of that between finished necks, (S,)."""
+        return self.scene.hidden_rubber.rest_length(self.neck_closed, self.neck_wound)
 
     def push_gas(self, joint: int, flow: float) -> None:
         """Push gas (mol/s) through a neck in the coming frame, from the chamber before it to that behind."""
@@ -108,7 +116,7 @@ class LatexControls(Hands):
         """Let a neck go that is as wide as its tube: the chambers beside it become one."""
         self.radius[joint] = self.radius_goal[joint] = 0.0
         self.passage[joint] = self.passage_goal[joint] = OPEN_PASSAGE
-        self.neck_closed[joint] = 0.0
+        self.neck_closed[joint] = self.neck_wound[joint] = 0.0
 
     def set_softening(self, balloon: int, rate: float) -> None:
         """Set which share of a new largest energy the rubber of a balloon takes note of in one substep."""

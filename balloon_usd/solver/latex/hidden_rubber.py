@@ -1,4 +1,6 @@
-"""How long every segment is at rest: closed necks hide rubber of the bubbles beside them."""
+"""How long every segment is at rest: closed necks hide rubber of the bubbles beside them, and turns draw more
+into them.
+"""
 
 from __future__ import annotations
 
@@ -13,26 +15,37 @@ if TYPE_CHECKING:
 
     from balloon_usd.solver.latex.body import LatexBody
 
+    Floats = NDArray[np.float32]
     Ints = NDArray[np.int32]
 
 
 class HiddenRubber:
-    """What the closed necks of a scene hide."""
+    """What the closed and wound necks of a scene hide."""
 
     def __init__(self, bodies: Sequence[LatexBody], start: Ints, end: Ints) -> None:
-        """Take over which joints each segment of some bodies lies between, (S,), -1 for none, and what a neck
-        hides from it.
+        """Take over which joints each segment of some bodies lies between, (S,), -1 for none, what a closed
+        neck hides from it and what turns draw out of it.
         """
         self._joints = start, end
-        shares = [np.zeros(len(body.segment_ends)) if body.hidden is None else body.hidden for body in bodies]
-        self._shares = np.concatenate(shares)
+        self._hidden = np.concatenate(
+            [_or_nothing(body.hidden, (len(body.segment_ends),)) for body in bodies]
+        )
+        self._drawn = np.concatenate(
+            [_or_nothing(body.drawn, (len(body.segment_ends), 2)) for body in bodies]
+        )
 
-    def rest_length(self, closed: NDArray[np.float32]) -> NDArray[np.float32]:
-        """Return the length of every segment at rest, in that which it has between closed necks, (S,).
+    def rest_length(self, closed: Floats, wound: Floats) -> Floats:
+        """Return the length of every segment at rest, in that which it has between finished necks, (S,).
 
-        `closed`: how far every joint is closed, (J,), 0 to 1.
+        `closed`: how far every joint is closed, (J,), 0 to 1; `wound`: how much is drawn in of what its turns
+        draw in when it is finished, (J,), from 0 on.
         """
-        opened = np.zeros(len(self._shares))
-        for joints in self._joints:
-            opened += np.where(joints < 0, 0.0, 1.0 - closed[joints])
-        return np.asarray(1.0 + self._shares * opened, dtype=np.float32)
+        more = np.zeros(len(self._hidden))
+        for joints, drawn in zip(self._joints, self._drawn.T, strict=True):
+            opened = self._hidden * (1.0 - closed[joints]) + drawn * (1.0 - wound[joints])
+            more += np.where(joints < 0, 0.0, opened)
+        return np.asarray(1.0 + more, dtype=np.float32)
+
+
+def _or_nothing(shares: NDArray[np.float64] | None, shape: tuple[int, ...]) -> NDArray[np.float64]:
+    return np.zeros(shape) if shares is None else shares

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from balloon_usd.balloon.air import AIR_DENSITY
 from balloon_usd.solver.latex.spins import VertexSet
 
 if TYPE_CHECKING:
@@ -110,6 +111,10 @@ class Hinge:
         self._sides = [VertexSet.of(self._vertices[side]) for side in (~self._beyond, self._beyond)]
         """What lies before the joint, and what lies beyond."""
         of = scene.vertex_segment.numpy()[self._vertices]
+        gas = AIR_DENSITY * float(scene.volume.numpy()[np.unique(of[of >= 0])].sum())
+        rubber = float(scene.true_mass.numpy()[self._vertices].sum())
+        self.lightness = (rubber + gas) / float(self._mass.sum())
+        """Mass of its rubber and gas, in that which its rubber has in the solver."""
         self._bubbles = [np.flatnonzero(of == segment) for segment in segments]
 
     def parts(self, x: NDArray[np.float32], point: NDArray[np.float32]) -> HingedParts:

@@ -222,5 +222,14 @@ def _body(plan: Plan, strip: Strip, mesh: BalloonMesh) -> LatexBody:
         return shape_body(mesh, strip.rubber, strip.size.thickness)
     pressure = SEALED_KNOT * maxwell_state(strip.rubber).p_star * strip.size.thickness / strip.size.radius
     guides = tuple(r.along for r in plan.table.rings if r.balloon == strip.balloon and not r.joint)
-    size, joints = strip.size, joint_places(strip)
-    return tube_body(mesh, strip.rubber, size.radius, size.thickness, joints, guides, pressure, strip.balls())
+    return tube_body(
+        mesh,
+        strip.rubber,
+        strip.size.radius,
+        strip.size.thickness,
+        joint_places(strip),
+        guides,
+        pressure,
+        strip.balls(),
+        tuple(bubble.drawn[1] for bubble in strip.bubbles[:-1]),
+    )

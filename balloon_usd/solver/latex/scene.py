@@ -75,7 +75,7 @@ def build_scene(
         | core_arrays(scene.bodies, scene.by_world)
         | {
             "quad_law": scene.quad_balloon.numpy(),
-            "rest_length": scene.hidden_rubber.rest_length(closed),
+            "rest_length": scene.hidden_rubber.rest_length(closed, np.zeros_like(closed)),
             "quad_length": np.ones(len(scene.quads), dtype=np.float32),
             "peak_energy": np.concatenate([b.worked for b in scene.bodies]).astype(np.float32),
         }

@@ -1,8 +1,8 @@
 """Torsion: the turns wound into the joints of a sculpture, and how those that nothing holds come undone.
 
-The rubber of a wound neck is a rod that springs back. Both parts of the sculpture turn against each other, at
-the rate that their inertia in the solver, raised as it is by mass scaling, and the drag of the air allow, and
-so that neither momentum nor angular momentum changes. Down to half a turn the neck stays closed; then its
+The rubber of a wound neck is a rod that springs back. Both parts of the sculpture turn against each other, as
+fast as the inertia of their rubber and gas and the drag of the air allow, and so that neither momentum nor
+angular momentum changes. Down to half a turn the neck stays closed; then its
 meridians open as a hyperboloid does, and the gas of both bubbles joins.
 """
 
@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from balloon_usd.balloon.bubble_shape import neck_rubber, neck_rubber_of_length
-from balloon_usd.balloon.tube_theory import maxwell_state
+from balloon_usd.balloon.wound_neck import drawing_torque, drawn_rubber, wound_rigidity
 from balloon_usd.operations.moves import Weld
 from balloon_usd.plan.open_tube import softened
 from balloon_usd.solver.latex.hinge import Hinge
@@ -42,8 +42,10 @@ OPEN_ANGLE = 0.05 * FULL_TURN
 """Wound angle at which a neck is as good as its tube, rad: its waist is 99 % as wide."""
 STEPS = 16
 """Steps in a frame in which the unwinding of a joint is followed."""
-MOST_ANGLE = 2.0
-"""Largest angle by which both parts turn against each other in a frame, rad: more is not seen."""
+MOST_ANGLE = 2.6
+"""Largest angle by which both parts turn against each other in a frame, rad: three turns take 0.3 s at 24
+frames/s. From half a turn on it would be seen as a turn the other way.
+"""
 
 
 @dataclass
@@ -58,6 +60,8 @@ class WoundJoint:
     """Radius of the closed neck, m."""
     wide: float
     """Radius of the tube before it was pinched, m."""
+    planned: float
+    """Unstressed rubber that its turns are planned to draw in, m."""
     turns: float = 0.0
     """Full turns of what lies beyond, seen against what lies before; signed."""
     rate: float = 0.0
@@ -67,13 +71,25 @@ class WoundJoint:
 
     @cached_property
     def stiffness(self) -> float:
-        """Torque for each radian, N m."""
+        """Torque for each radian of what it hides alone, N m."""
         return rope_stiffness(self.strip, self.bubble, self.neck)
+
+    @cached_property
+    def most_torque(self) -> float:
+        """Torque at which turns draw rubber in, N m."""
+        return drawing_torque(self.strip.size, softened(self.strip.rubber))
 
     @property
     def torque(self) -> float:
-        """Torque with which it would unwind, N m (Rivlin 1949)."""
-        return self.stiffness * FULL_TURN * self.turns
+        """Torque with which it would unwind, N m (Rivlin 1949), up to that at which turns draw rubber in."""
+        return math.copysign(min(self.stiffness * self.angle, self.most_torque), self.turns)
+
+    @property
+    def drawn(self) -> float:
+        """Share of what its turns are planned to draw in that is drawn in; 0 where that is nothing."""
+        if self.planned == 0.0:
+            return 0.0
+        return drawn_rubber(self.strip.size, softened(self.strip.rubber), self.turns) / self.planned
 
     @property
     def angle(self) -> float:
@@ -144,11 +160,14 @@ class Torsion:
         """Take note of a neck that is about to be closed; `wide`: radius of its tube, m."""
         planned = self.plan.table.rings[ring]
         neck = float(self.hands.neck[self._ring[ring]])
-        self.joints[ring] = WoundJoint(self.plan.strips[planned.balloon], planned.bubble, neck, wide)
+        strip = self.plan.strips[planned.balloon]
+        drawn = next(b.drawn[1] for b in strip.bubbles if b.name == planned.bubble)
+        self.joints[ring] = WoundJoint(strip, planned.bubble, neck, wide, drawn)
 
     def wind(self, ring: int, turns: float) -> None:
-        """Wind a joint by some more full turns."""
+        """Wind a joint by some more full turns; those that pack the neck no more draw rubber in."""
         self.joints[ring].turns += turns
+        self.hands.draw_rubber(self._ring[ring], self.joints[ring].drawn)
 
     @property
     def unwinding(self) -> str | None:
@@ -203,12 +222,13 @@ class Torsion:
             return
         loose = self._loose[0]
         wound = self.joints[loose.ring]
-        parts = loose.hinge.parts(self.hands.places, middle[loose.joint])
+        parts, light = loose.hinge.parts(self.hands.places, middle[loose.joint]), loose.hinge.lightness
         for _ in range(STEPS):
             inertia, motion = parts.response()
             drag, fastest = self.scene.settings.drag, MOST_ANGLE / seconds
-            parts.move(motion, wound.spring_back(inertia, drag, fastest, seconds / STEPS))
+            parts.move(motion, wound.spring_back(light * inertia, drag, fastest, seconds / STEPS))
         loose.hinge.follow(self.hands, parts, seconds)
+        self.hands.draw_rubber(loose.joint, wound.drawn)
         if wound.angle < CLOSED_ANGLE and not loose.open:
             loose.open = True
             self.undone = (*self.undone, loose.name)
@@ -232,9 +252,7 @@ class Torsion:
 def rope_stiffness(strip: Strip, bubble: str, neck: float) -> float:
     """Return the torque for each radian (N m) of the wound neck behind a bubble; `neck`: its radius, m.
 
-    The rubber that it hides is a rod of the wall's cross-section, stretched as far as the bubbles beside it:
-    torque = pi mu A^4 angle / (2 stretch length), of a neo-Hookean cylinder of unstressed radius A and length
-    (Rivlin 1949, Large elastic deformations of isotropic materials VI).
+    The rubber that it hides is a rod of the wall's cross-section.
     """
     at = next(k for k, planned in enumerate(strip.bubbles) if planned.name == bubble)
     rubber = softened(strip.rubber)
@@ -244,7 +262,5 @@ def rope_stiffness(strip: Strip, bubble: str, neck: float) -> float:
         if k in balls:
             length += neck_rubber_of_length(strip.size, rubber, planned.length, neck)
         else:
-            length += neck_rubber(strip.size, rubber, planned.rest_length, neck)
-    radius = math.sqrt(2.0 * strip.size.radius * strip.size.thickness)
-    stretch = maxwell_state(strip.rubber).bulged.b
-    return math.pi * strip.rubber.shear_modulus * radius**4 / (2.0 * stretch * length)
+            length += neck_rubber(strip.size, rubber, planned.wall_length, neck)
+    return wound_rigidity(strip.size, strip.rubber) / length
