@@ -64,8 +64,9 @@ class Run:
 
     @property
     def last_second(self) -> slice:
-        """The frames of the last second."""
-        return slice(-round(self.fps), None)
+        """The frames of the last second in which nothing comes undone."""
+        held = sum(not frame.doing.startswith("comes undone") for frame in self.frames)
+        return slice(held - round(self.fps), held)
 
     def frame_at(self, seconds: float) -> int:
         """Index of the frame that shows a time."""

@@ -131,6 +131,8 @@ def three(request):
     before = frame = None
     with free_fingers():
         for frames in simulation.frames():
+            if frames[0].doing.startswith("comes undone"):
+                break
             frame = frames[0]
             if frame.doing.startswith("inflate"):
                 before = frame

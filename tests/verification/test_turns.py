@@ -31,6 +31,7 @@ balloons:
 steps:
   - bubbles: {BUBBLES}
     turns: TURNS
+  - wait: 0.5
 physics: {hold: 0.1}
 """
 
@@ -40,9 +41,9 @@ class Row(NamedTuple):
 
     planned: Any
     tails: list[float]
-    """Flat tail before every pinch, and at the end, m."""
+    """Flat tail before every pinch, and when all are made, m."""
     rubber: list[float]
-    """Rubber in the mesh before the first pinch and at the end, m3."""
+    """Rubber in the mesh before the first pinch, and when all are made, m3."""
 
 
 @cache
@@ -54,6 +55,8 @@ def twisted(turns: float, bubbles: int, detail: str) -> Row:
     simulation = simulate_many([planned], detail=detail, device="cpu")
     flat, left, rubber = FlatTails(planned, simulation.meshes[0]), [], []
     for (frame,) in simulation.frames():
+        if frame.doing.startswith("loosen"):
+            break
         left += flat.left(frame)
         rubber.append(float(simulation.model.scene.rubber_volume.numpy().sum(dtype=np.float64)))
     pinches = [move.start for move in planned.choreography.moves if isinstance(move, Pinch)]

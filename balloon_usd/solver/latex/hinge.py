@@ -126,6 +126,15 @@ class Hinge:
         )
         return HingedParts(point.astype(float), before, beyond)
 
+    def reach(self, x: NDArray[np.float32], point: NDArray[np.float32], motion: Floats) -> float:
+        """Return how far the vertex that moves most goes while both parts turn against each other, m/rad.
+
+        `x`, `point`: as of `parts`; `motion`: of `HingedParts.response`.
+        """
+        arm = x[self._vertices].astype(float) - point
+        turn = np.where(self._beyond[:, None], motion[6:], motion[3:6])
+        return float(np.linalg.norm(motion[:3] + np.cross(turn, arm), axis=1).max())
+
     def follow(self, hands: LatexControls, parts: HingedParts, seconds: float) -> None:
         """Let all vertices follow the motion of both parts in the coming frame of so many seconds."""
         for vertices, part in zip(self._sides, (parts.before, parts.beyond), strict=True):

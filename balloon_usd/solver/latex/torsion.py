@@ -43,8 +43,12 @@ OPEN_ANGLE = 0.05 * FULL_TURN
 STEPS = 16
 """Steps in a frame in which the unwinding of a joint is followed."""
 MOST_ANGLE = 2.6
-"""Largest angle by which both parts turn against each other in a frame, rad: three turns take 0.3 s at 24
-frames/s. From half a turn on it would be seen as a turn the other way.
+"""Largest angle by which both parts turn against each other in a frame, rad: from half a turn on it would be
+seen as a turn the other way.
+"""
+FASTEST_WALL = 1.0
+"""Largest speed of a wall that turns with what unwinds, m/s: three turns between two bubbles of a 260 take a
+third of a second, of a long arm some seconds. Without it a tree of 24 bubbles was thrown about at 5 m/s.
 """
 
 
@@ -223,9 +227,11 @@ class Torsion:
         loose = self._loose[0]
         wound = self.joints[loose.ring]
         parts, light = loose.hinge.parts(self.hands.places, middle[loose.joint]), loose.hinge.lightness
+        drag, fastest = self.scene.settings.drag, MOST_ANGLE / seconds
+        reach = loose.hinge.reach(self.hands.places, middle[loose.joint], parts.response()[1])
+        fastest = min(fastest, FASTEST_WALL / reach)
         for _ in range(STEPS):
             inertia, motion = parts.response()
-            drag, fastest = self.scene.settings.drag, MOST_ANGLE / seconds
             parts.move(motion, wound.spring_back(light * inertia, drag, fastest, seconds / STEPS))
         loose.hinge.follow(self.hands, parts, seconds)
         self.hands.draw_rubber(loose.joint, wound.drawn)
