@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from balloon_usd.plan.welding import MOST_WELDED
 from balloon_usd.solver.kernels.physics.joints import CLASP_MODE, GRIP_MODE, LEAD_MODE
-from balloon_usd.solver.kernels.physics.motion import LEADING_SPEED, LYING_MODE, SETTLED_MODE
+from balloon_usd.solver.kernels.physics.motion import LEADING_SPEED, LYING_MODE
 from balloon_usd.solver.motions.chains import pose_chains
 from balloon_usd.solver.upload import ArrayUpload, BatchedUpload
 
@@ -150,12 +150,8 @@ class Hands:
         """Let the walls of these balloons touch nothing from now on."""
         self.touching[list(balloons)] = 0
 
-    def settle_walls(self, balloons: list[int]) -> None:
-        """Let the walls of these balloons look for nothing but what they touch, and move as they will."""
-        self.touching[balloons] = np.where(self.touching[balloons] > 0, SETTLED_MODE, 0)
-
     def lay(self, balloons: list[int]) -> None:
-        """Let the walls of these balloons touch what they touch, and nothing else, and stick to it."""
+        """Let the walls of these balloons go on touching what they touch, and nothing else."""
         self.touching[balloons] = np.where(self.touching[balloons] > 0, LYING_MODE, 0)
 
     def give_up(self, balloons: Iterable[int]) -> None:

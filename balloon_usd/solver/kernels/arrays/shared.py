@@ -93,9 +93,7 @@ class Balloons:
     contact_arc: wp.array[float] = array(
         "balloons", unit="1/m", meaning="growth of that distance with the area of the face that is touched"
     )
-    touching: wp.array[int] = array(
-        "balloons", meaning="1: its walls may touch anything; 2 and 3: what they touch; 2: they stick to it"
-    )
+    touching: wp.array[int] = array("balloons", meaning="1: its walls may touch anything; 2: what they touch")
 
 
 @array_struct

@@ -18,7 +18,7 @@ from balloon_usd.solver.kernels.device.chunk_rows import lanes_between, within_r
 from balloon_usd.solver.kernels.device.soa import store_soa
 from balloon_usd.solver.kernels.device.warp_reduce import lowest_bit, warp_ballot, warp_max, warp_max3
 from balloon_usd.solver.kernels.physics.meeting import FOLDED, INSIDE, Seeker, may_meet, opposite, seeker_of
-from balloon_usd.solver.kernels.physics.motion import LYING, SETTLED, SLOW
+from balloon_usd.solver.kernels.physics.motion import LYING, SLOW
 from balloon_usd.solver.kernels.physics.patch import SIDE_SLIP, nearest_on_patch, patch_shares
 from balloon_usd.solver.kernels.physics.surface import FAR, GROUP, surface_of_vertex, velocity_of_spin
 
@@ -310,8 +310,7 @@ def find_walls(
     high = seeker.position + wp.vec3(ROUNDED * seeker.reach)
     own_of_all = own
     touching = balloons.touching[seeker.balloon]
-    keeps = touching == LYING or touching == SETTLED
-    if spare or touching == 0 or keeps:
+    if spare or touching == 0 or touching == LYING:
         first = NONE
         last = -NONE
         low = wp.vec3(FAR)
@@ -346,7 +345,7 @@ def find_walls(
                     near, nearest = weigh_wall(q, near, nearest, before, seeker, touch, mesh, contacts, state)
                     close &= close - 1
         begin += step
-    if keeps:
+    if touching == LYING:
         nearest = before
     # Most vertices touch nothing, and did not before.
     if spare or (nearest[0] < 0 and before[0] < 0 and before[1] < 0):

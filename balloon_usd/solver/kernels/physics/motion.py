@@ -18,12 +18,6 @@ from balloon_usd.solver.kernels.device.soa import load_soa
 LYING_MODE = 2
 LYING = wp.constant(LYING_MODE)
 """Of a balloon that was put down: its walls touch what they touched, and look for nothing else."""
-SETTLED_MODE = 3
-SETTLED = wp.constant(SETTLED_MODE)
-"""Of a balloon of which hands hold nothing any more: its walls touch what they touched, and look for nothing
-else, but move as they will. Rubber that is squeezed by more walls than it may touch changed from one to
-another at every search: a flat tail between three bubbles of an icosahedron fluttered by 3 mm at the let-go.
-"""
 LYING_SPEED = wp.constant(1.0e-3)
 """Largest speed of its wall, m/s: faster it sticks to what it lies on."""
 LEADING_SPEED = 0.024

@@ -25,10 +25,6 @@ BRAKED = 0.73
 """Share of the time from which on what still moves is braked more and more: earlier, and what is squeezed is
 still on its way when hands let go.
 """
-SETTLED_SECONDS = 0.25
-"""Time before the let-go from which on walls look for nothing else than what they touch, s: what fluttered
-comes to rest in it.
-"""
 LEAST_LEADING = 5.0e-4
 """What is left of the speed at which walls are led out of others, m/s: what cannot be led out stays calm."""
 PACKED_DRAG = 300.0
@@ -45,7 +41,7 @@ class Loosen(Motion):
     jump there.
     """
 
-    def __init__(self, move: moves.Loosen, sculpture: LatexSculpture) -> None:
+    def __init__(self, _: moves.Loosen, sculpture: LatexSculpture) -> None:
         """Hold by the middle of each ring only, where it is; welds hold by friction from now on."""
         self._hands, middle = sculpture.hands, sculpture.frame.middle
         joints = np.array([j for j in sculpture.all_joints if self._hands.mode[j] != 0], dtype=np.int64)
@@ -57,9 +53,6 @@ class Loosen(Motion):
         self._bodies = list(sculpture.bodies)
         self._drag = sculpture.scene.settings.drag
         self._puts_down = not sculpture.plan.loose
-        # Where a lock slips or walls shrink as they leak they come to touch other walls.
-        still = not sculpture.plan.slipping and sculpture.plan.recipe.physics.leak is None
-        self._settled = 1.0 - SETTLED_SECONDS / move.seconds if still else 1.0
         self._hands.floating[self._bodies] = 1
         if self._puts_down:
             self._hands.packed_drag[self._bodies] = PACKED_DRAG
@@ -72,5 +65,3 @@ class Loosen(Motion):
         self._hands.leading[self._bodies] = LEADING_SPEED * left
         if self._puts_down and lying > 0.0:
             self._hands.drag[self._bodies] = self._drag * MOST_BRAKED**lying
-        if self._puts_down and share > self._settled:
-            self._hands.settle_walls(self._bodies)
