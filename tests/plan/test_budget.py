@@ -6,6 +6,11 @@ from itertools import pairwise
 
 import pytest
 
+from balloon_usd.balloon.bubble_shape import tail_volume_per_rest_length, tube_volume_per_rest_length
+from balloon_usd.balloon.wound_neck import drawn_rubber
+from balloon_usd.plan import plan_text
+from balloon_usd.plan.open_tube import softened
+
 
 def test_the_thesis_dog_keeps_17_millimetres_of_its_tail(dog):
     budget = dog.budgets["main"]
@@ -49,3 +54,39 @@ def test_inflation_between_its_bounds_comes_out_with_tail_and_gas(planned, dog):
     assert planned(body.format(least + 0.1)).budgets["a"].runs_out is None
     assert planned(body.format(most - 0.1)).budgets["a"].runs_out is None
     assert planned(body.format(most + 0.5)).budgets["a"].runs_out.bubble == "d"
+
+
+WOUND = """
+balloons: {{a: {{size: 260, tail: 12}}}}
+steps: [{{bubbles: {{b: 10, c: 10, d: 2}}, turns: {}}}]
+"""
+
+
+def test_every_turn_beyond_the_third_fills_as_much_tail_as_the_rubber_that_it_draws_in(planned):
+    few, many = (planned(WOUND.format(turns)) for turns in (3, 8))
+    strip, (before, after) = many.strips["a"], (each.budgets["a"] for each in (few, many))
+    size, rubber = strip.size, softened(strip.rubber)
+    drawn = 3.0 * drawn_rubber(size, rubber, 8.0)
+    bulged, thin = tube_volume_per_rest_length(size, rubber), tail_volume_per_rest_length(size, rubber)
+    assert (before.drawn, after.drawn) == (0.0, pytest.approx(drawn))
+    assert after.tail_used - before.tail_used == pytest.approx(drawn * bulged / (bulged - thin), rel=1e-6)
+    assert after.tail_needed == pytest.approx(after.tail_used)
+    assert "and 1.6 cm that turns draw in" in plan_text(many)
+    assert "draw in" not in plan_text(few)
+
+
+def test_necks_take_their_rubber_half_from_each_side_and_bubbles_keep_theirs(planned):
+    few, many = (planned(WOUND.format(turns)).strips["a"] for turns in (3, 8))
+    each = drawn_rubber(many.size, softened(many.rubber), 8.0)
+    assert [bubble.drawn for bubble in many.bubbles] == [(0.0, each), (each, each), (each, each), (each, 0.0)]
+    for before, after in zip(few.bubbles[:-1], many.bubbles[:-1], strict=True):
+        assert after.wall_length == pytest.approx(before.rest_length)
+        assert after.volume == pytest.approx(before.volume)
+    assert sum(bubble.wall_length for bubble in many.bubbles) + 3.0 * each == pytest.approx(many.size.length)
+
+
+def test_a_balloon_without_wound_necks_loses_nothing_to_turns(planned):
+    text = (
+        "physics: {model: kosaka}\nballoons: {a: {size: 260, tail: 12}}\nsteps: [{bubbles: {b: 10, c: 10}}]"
+    )
+    assert planned(text).budgets["a"].drawn == 0.0
