@@ -7,6 +7,7 @@ import pytest
 
 from balloon_usd.solver.kernels.physics.facing_walls import DEPTH_LIMIT, FACING, ROUNDING, STAYING
 from balloon_usd.solver.kernels.physics.meeting import FOLDED, INSIDE, OPPOSITE
+from balloon_usd.solver.kernels.physics.motion import LYING_MODE
 from balloon_usd.solver.kernels.physics.patch import SIDE_SLIP
 from balloon_usd.solver.kernels.physics.surface import GROUP
 from balloon_usd.solver.simulation import simulate_many
@@ -26,11 +27,11 @@ def model():
     return simulation.model
 
 
-def searched(model, velocity, crossed=0, watched=0, floating=0):
+def searched(model, velocity, crossed=0, watched=0, floating=0, touching=1):
     """The arrays of the scene after one more search; `velocity`: (V, 3), m/s.
 
     `crossed`, `watched`: whether its walls cross, and are kept apart at every search; `floating`: whether
-    hands loosen their grip.
+    hands loosen their grip; `touching`: what its walls may touch.
     """
     scene, search = model.scene, model.stepper._search
     kept = scene.v.numpy().copy()
@@ -38,7 +39,7 @@ def searched(model, velocity, crossed=0, watched=0, floating=0):
     scene.crossed.fill_(crossed)
     scene.watched.fill_(watched)
     scene.floating.fill_(floating)
-    scene.touching.assign(np.ones(len(scene.bodies), dtype=np.int32))
+    scene.touching.fill_(touching)
     search.measure_quads()
     search.find()
     found = {name: array.numpy().copy() for name, array in scene.arrays.items() if hasattr(array, "numpy")}
@@ -132,6 +133,19 @@ def test_every_vertex_finds_the_wall_nearest_to_it_of_all_that_it_may_touch(mode
     assert found > 100
     # Where necks press on full bubbles.
     assert small > 5
+
+
+def test_walls_that_lie_look_for_nothing_else_than_what_they_touch(model):
+    scene, still = model.scene, np.zeros((len(model.scene.x), 3), dtype=np.float32)
+    before = searched(model, still)["target"]
+    at = scene.x.numpy().copy()
+    scene.x.assign(at * np.array([1.0, 0.8, 1.25], dtype=np.float32))
+    try:
+        kept, found = searched(model, still, touching=LYING_MODE)["target"], searched(model, still)["target"]
+    finally:
+        scene.x.assign(at)
+    assert (kept == before).all()
+    assert (found != before).any(axis=1).sum() > 20
 
 
 @pytest.mark.parametrize("floating", [0, 1], ids=["held", "loosened"])

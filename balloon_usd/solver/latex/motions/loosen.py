@@ -25,6 +25,11 @@ BRAKED = 0.73
 """Share of the time from which on what still moves is braked more and more: earlier, and what is squeezed is
 still on its way when hands let go.
 """
+LIES_BEFORE = 0.25
+"""Time before the let-go from which on a figure lies and sticks to what it lies on, s: makers put down what
+they have made before they take their hands off. Squeezed rubber that flutters for ever, a flat tail between
+three bubbles of an icosahedron by 3 mm a frame, is at rest when hands let go, and not half a second later.
+"""
 LEAST_LEADING = 5.0e-4
 """What is left of the speed at which walls are led out of others, m/s: what cannot be led out stays calm."""
 PACKED_DRAG = 300.0
@@ -41,7 +46,7 @@ class Loosen(Motion):
     jump there.
     """
 
-    def __init__(self, _: moves.Loosen, sculpture: LatexSculpture) -> None:
+    def __init__(self, move: moves.Loosen, sculpture: LatexSculpture) -> None:
         """Hold by the middle of each ring only, where it is; welds hold by friction from now on."""
         self._hands, middle = sculpture.hands, sculpture.frame.middle
         joints = np.array([j for j in sculpture.all_joints if self._hands.mode[j] != 0], dtype=np.int64)
@@ -53,15 +58,20 @@ class Loosen(Motion):
         self._bodies = list(sculpture.bodies)
         self._drag = sculpture.scene.settings.drag
         self._puts_down = not sculpture.plan.loose
+        # Where a lock slips walls come to touch others, and what leaks shrinks.
+        stays = not sculpture.plan.slipping and sculpture.plan.recipe.physics.leak is None
+        self._lies = 1.0 - LIES_BEFORE / move.seconds if stays else 1.0
         self._hands.floating[self._bodies] = 1
         if self._puts_down:
             self._hands.packed_drag[self._bodies] = PACKED_DRAG
 
     def advance(self, share: float) -> None:
-        """Loosen the grip by a share; in the end brake what moves, unless it is to untwist."""
+        """Loosen the grip by a share; in the end brake what moves and lay it, unless it is to untwist."""
         loosened, lying = share / FADED, (share - BRAKED) / (1.0 - BRAKED)
         self._hands.force[self._joints] = LEAD_FORCE * math.exp(-DECAYS * loosened)
         left = (LEAST_LEADING / LEADING_SPEED) ** min(loosened, 1.0)
         self._hands.leading[self._bodies] = LEADING_SPEED * left
         if self._puts_down and lying > 0.0:
             self._hands.drag[self._bodies] = self._drag * MOST_BRAKED**lying
+        if self._puts_down and share > self._lies:
+            self._hands.lay(self._bodies)
