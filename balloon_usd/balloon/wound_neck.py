@@ -24,6 +24,12 @@ PACKING_TURNS = 3.0
 2008 1.1), and the round ends of the bubbles alone take 0.92; makers say that further turns use up the tail.
 Drawing from the second turn on, such a twist would take 1.15 cm, and a crown of 54 ears would not fit.
 """
+CLOSING_TURNS = 0.5
+"""Turns that close a neck: only those beyond hold it."""
+HELD_RATIO = 15.0
+"""How much harder the strands of bubbles pull at a wound neck than its end is held. Judged: so that three
+turns slip at a friction of 0.05, as of wet latex, and hold from 0.17 on, two from 0.29 on.
+"""
 
 
 def rope_radius(size: BalloonSize) -> float:
@@ -76,6 +82,16 @@ def drawing_torque(size: BalloonSize, rubber: Rubber) -> float:
         ValueError: the rubber cannot hold a bubble.
     """
     return math.sqrt(2.0 * wound_rigidity(size, rubber) * strand_force(size, rubber))
+
+
+def holding_friction(turns: float) -> float:
+    """Return the least friction at which a neck that is wound about others by so many turns holds; infinite
+    where they only close it.
+
+    The tension of a rope wound about another falls by exp(2 pi friction turns) along it (Euler's capstan).
+    """
+    holding = turns - CLOSING_TURNS
+    return math.log(HELD_RATIO) / (2.0 * math.pi * holding) if holding > 0.0 else math.inf
 
 
 def drawn_rubber(size: BalloonSize, rubber: Rubber, turns: float) -> float:

@@ -1,8 +1,8 @@
 """What holds when the hands let go for good, and what comes undone.
 
-A lock holds by the friction of its wound necks, which grows with every turn (capstan); of too few turns it
-slips. A joint that no lock and no ring holds untwists. Until the last step is done makers hold what they have
-made, also while they wait, so nothing comes undone before.
+A lock holds by the friction of its wound necks, which grows with every turn (capstan): of too few turns, or
+of rubber that is too slippery, it slips. A joint that no lock and no ring holds untwists. Until the last step
+is done makers hold what they have made, also while they wait, so nothing comes undone before.
 """
 
 from __future__ import annotations
@@ -10,8 +10,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from balloon_usd.balloon.wound_neck import holding_friction
+from balloon_usd.operations.modifiers import Turned
+
 if TYPE_CHECKING:
     from balloon_usd.language.joint import Joint
+    from balloon_usd.operations.operation import Operation
     from balloon_usd.recipe import Recipe
 
 
@@ -29,7 +33,15 @@ class LooseJoint:
 
 def slipping_steps(recipe: Recipe) -> frozenset[int]:
     """Return the indices of steps of which nothing holds what they joined when the hands let go."""
-    return frozenset(index for index, step in enumerate(recipe.steps) if not step.holds)
+    friction = recipe.physics.friction
+    return frozenset(
+        index for index, step in enumerate(recipe.steps) if not step.holds or too_slippery(step, friction)
+    )
+
+
+def too_slippery(step: Operation, friction: float) -> bool:
+    """Return whether a step winds a neck that does not hold for want of friction."""
+    return isinstance(step, Turned) and friction < holding_friction(step.turns)
 
 
 def loose_joints(recipe: Recipe, step: int) -> tuple[LooseJoint, ...]:

@@ -7,11 +7,14 @@ from itertools import chain
 from typing import TYPE_CHECKING
 
 from balloon_usd.balloon.bubble_shape import smallest_ball, softest_ball
-from balloon_usd.balloon.wound_neck import PACKING_TURNS
+from balloon_usd.balloon.wound_neck import PACKING_TURNS, holding_friction
 from balloon_usd.language.lengths import at_least, at_most, cm
 from balloon_usd.operations.caution import Caution
+from balloon_usd.operations.closing import TwistsClosed
+from balloon_usd.operations.lock import Lock
 from balloon_usd.operations.modifiers import HOLDING_TURNS, Turned
 from balloon_usd.plan.bent_chains import bends_onto_others
+from balloon_usd.plan.holding import too_slippery
 from balloon_usd.plan.long_sides import long_sides
 from balloon_usd.plan.open_tube import MILLIMETRE, roomy_share, shortened, softened, tail_range
 from balloon_usd.plan.room import room_cautions
@@ -64,6 +67,7 @@ def _of_latex(
 ) -> Iterator[Caution]:
     """What springs with frozen joints do not know: they neither harden, soften, burst nor unwind."""
     yield from _turns(recipe)
+    yield from _slippery(recipe)
     yield from _short_bubbles(strips)
     yield from chain.from_iterable(_burst(recipe, strips[name], it, graph) for name, it in budgets.items())
     yield from _softening(recipe)
@@ -88,6 +92,21 @@ def _turns(recipe: Recipe) -> Iterator[Caution]:
                 f"every turn beyond {PACKING_TURNS:g} draws rubber into it, and too many cut it",
                 "turns: 3",
             )
+
+
+def _slippery(recipe: Recipe) -> Iterator[Caution]:
+    friction = recipe.physics.friction
+    locks = [step for step in recipe.steps if isinstance(step, (Lock, TwistsClosed))]
+    slipping = [step for step in locks if step.holds and too_slippery(step, friction)]
+    if slipping:
+        turns = min(step.turns for step in slipping)
+        yield Caution(
+            None,
+            f"{len(slipping)} of {len(locks)} locks, loops and ears slip when the hands let go",
+            f"a wound neck holds by friction, and {_turns_text(turns)} need {holding_friction(turns):.2f}, "
+            f"not {friction:g}",
+            f"physics: friction: {math.ceil(100.0 * holding_friction(turns)) / 100.0:g}",
+        )
 
 
 def _turns_text(turns: float) -> str:

@@ -14,6 +14,7 @@ from balloon_usd.balloon.wound_neck import (
     drawing_torque,
     drawn_in_a_turn,
     drawn_rubber,
+    holding_friction,
     strand_force,
     wound_rigidity,
 )
@@ -43,3 +44,10 @@ def test_turns_that_pack_a_neck_draw_nothing_and_every_further_one_of_either_sen
     assert drawn_rubber(size, LATEX, 0.5) == drawn_rubber(size, LATEX, PACKING_TURNS) == 0.0
     for turns in (PACKING_TURNS + 2.0, -PACKING_TURNS - 2.0):
         assert drawn_rubber(size, LATEX, turns) == pytest.approx(2.0 * drawn_in_a_turn(size, LATEX))
+
+
+def test_the_more_turns_hold_a_neck_the_less_friction_it_needs_as_of_a_rope_round_a_bollard():
+    assert holding_friction(0.5) == math.inf
+    ratios = [math.exp(2.0 * math.pi * holding_friction(turns) * (turns - 0.5)) for turns in (1.0, 2.0, 5.0)]
+    assert ratios == pytest.approx([ratios[0]] * 3)
+    assert 0.05 < holding_friction(3.0) < holding_friction(2.0) < 0.3

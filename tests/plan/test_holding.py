@@ -33,6 +33,21 @@ def test_a_lock_holds_from_two_turns_on(planned, turns, loose):
     assert loose_in(figure) == loose
 
 
+@pytest.mark.parametrize(
+    ("friction", "turns", "holds"),
+    [(0.0, 5, False), (0.05, 3, False), (0.3, 3, True), (0.3, 2, True), (0.2, 2, False), (3.0, 1.5, False)],
+)
+def test_a_lock_of_slippery_rubber_slips_and_more_turns_hold_it(planned, friction, turns, holds):
+    figure = planned(f"physics: {{friction: {friction}}}\n{CHAIN}- lock: [b, c, d]\n  turns: {turns}\n")
+    assert loose_in(figure) == ([] if holds else ["b.end", "c.end", "d.end"])
+    assert (1 in figure.slipping) is not holds
+
+
+@pytest.mark.parametrize("friction", [0.05, 0.3, 0.8])
+def test_a_lone_twist_comes_undone_at_any_friction(planned, friction):
+    assert loose_in(planned(f"physics: {{friction: {friction}}}\n{CHAIN}")) == ["b.end", "c.end", "d.end"]
+
+
 def test_half_a_turn_within_a_locked_ring_cannot_leave_it(planned):
     figure = planned(f"{HEAD}- bubbles: {{b: 8, c: 8, d: 8}}\n  turns: 0.5\n- lock: [b, c, d]\n")
     assert loose_in(figure) == []

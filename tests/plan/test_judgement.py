@@ -114,3 +114,20 @@ def test_cautions_come_in_the_order_of_the_steps(planned):
     steps = [caution.step for caution in figure.cautions]
     assert steps[-1] is None
     assert steps[:-1] == sorted(steps[:-1])
+
+
+def test_locks_of_slippery_rubber_are_named_with_the_friction_that_they_need(planned):
+    text = """
+        physics: {{friction: {}}}
+        balloons: {{a: {{size: 260, tail: 10}}}}
+        steps: [{{bubbles: {{b: 10, c: 10}}}}, {{lock: [b, c]}}, {{loop: {{d: 20}}, turns: 2}}]
+        """
+    assert whats(planned(text.format(0.3))) == []
+    (one,) = planned(text.format(0.2)).cautions
+    assert (one.what, one.remedy) == (
+        "1 of 2 locks, loops and ears slip when the hands let go",
+        "physics: friction: 0.29",
+    )
+    (both,) = planned(text.format(0.05)).cautions
+    assert both.what.startswith("2 of 2 locks")
+    assert whats(planned(text.format(0.29))) == []

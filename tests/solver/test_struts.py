@@ -14,7 +14,7 @@ from balloon_usd.operations.moves import LetGo, Pinch, Weld
 from balloon_usd.plan import plan
 from balloon_usd.plan.nets import nets_of
 from balloon_usd.recipe import Recipe
-from balloon_usd.solver.latex.struts import CROWD
+from balloon_usd.solver.latex.struts import CROWD, StrutLaw
 from balloon_usd.solver.simulation import simulate_many
 from tests.solver.test_motions import Room
 
@@ -104,3 +104,8 @@ def test_the_struts_of_a_crowded_net_are_no_stiffer_than_explicit_steps_bear(ico
         total += (stiffness[k] * dt**2 + 2.0 * damping[k] * dt) * np.outer(pull, pull)
     # 4 is the limit of struts alone; walls, welds and hands take their part of it.
     assert np.linalg.eigvalsh(total)[-1] < 3.0
+
+
+def test_a_strut_yields_the_later_the_rougher_the_rubber():
+    assert StrutLaw.of_friction(0.8).yielding == pytest.approx(StrutLaw().yielding)
+    assert StrutLaw.of_friction(0.0).yielding == 0.0

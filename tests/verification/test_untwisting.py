@@ -24,7 +24,7 @@ steps:
     turns: TURNS
   - wait: 1
 LOCK
-physics: {hold: HOLD}
+physics: {hold: HOLD, friction: FRICTION}
 """
 LOCK = "  - lock: [first, second]\n    turns: TURNS"
 WAVE_SPEED = 33.0
@@ -47,12 +47,13 @@ class Seen(NamedTuple):
 
 
 @cache
-def performed(turns, lock=None, hold=2.5):
+def performed(turns, lock=None, hold=2.5, friction=0.8):
     """Perform two bubbles, with or without a lock of so many turns; return the simulation and what was
     seen.
     """
     text = TWO.replace("LOCK", "" if lock is None else LOCK.replace("TURNS", str(lock)))
-    made = plan(Recipe.parse(text.replace("TURNS", str(turns)).replace("HOLD", str(hold))))
+    text = text.replace("TURNS", str(turns)).replace("HOLD", str(hold)).replace("FRICTION", str(friction))
+    made = plan(Recipe.parse(text))
     simulation = simulate_many([made], detail="draft", device="cpu")
     scene, seen = simulation.model.scene, []
     mass = scene.mass.numpy().astype(float)[:, None]
@@ -171,9 +172,14 @@ def test_a_lock_of_enough_turns_holds_everything(verify, turns, lock):
         verify("V25", f"{name}, neck, m", girth(simulation, held[-1].frame, bubble), neck, 1e-2)
 
 
-@pytest.mark.parametrize("lock", [0.5, 1.5])
-def test_a_lock_of_few_turns_slips_and_lets_the_twists_unwind(lock):
-    _, seen = performed(3, lock, hold=3.5)
+def test_a_lock_of_three_turns_holds_at_a_friction_of_three_tenths():
+    _, seen = performed(3, 3, hold=1.5, friction=0.3)
+    assert seen[-1].frame.undone == ()
+
+
+@pytest.mark.parametrize(("lock", "friction"), [(0.5, 0.8), (1.5, 0.8), (3, 0.05)])
+def test_a_lock_of_few_turns_or_slippery_rubber_slips_and_lets_the_twists_unwind(lock, friction):
+    _, seen = performed(3, lock, hold=3.5, friction=friction)
     last = seen[-1].frame
     assert last.undone[0] == "main.knot = second.end"
     assert set(last.undone[1:]) == BOTH

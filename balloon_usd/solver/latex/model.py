@@ -98,7 +98,7 @@ class LatexModel(Model):
         self.scene.stretch_limit.assign(stretch_limits(plans, runs))
         self.stepper = Stepper(self.scene, substeps, threads)
         self.hands = LatexControls(self.scene)
-        self._struts = Struts(self.scene, StrutLaw())
+        self._struts = Struts(self.scene, StrutLaw.of_friction(physics.friction))
         self._sculptures = [
             LatexSculpture(plan, self.scene, self.hands, self._struts, run.start)
             for plan, run in zip(plans, runs, strict=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import chain
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +29,8 @@ ARRAYS = (
     "joint_struts",
 )
 """Device arrays of struts."""
+PRESSING = 3.75
+"""Force with which the bubbles about a joint press on each other, N: 7 kPa on two patches of 2.7 cm2."""
 STRUT_SHARE = 0.6
 """Stiffness of one strut as a share of the largest that a ring bears."""
 CROWD = 18
@@ -44,7 +46,12 @@ class StrutLaw:
     stiffness: float = 800.0
     """N/m, where the time step allows it."""
     yielding: float = 3.0
-    """Force at which it gives way, N: friction 0.8 x bubble pressure 7 kPa x two contact patches of 3 cm2."""
+    """Force at which it gives way, N."""
+
+    @classmethod
+    def of_friction(cls, friction: float) -> Self:
+        """Return that of rubber with some friction on rubber."""
+        return cls(yielding=friction * PRESSING)
 
 
 class Struts:
