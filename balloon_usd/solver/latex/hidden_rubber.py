@@ -40,11 +40,11 @@ class HiddenRubber:
         `closed`: how far every joint is closed, (J,), 0 to 1; `wound`: how much is drawn in of what its turns
         draw in when it is finished, (J,), from 0 on.
         """
-        more = np.zeros(len(self._hidden))
+        opened, slack = np.zeros(len(self._hidden)), np.zeros(len(self._hidden))
         for joints, drawn in zip(self._joints, self._drawn.T, strict=True):
-            opened = self._hidden * (1.0 - closed[joints]) + drawn * (1.0 - wound[joints])
-            more += np.where(joints < 0, 0.0, opened)
-        return np.asarray(1.0 + more, dtype=np.float32)
+            opened += np.where(joints < 0, 0.0, 1.0 - closed[joints])
+            slack += np.where(joints < 0, 0.0, drawn * (1.0 - wound[joints]))
+        return np.asarray(1.0 + self._hidden * opened + slack, dtype=np.float32)
 
 
 def _or_nothing(shares: NDArray[np.float64] | None, shape: tuple[int, ...]) -> NDArray[np.float64]:
