@@ -9,7 +9,7 @@ import warp as wp
 from balloon_usd.plan import plan
 from balloon_usd.recipe import Recipe
 from balloon_usd.solver.kernels.arrays.latex import Rubber
-from balloon_usd.solver.kernels.arrays.shared import Balloons, Contacts, Hands, Mesh, State
+from balloon_usd.solver.kernels.arrays.shared import Balloons, Hands, Mesh, State
 from balloon_usd.solver.latex.hinge import rotation
 from balloon_usd.solver.latex.spins import Spins, VertexSet
 from balloon_usd.solver.simulation import simulate_many
@@ -108,7 +108,7 @@ def test_sets_of_one_balloon_turn_each_about_its_own_axis_and_point(model):
         hands.spins.turn(VertexSet.of(vertices), spin)
     hands.drag[:] = 0.0
     hands.upload()
-    structs = [scene.arrays.struct(kind) for kind in (Mesh, Balloons, Rubber, Hands, Contacts, State)]
+    structs = [scene.arrays.struct(kind) for kind in (Mesh, Balloons, Rubber, Hands, State)]
     wp.launch(step_freely, dim=len(x), inputs=[STEP, *structs], device="cpu")
     wanted, speed = x + STEP * v, v.copy()
     for vertices, spin in zip(sets, (held, free), strict=True):

@@ -52,9 +52,7 @@ class LatexControls(Hands):
         self.pump_limit = np.ones(len(scene.bodies), dtype=np.float32)
         self.pump_goal = np.zeros(len(scene.bodies))
         self.packed_drag = np.zeros(len(scene.bodies), dtype=np.float32)
-        """Drag on the rubber of every balloon that is folded up in a neck, besides, 1/s; a share of it on
-        what two walls squeeze.
-        """
+        """Drag on the rubber of every balloon that is folded up in a neck, besides, 1/s."""
         self.spins = Spins(scene)
         self.softening = scene.softening_rate.numpy().copy()
         self.amount, self.volume = scene.amount.numpy().copy(), scene.volume.numpy().copy()

@@ -84,7 +84,7 @@ class Balloons:
     gravity: wp.array[float] = array("balloons", unit="m/s2", meaning="pull of gravity")
     drag: wp.array[float] = array("balloons", unit="1/s", meaning="drag of the air")
     packed_drag: wp.array[float] = array(
-        "balloons", unit="1/s", meaning="drag on rubber that is folded up or squeezed, besides"
+        "balloons", unit="1/s", meaning="drag on rubber that is folded up in a neck, besides"
     )
     friction: wp.array[float] = array("balloons", meaning="Coulomb friction")
     contact_offset: wp.array[float] = array(

@@ -238,7 +238,7 @@ def move_joint(
             f += (inside - outside) * fan_gradient(
                 vec3_at(state.x, i) - old_middle, chord, area, 1.0 / float(n)
             )
-        p, s = step_of_vertex(i, f, dt, shared, mesh, balloons, rubber, hands, contacts, state)
+        p, s = step_of_vertex(i, f, dt, shared, mesh, balloons, rubber, hands, state)
         put_vec3(state.x_next, i, p)
         put_vec3(state.v, i, s)
         d = p - old_middle

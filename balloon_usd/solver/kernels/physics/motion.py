@@ -4,14 +4,7 @@ import warp as wp
 
 from balloon_usd.solver.kernels.arrays.latex import Chambers, Forces, Rubber
 from balloon_usd.solver.kernels.arrays.shared import Balloons, Contacts, Hands, Mesh, State
-from balloon_usd.solver.kernels.device.array_access import (
-    float_at,
-    int_at,
-    int_in,
-    put_vec3,
-    vec3_at,
-    vec4i_at,
-)
+from balloon_usd.solver.kernels.device.array_access import float_at, int_at, put_vec3, vec3_at, vec4i_at
 from balloon_usd.solver.kernels.device.coherent_load import coherent_float, coherent_vec3
 from balloon_usd.solver.kernels.device.soa import load_soa
 
@@ -26,10 +19,6 @@ SLOW = wp.constant(1.0)
 """Largest speed of a wall that would have crossed another while hands work, m/s: then contact finds it before
 the next search. With 0.3 m/s necks stay shut that should open, with 4 m/s creases are stretched until they
 burst. Once hands loosen their grip nothing is slowed: walls that cannot move stir the rest for ever.
-"""
-SQUEEZED = wp.constant(0.3)
-"""Drag on a vertex that two walls touch, in that on rubber folded up in a neck: as there, more walls may
-press on it than it may touch. In 49 figures that hold 1336 vertices flutter, without it 1629.
 """
 
 
@@ -112,7 +101,6 @@ def step_of_vertex(
     balloons: Balloons,
     rubber: Rubber,
     hands: Hands,
-    contacts: Contacts,
     state: State,
 ):
     """Return where a force (N) moves a vertex (m) and its velocity there (m/s), by symplectic Euler
@@ -124,11 +112,8 @@ def step_of_vertex(
     # Drag takes from the velocity only: it must not weaken forces against those that act on whole rings.
     kept = wp.max(1.0 - float_at(balloons.drag, b) * dt, 0.0)
     packed = float_at(balloons.packed_drag, b)
-    if packed > 0.0:
-        if int_at(mesh.vertex_neck, i) >= 0:
-            kept = wp.max(kept - packed * dt, 0.0)
-        elif int_in(contacts.target, i, 0) >= 0 and int_in(contacts.target, i, 1) >= 0:
-            kept = wp.max(kept - SQUEEZED * packed * dt, 0.0)
+    if packed > 0.0 and int_at(mesh.vertex_neck, i) >= 0:
+        kept = wp.max(kept - packed * dt, 0.0)
     velocity = kept * coherent_vec3(state.v, i, shared) + (f + pull) * (dt / float_at(mesh.mass, i))
     slowness = float_at(state.slowness, i)
     if slowness > 0.0:
@@ -167,7 +152,7 @@ def move_vertex(
         f += force_of_further_quads(
             last, inside, mesh.corners, forces.corner_force, forces.volume_gradient, shared
         )
-    p, velocity = step_of_vertex(i, f, dt, shared, mesh, balloons, rubber, hands, contacts, state)
+    p, velocity = step_of_vertex(i, f, dt, shared, mesh, balloons, rubber, hands, state)
     over = sticking(velocity, int_at(balloons.touching, int_at(mesh.vertex_balloon, i)))
     put_vec3(state.x, i, p - over * dt)
     put_vec3(state.v, i, velocity - over)
