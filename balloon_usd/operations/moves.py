@@ -239,3 +239,8 @@ class Choreography:
     """Length of the animation, s."""
     mirrored: bool = False
     """Whether hands make the mirror image of what the recipe says, which frames show mirrored back."""
+
+    @property
+    def let_go(self) -> float:
+        """When the hands let go for good, s: at once, and as the last of what they make."""
+        return next(move.start for move in self.moves if isinstance(move, LetGo) and move.for_good)

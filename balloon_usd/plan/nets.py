@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from balloon_usd.plan.graph import sculpture_graph
+from balloon_usd.plan.stress import majorize
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -123,7 +124,7 @@ def embed(sides: Ints, lengths: Floats) -> Floats:
     for opening in OPENING:
         weights = np.where(beside, 1.0, opening)
         np.fill_diagonal(weights, 0.0)
-        places = _majorize(places, wanted, weights)
+        places = majorize(places, wanted, weights, ROUNDS)
     far = np.linalg.norm(places[first] - places[second], axis=1)
     return places * float(far @ wanted[first, second] / (far @ far))
 
@@ -136,16 +137,3 @@ def _classical(wanted: Floats) -> Floats:
     means = squares.mean(axis=0)
     values, axes = np.linalg.eigh(-0.5 * (squares - means - means[:, None] + squares.mean()))
     return np.asarray(axes[:, -3:] * np.sqrt(np.maximum(values[-3:], 1e-12)))
-
-
-def _majorize(places: Floats, wanted: Floats, weights: Floats) -> Floats:
-    """Return places of less stress, (N, 3): each step is the minimum of a bound (Guttman's transform)."""
-    inverse = np.linalg.pinv(_laplacian(weights))
-    for _ in range(ROUNDS):
-        far = np.linalg.norm(places[:, None] - places, axis=2)
-        places = inverse @ _laplacian(weights * wanted / np.maximum(far, 1e-9)) @ places
-    return places
-
-
-def _laplacian(weights: Floats) -> Floats:
-    return np.asarray(np.diag(weights.sum(axis=1)) - weights)

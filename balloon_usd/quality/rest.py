@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from balloon_usd.operations.moves import LetGo, SetDown
+from balloon_usd.operations.moves import SetDown
 from balloon_usd.quality.measures import MEASURES
 from balloon_usd.solver.status import COMES_UNDONE
 
@@ -29,9 +29,8 @@ class Rest:
         """Find out when to look."""
         fps, last = plan.recipe.fps, plan.frame_count
         carried = [m.start for m in plan.choreography.moves if isinstance(m, SetDown)]
-        let_go = max(m.end for m in plan.choreography.moves if isinstance(m, LetGo) and m.for_good)
         # The time of a frame is (code - 1) / fps.
-        self._let_go = min(1 + round(let_go * fps), last)
+        self._let_go = min(1 + round(plan.choreography.let_go * fps), last)
         self._rested = min(1 + round(carried[0] * fps), last) if carried else last
         """The frame before hands carry the figure to its pose: that is no creep."""
         self._half = (self._let_go + self._rested) // 2

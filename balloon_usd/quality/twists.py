@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from balloon_usd.operations.moves import LetGo, Pinch
+from balloon_usd.operations.moves import Pinch
 from balloon_usd.solver.flat_tails import FlatTails
 
 if TYPE_CHECKING:
@@ -41,10 +41,6 @@ def _due(plan: Plan) -> dict[int, list[tuple[str, str, float]]]:
     """Return by time code the balloons that are measured, the bubbles twisted off, and the planned tails."""
     found: dict[int, list[tuple[str, str, float]]] = {}
     rings = plan.table.rings
-    let_go = max(
-        (m.start for m in plan.choreography.moves if isinstance(m, LetGo) and m.for_good),
-        default=plan.choreography.seconds,
-    )
     for balloon, budget in plan.budgets.items():
         planned = {twist.bubble: twist.tail_left for twist in budget.twists}
         pinches = [
@@ -52,7 +48,7 @@ def _due(plan: Plan) -> dict[int, list[tuple[str, str, float]]]:
             for move in plan.choreography.moves
             if isinstance(move, Pinch) and rings[move.ring].balloon == balloon
         ]
-        ends = [*[move.start for move in pinches[1:]], let_go]
+        ends = [*[move.start for move in pinches[1:]], plan.choreography.let_go]
         # A balloon that is not twisted has no pinches.
         for move, end in zip(pinches, ends, strict=False):
             bubble = rings[move.ring].bubble

@@ -32,7 +32,7 @@ class ModelTraits:
 
 MODELS: dict[ModelName, ModelTraits] = {
     "latex": ModelTraits(
-        version="latex 16",
+        version="latex 17",
         title="hyperelastic rubber and gas",
         winds=True,
         starts_blown_up=False,

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from balloon_usd.balloon.leak import conductance
-from balloon_usd.operations.moves import LetGo
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -32,7 +31,7 @@ class Leak:
         self.hands = hands
         self._worlds = [
             (
-                _let_go(plan),
+                plan.choreography.let_go,
                 plan.choreography.seconds,
                 leak,
                 np.concatenate([scene.bubbles_of(b) for b in run]),
@@ -80,8 +79,3 @@ class Leak:
             rubber = s.rubber_volume.numpy()[faces] / s.rest_length.numpy()[segment]
             self._walls[segment] = s.quads.numpy()[faces].copy(), rubber
         return self._walls[segment]
-
-
-def _let_go(plan: Plan) -> float:
-    """Return when the hands let go for good, s."""
-    return next(m.start for m in plan.choreography.moves if isinstance(m, LetGo) and m.for_good)

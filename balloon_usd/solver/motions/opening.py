@@ -1,7 +1,8 @@
 """How a net opens: the way of its joints from where they are to their places, as hands turn it and shape it.
 
 The middle of its joints stays where it is. The net is turned as a whole, along the shortest way; while it is,
-every joint goes straight to its place in it, and its sides keep their lengths.
+every joint goes straight to its place in it, and its sides keep their lengths. Where that leads bubbles
+through each other, as in a chain that has curled up, hands unfold it instead.
 """
 
 from __future__ import annotations
@@ -12,6 +13,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from balloon_usd.solver.motions.unfolding import clearance, unfolded
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -21,6 +24,8 @@ WAYPOINTS = 13
 """Poses from the first to the last; hands go straight from one to the next."""
 CORRECTIONS = 30
 """Corrections of the lengths of the sides at each of them."""
+NARROW = 0.5
+"""Widths of a bubble that the middles of two may come near to each other on a straight way."""
 FITS = 30
 """Steps in which the net is laid over what there is of it."""
 NEAR = 0.01
@@ -64,14 +69,48 @@ def opening_path(
     shape, ahead = shape * mirror @ turned.T, ahead * mirror @ turned.T
     pairs = np.array(sides, dtype=np.int64).reshape(-1, 2)
     turn = np.zeros(3) if onward is None else rotation_vector(_aim(shape, ahead, here, pairs, width))
-    before, after = _lengths(here, pairs), _lengths(shape, pairs)
-    path, off = [here], here
-    for share in np.linspace(0.0, 1.0, WAYPOINTS)[1:]:
-        straight = here + share * (shape - here)
-        off = _with_sides(straight, pairs, before + share * (after - before))
-        path.append(off @ rotation(share * turn).T)
-    poses = np.array(path)
+    way = _way(here, shape, pairs, width)
+    shares = np.linspace(0.0, 1.0, WAYPOINTS)
+    poses = np.array([pose @ rotation(share * turn).T for pose, share in zip(way, shares, strict=True)])
     return np.asarray(began.mean(axis=0) + poses - poses.mean(axis=1, keepdims=True))
+
+
+def _way(here: Floats, shape: Floats, pairs: NDArray[np.int64], width: float) -> Floats:
+    """Return poses of the joints, the last one at the origin, (WAYPOINTS, N, 3), m: straight, or where that
+    is narrow and there is a wider way, unfolded.
+    """
+    straight = _straight_way(here, shape, pairs)
+    room = clearance(straight, shape, pairs)
+    if room >= NARROW * width:
+        return straight
+    unfolding = _evenly(_along_sides(unfolded(here, shape, width, WAYPOINTS), shape, pairs))
+    return unfolding if clearance(unfolding, shape, pairs) > room else straight
+
+
+def _straight_way(here: Floats, shape: Floats, pairs: NDArray[np.int64]) -> Floats:
+    """Return poses between which every joint goes straight to its place, (WAYPOINTS, N, 3), m."""
+    shares = np.linspace(0.0, 1.0, WAYPOINTS)[:, None, None]
+    return _along_sides(here + shares * (shape - here), shape, pairs)
+
+
+def _along_sides(poses: Floats, shape: Floats, pairs: NDArray[np.int64]) -> Floats:
+    """Return poses near these in which sides change their lengths evenly from those of the first to those of
+    a shape, (WAYPOINTS, N, 3), m.
+    """
+    before, after = _lengths(poses[0], pairs), _lengths(shape, pairs)
+    shares = np.linspace(0.0, 1.0, len(poses))[1:]
+    lengths = [before + share * (after - before) for share in shares]
+    found = [_with_sides(pose, pairs, each) for pose, each in zip(poses[1:], lengths, strict=True)]
+    return np.array([poses[0], *found])
+
+
+def _evenly(poses: Floats) -> Floats:
+    """Return as many poses on the same way, between which the joint that goes farthest goes equally far."""
+    ways = np.linalg.norm(np.diff(poses, axis=0), axis=2).max(axis=1)
+    gone = np.concatenate([[0.0], np.cumsum(ways)])
+    at = np.interp(np.linspace(0.0, gone[-1], len(poses)), gone, np.arange(len(poses)))
+    k = np.minimum(at.astype(np.int64), len(poses) - 2)
+    return np.asarray(poses[k] + (at - k)[:, None, None] * (poses[k + 1] - poses[k]))
 
 
 def fit(shape: Floats, here: Floats) -> tuple[Floats, float]:
