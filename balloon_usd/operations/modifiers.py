@@ -37,7 +37,7 @@ class Pointed(Entries):
     """Of an operation with a direction."""
 
     point: Point | None = None
-    """Where the folded or bent bubbles or the pressing finger go, as seen by the maker."""
+    """Where the folded or bent bubbles, or the pressing finger or hand go, as seen by the maker."""
 
 
 class Turned(Entries):

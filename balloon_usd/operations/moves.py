@@ -185,6 +185,8 @@ class Press(Move):
     """How deep it presses, m; 0 where force is given."""
     holds: tuple[int, ...] = ()
     """Rings that the other hand holds."""
+    flat: bool = False
+    """Whether the palms of both hands press in place of a finger, each half as deep."""
 
 
 @dataclass(frozen=True)

@@ -19,13 +19,26 @@ from balloon_usd.operations.modifiers import Burped, OnBalloon, Pointed, Timed, 
 from balloon_usd.operations.operation import Operation
 from balloon_usd.operations.press import Press
 from balloon_usd.operations.rest import Rest
+from balloon_usd.operations.squeeze import Squeeze
 from balloon_usd.operations.wait import Wait
 
 if TYPE_CHECKING:
     from pydantic import GetJsonSchemaHandler
     from pydantic.json_schema import JsonSchemaValue
 
-OPERATIONS: tuple[type[Operation], ...] = (Bubbles, Lock, Loop, Fold, Ear, Rest, Bend, Press, Inflate, Wait)
+OPERATIONS: tuple[type[Operation], ...] = (
+    Bubbles,
+    Lock,
+    Loop,
+    Fold,
+    Ear,
+    Rest,
+    Bend,
+    Press,
+    Squeeze,
+    Inflate,
+    Wait,
+)
 
 BY_WORD: dict[str, type[Operation]] = {operation.word: operation for operation in OPERATIONS}
 WORDS: tuple[str, ...] = tuple(BY_WORD)

@@ -92,6 +92,19 @@ def test_a_wrong_press_gives_one_message_at_its_line(written: str, message: str)
     assert found.partition(" ")[2] == f"steps[1].{message}"
 
 
+def test_springs_cannot_be_squeezed() -> None:
+    (found,) = messages(f"{CAPSULE}  - squeeze: {{bubble: main_rest, by: 20}}\n{KOSAKA}")
+    assert "steps[0].squeeze: makes no sense with model kosaka" in found
+    assert found.endswith("expected press, or no such step")
+
+
+def test_a_bubble_is_squeezed_by_a_share_of_its_width() -> None:
+    (found,) = messages(f"{TUBE}{AB}  - squeeze: {{bubble: a, by: 80 %}}\n")
+    assert "80 % is out of range, expected 1 to 60 %, the nearest is 60 %" in found
+    (found,) = messages(f"{TUBE}{AB}  - squeeze: {{bubble: c, by: 20 %}}\n")
+    assert 'unknown bubble "c"' in found
+
+
 def test_turns_make_no_sense_beside_a_press() -> None:
     (found,) = messages(f"{TUBE}{AB}  - press: {{bubble: a, depth: 1}}\n    turns: 2\n")
     assert found.endswith(

@@ -5,75 +5,17 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from balloon_usd.plan import plan
-from balloon_usd.recipe import Recipe
-from balloon_usd.solver.simulation import simulate_many
-
-RECIPE = """\
-format: 1
-name: dented
-units: cm
-balloons: {main: {size: 260, length: 20, tail: 6}}
-steps:
-  - bubbles: {belly: 9}
-  - press: {bubble: belly, HOW}
-  - rest: tail
-"""
-ALONG = np.array([0.0, 0.0, -1.0])
-
-
-class Pressed:
-    """The bubble in every frame from before the finger comes until it has gone."""
-
-    def __init__(self, how, bubbles="belly: 9"):
-        planned = plan(Recipe.parse(RECIPE.replace("HOW", how).replace("belly: 9", bubbles)))
-        self.simulation = simulate_many([planned], device="cpu")
-        scene = self.simulation.model.scene
-        names = [bubble.name for bubble in planned.bubbles]
-        self.mine = scene.vertex_segment.numpy() == self.simulation.model.layout.bubbles[names.index("belly")]
-        self.shapes, self.pressures, self.forces = [], [], []
-        self.only_mine = True
-        before = None
-        for (frame,) in self.simulation.frames():
-            points = frame.points[0].astype(np.float64)
-            if not frame.doing.startswith("press"):
-                if self.shapes:
-                    break
-                before = points, float(frame.pressure[0])
-                continue
-            if not self.shapes:
-                self._take(*before)
-            self._take(points, float(frame.pressure[0]))
-
-    def _take(self, points, pressure):
-        scene = self.simulation.model.scene
-        self.shapes.append(points[self.mine])
-        self.pressures.append(pressure)
-        self.only_mine = self.only_mine and not scene.finger_push.numpy()[~self.mine].any()
-        push = scene.finger_push.numpy() @ ALONG * scene.mass.numpy() / scene.settings.dt
-        self.forces.append((push[push > 0.0].sum(), -push[push < 0.0].sum()))
-
-    @property
-    def held(self):
-        """Number of a frame in which the finger has long been all the way in."""
-        return 15
-
-    def turned(self, frame):
-        """Angle by which the bubble has turned, in degrees."""
-        first, now = (points - points.mean(axis=0) for points in (self.shapes[0], self.shapes[frame]))
-        left, _, right = np.linalg.svd(first.T @ now)
-        turn = right.T @ np.diag([1.0, 1.0, np.linalg.det(right.T @ left.T)]) @ left.T
-        return float(np.degrees(np.arccos(min(0.5 * (np.trace(turn) - 1.0), 1.0))))
+from tests.solver.pressed import Pressed
 
 
 @pytest.fixture(scope="module")
 def deep():
-    return Pressed("depth: 2")
+    return Pressed("press: {bubble: belly, depth: 2}")
 
 
 @pytest.fixture(scope="module")
 def hard():
-    return Pressed('force: "4 N"')
+    return Pressed('press: {bubble: belly, force: "4 N"}')
 
 
 def test_a_finger_dents_a_bubble_as_deep_as_it_is_told_and_does_not_roll_it_away(deep):
@@ -106,6 +48,8 @@ def test_a_bubble_is_round_again_once_the_finger_has_gone(deep):
 
 @pytest.mark.parametrize("at", ["0.001", "0.1", "8.9", "8.9999"])
 def test_a_finger_close_to_a_joint_presses_on_the_bubble(at):
-    pressed = Pressed(f"at: {at}, depth: 1", bubbles="short: 2, belly: 9, small: 2")
+    pressed = Pressed(
+        f"press: {{bubble: belly, at: {at}, depth: 1}}", bubbles="{short: 2, belly: 9, small: 2}"
+    )
     assert pressed.forces[pressed.held][0] > 1.0
     assert pressed.only_mine

@@ -37,10 +37,12 @@ class Finger:
     """
     radius: float
     """Radius of a round tip that pushes what is inside it, m; 0 where it presses on a patch of vertices."""
+    flat: int
+    """1 where a disc of that radius presses, the palm of a hand, and the other comes towards it; else 0."""
     velocity: wp.vec3
     """Velocity of a round tip, m/s."""
     palm: wp.vec3
-    """Middle of the palm that lies against the far side meanwhile, across the finger, m."""
+    """Middle of the palm that lies against the far side, across the finger, at the start of the frame, m."""
     segment: int
     """Segment that a round tip and the palm touch; they pass through all others."""
 

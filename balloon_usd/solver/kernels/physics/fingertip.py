@@ -1,4 +1,4 @@
-"""A finger with a round tip, and the palm of the other hand: bodies that push a wall of latex."""
+"""A finger with a round tip, or a palm, and the palm of the other hand: bodies that push a wall of latex."""
 
 import warp as wp
 
@@ -32,8 +32,13 @@ def depth_in_hand(p: wp.vec3, finger: Finger, tip: wp.vec3):
         # Of a sphere, seen along the finger, and pressed the less the steeper it is there.
         rise = wp.sqrt(finger.radius * finger.radius - aside * aside) / finger.radius
         depth = rise * (finger.radius * (rise - 1.0) - ahead)
+        if finger.flat == 1:
+            depth = -ahead
     normal = finger.along
     beyond = wp.dot(p - finger.palm, finger.along)
+    if finger.flat == 1:
+        # The other palm comes towards it.
+        beyond += wp.dot(tip - finger.start, finger.along)
     if beyond > wp.max(depth, 0.0) and aside < PALM_RADIUS:
         depth = beyond
         normal = -finger.along
@@ -46,8 +51,9 @@ def push_of_hand(p: wp.vec3, velocity: wp.vec3, finger: Finger, tip: wp.vec3, dt
     substep, the unit normal there, and the velocity (m/s) at which it slides on them.
     """
     depth, normal = depth_in_hand(p, finger, tip)
-    # The palm is at rest.
-    going = velocity - wp.where(wp.dot(normal, finger.along) > 0.0, finger.velocity, wp.vec3(0.0))
+    # The palm is at rest, but that of two which squeeze.
+    palm = -float(finger.flat) * finger.velocity
+    going = velocity - wp.where(wp.dot(normal, finger.along) > 0.0, finger.velocity, palm)
     approach = wp.dot(going, normal)
     push = float(0.0)
     if depth > 0.0:

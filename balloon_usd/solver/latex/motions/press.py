@@ -1,4 +1,4 @@
-"""Pressing a finger with a round tip into a wall of latex, and taking it back."""
+"""Pressing a finger with a round tip, or a palm, into a wall of latex, and taking it back."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from balloon_usd.solver.kernels.physics.fingertip import DEEPEST
+from balloon_usd.solver.kernels.physics.fingertip import DEEPEST, PALM_RADIUS
 from balloon_usd.solver.motions.motion import Motion
 from balloon_usd.solver.motions.press import press_profile
 
@@ -31,7 +31,7 @@ FASTEST = 0.004
 
 
 class LatexPress(Motion):
-    """A finger on a bubble, while the other hand lies against its far side, and holds some rings."""
+    """A finger or a palm on a bubble, while the other hand is on its far side, and holds some rings."""
 
     def __init__(self, move: moves.Press, sculpture: LatexSculpture) -> None:
         """Take hold of the rings, and find the place under the finger."""
@@ -53,7 +53,8 @@ class LatexPress(Motion):
             missing = self._move.force * pressed - self._wall.force(self._hands.places, tip, self._along)
             self._depth += float(np.clip(missing / YIELDING, -FASTEST, FASTEST))
         else:
-            self._depth = self._move.depth * pressed
+            # Of two palms each goes half of the way.
+            self._depth = self._move.depth * pressed * (0.5 if self._move.flat else 1.0)
         begin, end, _ = self._sculpture.frame
         self._hands.set_fingertip(
             self._body,
@@ -62,8 +63,9 @@ class LatexPress(Motion):
             velocity=(self._depth - before) / (end - begin) * self._along,
             along=self._along,
             stiff=TIP_STIFFNESS,
-            radius=TIP_RADIUS,
-            palm=self._palm,
+            radius=self._wall.reach,
+            flat=int(self._move.flat),
+            palm=self._palm - before * self._along if self._move.flat else self._palm,
             segment=self._wall.segment,
         )
 
@@ -82,6 +84,8 @@ class _PressedWall:
         scene = sculpture.scene
         body = sculpture.body[move.balloon]
         mesh, start = scene.bodies[body], int(scene.vertex_start[body])
+        self.reach = PALM_RADIUS if move.flat else TIP_RADIUS
+        """Radius of what presses, m."""
         segments = scene.vertex_segment.numpy()
         bubble = sculpture.plan.strips[move.balloon].bubble_at(move.along)
         first, around = min(
@@ -111,7 +115,7 @@ class _PressedWall:
         arm = places[self._vertices] - middle
         ahead = arm @ along
         aside = np.linalg.norm(arm - ahead[:, None] * along, axis=1)
-        under = ahead[aside < max(TIP_RADIUS, 1.5 * float(aside.min()))]
+        under = ahead[aside < max(self.reach, 1.5 * float(aside.min()))]
         return middle + float(under.min()) * along, middle + float(under.max()) * along
 
     def force(
