@@ -143,6 +143,6 @@ def _wanted(path: Path) -> str:
         "balloons": "balloons such as {main: {size: 260, color: red, tail: 10}}",
         "steps": f"a list of steps, each with {one_of(WORDS)}",
         "joints": "a list such as [nose.end, tail.start]",
-        "bubble": "the bubble that is pressed",
+        "bubble": "the name of a bubble",
     }
     return wanted.get(str(path[-1]), "it here")

@@ -66,7 +66,7 @@ PRESSES = [
         "{bubble: a, depth: 1, force: 2}",
         "press.force: stands beside depth, expected exactly one of depth, force",
     ),
-    ("{depth: 1}", "press.bubble: is missing, expected the bubble that is pressed"),
+    ("{depth: 1}", "press.bubble: is missing, expected the name of a bubble"),
     ("{bubble: c, depth: 1}", 'press.bubble: unknown bubble "c", expected one of a, b, main_rest'),
     ("{bubble: main_rset, depth: 1}", 'press.bubble: unknown bubble "main_rset", did you mean "main_rest"?'),
     ("{bubble: a, dept: 1, depth: 1}", 'press.dept: unknown key "dept", did you mean "depth"?'),

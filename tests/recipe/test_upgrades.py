@@ -63,7 +63,7 @@ def test_only_the_new_word_is_written() -> None:
             "{bubble: c, depth: 1}",
             'old.yaml:9:20: steps[1].push.bubble: unknown bubble "c", expected a',
         ),
-        ("{depth: 1}", "old.yaml:9:5: steps[1].push.bubble: is missing, expected the bubble that is pressed"),
+        ("{depth: 1}", "old.yaml:9:5: steps[1].push.bubble: is missing, expected the name of a bubble"),
         (
             "{bubble: a, dept: 1, depth: 1}",
             'old.yaml:9:29: steps[1].push.dept: unknown key "dept", did you mean',
