@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from balloon_usd.solver.motions.unfolding import clearance, unfolded
+from balloon_usd.solver.motions.unfolding import ALONG_SIDE, ONE_JOINT, clearance, unfolded
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -40,10 +40,6 @@ BLOCKED = 2.0
 """Weight of bubbles in the way of what is left of the balloon, in widths of it."""
 REST = np.linspace(0.025, 0.25, 9)
 """Distances at which that is looked at, m."""
-ALONG_SIDE = np.linspace(0.0, 1.0, 7)
-"""Places along a bubble that are looked at, as shares."""
-ONE_JOINT = 1e-6
-"""Distance of places in a net below which joints are one, m."""
 MIRRORED = np.array([1.0, 1.0, -1.0])
 
 

@@ -22,7 +22,7 @@ NEAR_COUNT = 4
 """Power with which the weight of a distance falls with it."""
 ONE_JOINT = 1e-6
 """Distance of places in a net below which joints are one, m."""
-ALONG_SIDE = np.linspace(0.0, 1.0, 9)
+ALONG_SIDE = np.linspace(0.0, 1.0, 7)
 """Places along a bubble that are looked at, as shares."""
 
 
