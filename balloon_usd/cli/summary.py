@@ -110,11 +110,11 @@ def _totals(records: Sequence[Record], order: Order, seconds: float, device: str
     frames = sum(record.frames for record in made)
     counts = Counter("made" if record.status is Status.DONE else str(record.status) for record in records)
     told = ", ".join(f"{count} {what}" for what, count in counts.items())
-    several = f"{told}: " if len(records) > 1 else ""
-    rate = frames / max(seconds, 1e-9)
     where = f", {order.detail} on {device}" if device else ""
     if not made:
         return f"{told} in {seconds:.1f} s{where}"
+    several = f"{told}: " if len(records) > 1 else ""
+    rate = frames / max(seconds, 1e-9)
     return f"{several}{frames} frames in {seconds:.1f} s, {rate:.0f} frames/s{where}"
 
 

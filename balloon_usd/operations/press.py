@@ -8,11 +8,9 @@ from balloon_usd.language.choices import one_of
 from balloon_usd.language.lengths import at_most, cm
 from balloon_usd.language.names import Name
 from balloon_usd.language.quantities import Force, Length, length_entry, written_length
-from balloon_usd.operations.modifiers import Entries, OnBalloon, Pointed, Timed
-from balloon_usd.operations.moves import Move
+from balloon_usd.operations.modifiers import Entries
 from balloon_usd.operations.moves import Press as PressMove
-from balloon_usd.operations.operation import Operation
-from balloon_usd.operations.score import SETTLE_SECONDS
+from balloon_usd.operations.pressing import Pressing
 
 if TYPE_CHECKING:
     from balloon_usd.language.quantities import LengthLike, Units
@@ -40,12 +38,11 @@ class PressedBubble(Entries):
     """How hard it presses, instead of depth; N."""
 
 
-class Press(OnBalloon, Pointed, Timed, Operation):
+class Press(Pressing):
     """Press a finger into a bubble, hold it there, and take it away."""
 
     word: ClassVar[str] = "press"
     value_model: ClassVar[type[Entries] | None] = PressedBubble
-    keeps_time: ClassVar[bool] = True
     example: ClassVar[str] = """\
 format: 1
 name: dented
@@ -60,11 +57,6 @@ steps:
 
     press: PressedBubble
     """Press a finger into a bubble, hold it there, and take it away."""
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """The bubble that is pressed."""
-        return (self.press.bubble,)
 
     def entry(self, units: str | None) -> object:
         """Return its value as it stands in a file."""
@@ -92,19 +84,12 @@ steps:
         return value if force is None else value | {"force": force}
 
     @classmethod
-    def uses(cls, value: object) -> tuple[str, ...]:
-        """Return the bubble that is pressed."""
-        bubble = value.get("bubble") if isinstance(value, dict) else None
-        return (bubble,) if isinstance(bubble, str) else ()
-
-    @classmethod
     def check(cls, value: object, place: Place, bench: Workbench) -> None:
         """Complain of a bubble that does not exist by now, and unless it is told how hard or how deep."""
-        path = (*place.path, cls.word)
-        for bubble in cls.uses(value):
-            bench.find_whole(bubble, place, (*path, "bubble"))
+        super().check(value, place, bench)
         if not isinstance(value, dict):
             return
+        path = (*place.path, cls.word)
         given = [key for key in PRESSING if key in value]
         if not given:
             bench.complain(path, f"does not say how deep or how hard, expected {one_of(PRESSING)}")
@@ -132,9 +117,7 @@ steps:
             depth=press.depth or 0.0,
             holds=tuple(ring for ring, away in ends if away > FAR_FROM_FINGER * bubble.length),
         )
-        score.add(move)
-        score.add(Move(score.now, 2.0 * SETTLE_SECONDS, index, move.text))
-        score.let_go(index)
+        self.press_and_let_go(score, move)
 
     def _require_inside(self, score: Score, bubble: PlacedBubble, index: int) -> None:
         """Refuse a finger beside the bubble, or one that would come out at its other side."""

@@ -6,15 +6,13 @@ from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from balloon_usd.language.names import Name
 from balloon_usd.language.quantities import PercentWithin
-from balloon_usd.operations.modifiers import Entries, OnBalloon, Pointed, Timed
-from balloon_usd.operations.moves import Move, Press
-from balloon_usd.operations.operation import Operation
-from balloon_usd.operations.score import SETTLE_SECONDS
+from balloon_usd.operations.modifiers import Entries
+from balloon_usd.operations.moves import Press
+from balloon_usd.operations.pressing import Pressing
 
 if TYPE_CHECKING:
     from balloon_usd.language.quantities import Units
     from balloon_usd.operations.score import Score
-    from balloon_usd.operations.workbench import Place, Workbench
 
 SQUEEZE_SECONDS = 1.5
 """Squeezing, holding and letting go, s."""
@@ -29,12 +27,11 @@ class SqueezedBubble(Entries):
     """By how much of its width the hands come nearer to each other; percent."""
 
 
-class Squeeze(OnBalloon, Pointed, Timed, Operation):
+class Squeeze(Pressing):
     """Squeeze a bubble between both hands, and let it go: a firm one yields little."""
 
     word: ClassVar[str] = "squeeze"
     value_model: ClassVar[type[Entries] | None] = SqueezedBubble
-    keeps_time: ClassVar[bool] = True
     example: ClassVar[str] = """\
 format: 1
 name: squeezed
@@ -55,35 +52,18 @@ steps:
     squeeze: SqueezedBubble
     """Squeeze a bubble between both hands, and let it go."""
 
-    @property
-    def names(self) -> tuple[str, ...]:
-        """The bubble that is squeezed."""
-        return (self.squeeze.bubble,)
-
     def entry(self, units: str | None) -> object:
         """Return its value as it stands in a file."""
-        return {"bubble": self.squeeze.bubble, "by": f"{self.squeeze.by:g} %"}
+        return {"bubble": self.bubble, "by": f"{self.squeeze.by:g} %"}
 
     @classmethod
     def value_of(cls, units: Units, /, bubble: str, *, by: float | str) -> object:
         """Return its value as it stands in a file: by how much of its width, percent."""
         return {"bubble": bubble, "by": by}
 
-    @classmethod
-    def uses(cls, value: object) -> tuple[str, ...]:
-        """Return the bubble that is squeezed."""
-        bubble = value.get("bubble") if isinstance(value, dict) else None
-        return (bubble,) if isinstance(bubble, str) else ()
-
-    @classmethod
-    def check(cls, value: object, place: Place, bench: Workbench) -> None:
-        """Complain of a bubble that does not exist by now."""
-        for bubble in cls.uses(value):
-            bench.find_whole(bubble, place, (*place.path, cls.word, "bubble"))
-
     def perform(self, score: Score, index: int) -> None:
         """Press the palms of both hands on its middle, while fingers hold its ends."""
-        bubble = score.layout.bubble(self.squeeze.bubble)
+        bubble = score.layout.bubble(self.bubble)
         move = Press(
             score.now,
             SQUEEZE_SECONDS if self.seconds is None else self.seconds,
@@ -93,9 +73,7 @@ steps:
             along=bubble.rest_place(0.5 * bubble.length),
             point=score.towards(self.point or "down"),
             depth=0.01 * self.squeeze.by * bubble.width,
-            holds=tuple(ring for ring in score.layout.ends(self.squeeze.bubble) if ring is not None),
+            holds=tuple(ring for ring in score.layout.ends(self.bubble) if ring is not None),
             flat=True,
         )
-        score.add(move)
-        score.add(Move(score.now, 2.0 * SETTLE_SECONDS, index, move.text))
-        score.let_go(index)
+        self.press_and_let_go(score, move)

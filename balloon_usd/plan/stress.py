@@ -19,9 +19,13 @@ def majorize(places: Floats, wanted: Floats, weights: Floats, rounds: int) -> Fl
     """
     inverse = np.linalg.pinv(_laplacian(weights))
     for _ in range(rounds):
-        far = np.linalg.norm(places[:, None] - places, axis=2)
-        places = inverse @ _laplacian(weights * wanted / np.maximum(far, 1e-9)) @ places
+        places = inverse @ _laplacian(weights * wanted / np.maximum(distances(places), 1e-9)) @ places
     return places
+
+
+def distances(places: Floats) -> Floats:
+    """Return how far places (N, 3) lie from each other, (N, N), m."""
+    return np.asarray(np.linalg.norm(places[:, None] - places, axis=2))
 
 
 def _laplacian(weights: Floats) -> Floats:

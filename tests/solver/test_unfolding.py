@@ -45,7 +45,7 @@ def test_bubbles_of_a_chain_that_has_curled_up_go_past_each_other_on_its_way_to_
     began, shape = coil(), ring()
     straight = began + np.linspace(0.0, 1.0, 13)[:, None, None] * (shape - began)
     assert clearance(straight, shape, SIDES) < 0.1 * WIDTH
-    path = opening_path(began, shape, [(int(a), int(b)) for a, b in SIDES], None, WIDTH)
+    path = opening_path(began, shape, SIDES.tolist(), None, WIDTH)
     ends = min(clearance(path[[k, k]], shape, SIDES) for k in (0, -1))
     assert clearance(path, shape, SIDES) > 0.9 * ends
     assert distances(path[-1]) == pytest.approx(distances(shape), abs=0.001)
@@ -59,7 +59,7 @@ def test_joints_come_hardly_nearer_to_each_other_than_they_are_at_the_begin_or_t
 
 
 def test_what_unfolds_goes_evenly():
-    path = opening_path(coil(), ring(), [(int(a), int(b)) for a, b in SIDES], None, WIDTH)
+    path = opening_path(coil(), ring(), SIDES.tolist(), None, WIDTH)
     ways = np.linalg.norm(np.diff(path, axis=0), axis=2).max(axis=1)
     assert ways.max() < 2.0 * ways.mean()
 

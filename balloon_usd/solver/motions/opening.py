@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from balloon_usd.solver.motions.unfolding import ALONG_SIDE, ONE_JOINT, clearance, unfolded
+from balloon_usd.solver.motions.unfolding import ONE_JOINT, along_sides, clearance, rotation_onto, unfolded
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -118,9 +118,7 @@ def fit(shape: Floats, here: Floats) -> tuple[Floats, float]:
     weight, turned, far = np.ones(len(shape)), np.eye(3), np.zeros(len(shape))
     for _ in range(FITS):
         one, other = (places - np.average(places, axis=0, weights=weight) for places in (shape, here))
-        u, _, v = np.linalg.svd((weight[:, None] * other).T @ one)
-        u[:, -1] *= np.sign(np.linalg.det(u @ v))
-        turned = u @ v
+        turned = rotation_onto(weight[:, None] * other, one)
         far = np.linalg.norm(one @ turned.T - other, axis=1)
         weight = 1.0 / np.maximum(far, NEAR)
     return turned, float(far.sum())
@@ -152,8 +150,7 @@ def _blocked(ways: Floats, shape: Floats, pairs: NDArray[np.int64], width: float
     widths, for some directions of it (D, 3): (D,), from 0 to 1.
     """
     beside = pairs[(np.linalg.norm(shape[pairs], axis=2) > ONE_JOINT).all(axis=1)]
-    first, second = shape[beside[:, :1]], shape[beside[:, 1:]]
-    bubbles = (first + ALONG_SIDE[:, None] * (second - first)).reshape(-1, 3)
+    bubbles = along_sides(shape, beside).reshape(-1, 3)
     rest = ways[:, None] * REST[:, None]
     far = np.linalg.norm(rest[:, :, None] - bubbles, axis=3).min(axis=(1, 2), initial=width)
     return np.asarray(1.0 - far / width)

@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from balloon_usd.plan.stress import majorize
+from balloon_usd.plan.stress import distances, majorize
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -32,7 +32,7 @@ def unfolded(here: Floats, shape: Floats, width: float, count: int) -> Floats:
     `here`, `shape`: (N, 3), m, the last joint at the origin; `width`: of bubbles, m, nearer than which no two
     joints count more.
     """
-    begin, end = _distances(here), _distances(shape)
+    begin, end = distances(here), distances(shape)
     poses = [here]
     for share in np.linspace(0.0, 1.0, count)[1:-1]:
         wanted = begin + share * (end - begin)
@@ -50,7 +50,7 @@ def clearance(poses: Floats, shape: Floats, sides: Ints) -> float:
     `poses`: of joints, (P, N, 3), m, between which they go straight; `shape`: their places, (N, 3), m;
     `sides`: joints at both ends of every bubble, (sides, 2).
     """
-    one_joint = _distances(shape) < ONE_JOINT
+    one_joint = distances(shape) < ONE_JOINT
     first, second = np.triu_indices(len(sides), 1)
     ends = one_joint[sides[first][:, :, None], sides[second][:, None, :]]
     apart = ~ends.any(axis=(1, 2))
@@ -58,20 +58,32 @@ def clearance(poses: Floats, shape: Floats, sides: Ints) -> float:
     between = 0.5 * (poses[1:] + poses[:-1])
     nearest = np.inf
     for pose in (*poses, *between):
-        start, end = pose[sides[:, 0]], pose[sides[:, 1]]
-        along = start[:, None] + ALONG_SIDE[:, None] * (end - start)[:, None]
+        along = along_sides(pose, sides)
         far = along[first][:, :, None] - along[second][:, None]
         nearest = min(nearest, float((far * far).sum(axis=3).min(initial=np.inf)))
     return float(np.sqrt(nearest))
 
 
-def _distances(places: Floats) -> Floats:
-    return np.asarray(np.linalg.norm(places[:, None] - places, axis=2))
+def along_sides(places: Floats, sides: Ints) -> Floats:
+    """Return places along the middles of bubbles, (sides, ALONG_SIDE, 3), m.
+
+    `places`: of joints, (N, 3), m; `sides`: joints at both ends of every bubble, (sides, 2).
+    """
+    start, end = places[sides[:, :1]], places[sides[:, 1:]]
+    return np.asarray(start + ALONG_SIDE[:, None] * (end - start))
+
+
+def rotation_onto(others: Floats, places: Floats) -> Floats:
+    """Return the rotation, (3, 3), that lays places nearest to others, both about their middle (Kabsch 1976).
+
+    `others`: weighted, where some count more; both (N, 3), m.
+    """
+    u, _, v = np.linalg.svd(others.T @ places)
+    u[:, -1] *= np.sign(np.linalg.det(u @ v))
+    return np.asarray(u @ v)
 
 
 def _laid_over(places: Floats, others: Floats) -> Floats:
-    """Return places moved and turned as one so that they lie nearest to others (Kabsch 1976), (N, 3), m."""
+    """Return places moved and turned as one so that they lie nearest to others, (N, 3), m."""
     one, other = places - places.mean(axis=0), others - others.mean(axis=0)
-    u, _, v = np.linalg.svd(other.T @ one)
-    u[:, -1] *= np.sign(np.linalg.det(u @ v))
-    return np.asarray(one @ (u @ v).T + others.mean(axis=0))
+    return np.asarray(one @ rotation_onto(other, one).T + others.mean(axis=0))
