@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from balloon_usd.solver.kernels.device.search_lanes import SEARCH_LANES
 from balloon_usd.solver.kernels.device.warp_reduce import WARP
 from balloon_usd.solver.kernels.physics.facing_walls import find_own_walls, find_walls, order_hits
 from balloon_usd.solver.kernels.physics.surface import GROUP, chunk_surface, group_chunks, ring_radii
@@ -18,7 +19,8 @@ class WallSearch:
     def __init__(self, launcher: Launcher) -> None:
         self._launcher = launcher
         launcher.values["touch"] = launcher.scene.touch
-        self._groups = -(-len(launcher.scene.x) // launcher.lanes(WARP))
+        lanes = launcher.lanes(WARP)
+        self._groups = -(-len(launcher.scene.x) * min(SEARCH_LANES, lanes) // lanes)
         # One block size for all: each size is a separate compilation.
         launcher.launch(find_own_walls, len(launcher.scene.x), lanes=WARP)
         self._grouped = launcher.lanes(WARP) == 1
@@ -35,7 +37,6 @@ class WallSearch:
     def find(self) -> None:
         """Find the walls that face each other, once the quads are measured."""
         s, launcher = self._launcher.scene, self._launcher
-        launcher.zero(s.pair_count, s.pressed_count, s.listed_count)
         launcher.launch_tiled(ring_radii, len(s.ring_first), lanes=WARP)
         launcher.share_out(find_walls, self._groups, lanes=WARP)
         launcher.share_out(order_hits, len(s.quads), lanes=WARP, tiled=False)

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from balloon_usd.solver.kernels.device.search_lanes import SEARCH_LANES
 from balloon_usd.solver.kernels.device.warp_reduce import WARP
 from balloon_usd.solver.kernels.physics.keeping_apart import (
     begin_keeping_apart,
     begin_move_rounds,
     begin_moves,
-    count_put_back,
+    begin_untangling,
     end_keeping_apart,
     go_on_watching,
     move_together,
@@ -17,7 +18,6 @@ from balloon_usd.solver.kernels.physics.keeping_apart import (
 from balloon_usd.solver.kernels.physics.momentum import measure_momentum, take_momentum
 from balloon_usd.solver.kernels.physics.piercing_walls import box_walls, find_piercing_walls
 from balloon_usd.solver.kernels.physics.untangling import (
-    begin_untangling,
     draw_back,
     end_round,
     end_untangling,
@@ -27,7 +27,7 @@ from balloon_usd.solver.kernels.physics.untangling import (
 if TYPE_CHECKING:
     from balloon_usd.solver.launch import Launcher
 
-PARTS = 8
+PARTS = 4
 """Warps of a GPU that look for what one chunk of quads pierces: one dog has too few chunks to fill it
 (with the candidates of each quad kept as bits, 350 -> 41 us a frame of a dog on an H200).
 """
@@ -42,7 +42,7 @@ class Untangling:
         self._between_searches = between_searches
         self._parts = PARTS if launcher.lanes(WARP) > 1 else 1
         launcher.load(box_walls, find_piercing_walls, measure_momentum, lanes=WARP)
-        launcher.load(begin_keeping_apart, begin_untangling, take_momentum)
+        launcher.load(begin_keeping_apart, draw_back, take_momentum)
         self.start()
 
     def start(self) -> None:
@@ -83,13 +83,10 @@ class Untangling:
         self._launcher.loop(s.untangling, self._move_round)
         between = self._between_searches
         launch(end_keeping_apart, vertices, between_searches=between)
-        launch(count_put_back, worlds, between_searches=between)
-        self._launcher.zero(s.tangled)
-        launch(begin_untangling, worlds, frame_ends=frame_ends)
+        launch(begin_untangling, worlds, frame_ends=frame_ends, between_searches=between)
         self._launcher.when(s.tangled, self._untangle)
         self._launcher.launch_tiled(measure_momentum, worlds, lanes=WARP)
         launch(take_momentum, vertices)
-        self._launcher.zero(s.any_watched)
         launch(go_on_watching, worlds, frame_ends=frame_ends, between_searches=between)
 
     def _move_round(self) -> None:
@@ -120,7 +117,7 @@ class Untangling:
         """Find where walls cross as they are kept apart."""
         chunks = len(self._launcher.scene.box_low)
         self._launcher.share_out(box_walls, chunks, lanes=WARP)
-        groups = self._parts * chunks
+        groups = self._parts * min(SEARCH_LANES, self._launcher.lanes(WARP)) * chunks
         self._launcher.share_out(
             find_piercing_walls, groups, lanes=WARP, parts=self._parts, together=together
         )

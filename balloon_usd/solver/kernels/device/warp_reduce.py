@@ -166,6 +166,12 @@ def bit_of_rank(bits: int, rank: int):
     return lowest_bit(left)
 
 
+@native("for (int k = 0; k < count; ++k) bits &= bits - 1; return bits;")
+def without_lowest(bits: int, count: int) -> int:
+    """Return a mask without so many of its lowest set bits."""
+    return bits - count
+
+
 @native("return WP_TILE_BLOCK_DIM;")
 def block_lanes() -> int:
     """Return the block size as a compile-time constant, which `wp.block_dim()` is not."""

@@ -15,8 +15,15 @@ from balloon_usd.solver.kernels.device.array_access import (
 )
 from balloon_usd.solver.kernels.device.atomic import add_int, exchange_int
 from balloon_usd.solver.kernels.device.chunk_rows import lanes_between, within_reach
+from balloon_usd.solver.kernels.device.search_lanes import float_from_beside, int_from_beside, search_lanes
 from balloon_usd.solver.kernels.device.soa import store_soa
-from balloon_usd.solver.kernels.device.warp_reduce import lowest_bit, warp_ballot, warp_max, warp_max3
+from balloon_usd.solver.kernels.device.warp_reduce import (
+    lowest_bit,
+    warp_ballot,
+    warp_max,
+    warp_max3,
+    without_lowest,
+)
 from balloon_usd.solver.kernels.physics.meeting import FOLDED, INSIDE, Seeker, may_meet, opposite, seeker_of
 from balloon_usd.solver.kernels.physics.motion import LYING, SLOW
 from balloon_usd.solver.kernels.physics.patch import SIDE_SLIP, nearest_on_patch, patch_shares
@@ -157,6 +164,68 @@ def weigh_wall(
 
 
 @wp.func
+def weigh_walls(
+    chunk: int,
+    close: int,
+    part: int,
+    near: wp.vec2,
+    nearest: wp.vec2i,
+    before: wp.vec2i,
+    seeker: Seeker,
+    touch: Touch,
+    mesh: Mesh,
+    contacts: Contacts,
+    state: State,
+):
+    """Return the same after a `part` of those quads of a chunk whose bits are set: lanes that search together
+    share them out. Every lane tests one a round, until no lane has any left.
+    """
+    base = int_at(mesh.chunk_quad, chunk)
+    left = without_lowest(close, part)
+    while warp_ballot(wp.where(left != 0, 1, 0)) != 0:
+        if left != 0:
+            q = base + lowest_bit(left)
+            near, nearest = weigh_wall(q, near, nearest, before, seeker, touch, mesh, contacts, state)
+            left = without_lowest(left, search_lanes())
+    return near, nearest
+
+
+@wp.func
+def nearer(q: int, distance: float, other: int, other_distance: float):
+    """Return whether a quad is nearer than another one, or as near and met before; -1 for none."""
+    return q >= 0 and (other < 0 or distance < other_distance or (distance == other_distance and q < other))
+
+
+@wp.func
+def nearest_of_all(near: wp.vec2, nearest: wp.vec2i, mesh: Mesh):
+    """Return the two nearest quads of different bubbles, and their distances (m), of what all lanes that
+    search together have found: what one alone would have.
+    """
+    step = int(1)
+    while step < search_lanes():
+        distance0 = float_from_beside(near[0], step)
+        distance1 = float_from_beside(near[1], step)
+        other0 = int_from_beside(nearest[0], step)
+        other1 = int_from_beside(nearest[1], step)
+        theirs = nearer(other0, distance0, nearest[0], near[0])
+        winner = wp.where(theirs, wp.vec2i(other0, other1), nearest)
+        winner_near = wp.where(theirs, wp.vec2(distance0, distance1), near)
+        loser = wp.where(theirs, nearest, wp.vec2i(other0, other1))
+        loser_near = wp.where(theirs, near, wp.vec2(distance0, distance1))
+        # The loser's first, if of another bubble, else its second, which is.
+        second = loser[0]
+        second_near = loser_near[0]
+        if int_at(mesh.quad_segment, wp.max(loser[0], 0)) == int_at(mesh.quad_segment, wp.max(winner[0], 0)):
+            second = loser[1]
+            second_near = loser_near[1]
+        theirs = nearer(second, second_near, winner[1], winner_near[1])
+        near = wp.vec2(winner_near[0], wp.where(theirs, second_near, winner_near[1]))
+        nearest = wp.vec2i(winner[0], wp.where(theirs, second, winner[1]))
+        step *= 2
+    return near, nearest
+
+
+@wp.func
 def chunk_in_box(chunk: int, low: wp.vec3, high: wp.vec3, own: wp.vec2i, mesh: Mesh, contacts: Contacts):
     """Return 1 where a chunk reaches into a box (m) and has other quads than a run of own ones."""
     found = int(0)
@@ -287,17 +356,20 @@ def find_walls(
     """Choose for every vertex the nearest facing quads, of different bubbles, and enter it in their lists;
     write its outward unit normal and its share of the wall's area (m2).
 
-    On a GPU a warp searches for 32 neighbouring vertices: a broad phase culls chunks by the bounding box of
-    the whole warp, a narrow phase measures each lane's own candidates.
+    On a GPU a warp searches for 8 neighbouring vertices: a broad phase culls chunks by the bounding box of
+    the whole warp, in a narrow phase lanes that search together share out the candidates of their vertex.
     """
     group, lane = wp.tid()
-    i = (share_begin + group) * wp.block_dim() + lane
+    lanes = search_lanes()
+    i = ((share_begin + group) * wp.block_dim() + lane) // lanes
+    part = lane % lanes
     spare = i >= state.x.shape[0]
     i = wp.min(i, state.x.shape[0] - 1)
     outward, size = surface_of_vertex(i, mesh.corners, contacts.quad_area)
     seeker = seeker_at(i, wp.normalize(outward), touch, mesh, balloons, hands, contacts, state)
-    contacts.normal[i] = seeker.normal
-    contacts.area[i] = size
+    if part == 0:
+        contacts.normal[i] = seeker.normal
+        contacts.area[i] = size
     own = contacts.vertex_own[i]
     world = balloons.balloon_world[seeker.balloon]
     near = wp.vec2(FAR, FAR)
@@ -337,18 +409,15 @@ def find_walls(
             close = int(0)
             if chunk >= first and chunk < last:
                 close = close_quads_of_chunk(chunk, own, seeker, mesh, contacts)
-            base = int_at(mesh.chunk_quad, chunk)
-            # Narrow phase: every lane tests one candidate a round, until no lane has any left.
-            while warp_ballot(wp.where(close != 0, 1, 0)) != 0:
-                if close != 0:
-                    q = base + lowest_bit(close)
-                    near, nearest = weigh_wall(q, near, nearest, before, seeker, touch, mesh, contacts, state)
-                    close &= close - 1
+            near, nearest = weigh_walls(
+                chunk, close, part, near, nearest, before, seeker, touch, mesh, contacts, state
+            )
         begin += step
+    near, nearest = nearest_of_all(near, nearest, mesh)
     if touching == LYING:
         nearest = before
     # Most vertices touch nothing, and did not before.
-    if spare or (nearest[0] < 0 and before[0] < 0 and before[1] < 0):
+    if spare or part > 0 or (nearest[0] < 0 and before[0] < 0 and before[1] < 0):
         return
     enter_walls(i, seeker.position, nearest, before, world, sculptures, mesh, contacts, state)
 

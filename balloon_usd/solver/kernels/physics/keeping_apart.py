@@ -62,6 +62,9 @@ def begin_keeping_apart(frame_ends: int, contacts: Contacts, crossings: Crossing
     crossings.untangling_round[world] = wp.where(looked, 0, NOT_LOOKED)
     crossings.pierced_count[world] = 0
     crossings.crossed_count[world] = 0
+    if world == 0:
+        crossings.tangled[0] = 0
+        crossings.any_watched[0] = 0
 
 
 @wp.kernel
@@ -210,6 +213,23 @@ def end_keeping_apart(
 
 
 @wp.kernel
+def begin_untangling(frame_ends: int, between_searches: float, crossings: Crossings):
+    """Count how often in a row every sculpture was put back, and let walls be led apart that still cross;
+    where they did before already, once a frame.
+    """
+    world = wp.tid()
+    if is_put_back(world, between_searches, crossings):
+        crossings.put_back[world] += 1
+    elif crossings.untangling_round[world] != NOT_LOOKED:
+        crossings.put_back[world] = 0
+    old = frame_ends == 1 and crossings.crossed_count[world] > 0
+    if old or crossings.untangling_round[world] == FAILED:
+        crossings.untangling_round[world] = 0
+        crossings.pierced_count[world] = 0
+        wp.atomic_max(crossings.tangled, 0, 1)
+
+
+@wp.kernel
 def go_on_watching(
     frame_ends: int, between_searches: float, frame_seconds: float, contacts: Contacts, crossings: Crossings
 ):
@@ -221,13 +241,3 @@ def go_on_watching(
         contacts.watched[world] = left
     crossings.safe_seconds[world] = wp.where(left > 0, between_searches, frame_seconds)
     wp.atomic_max(crossings.any_watched, 0, left)
-
-
-@wp.kernel
-def count_put_back(between_searches: float, crossings: Crossings):
-    """Count how often in a row every sculpture was put back."""
-    world = wp.tid()
-    if is_put_back(world, between_searches, crossings):
-        crossings.put_back[world] += 1
-    elif crossings.untangling_round[world] != NOT_LOOKED:
-        crossings.put_back[world] = 0

@@ -12,7 +12,14 @@ from balloon_usd.solver.kernels.device.chunk_rows import (
     put_in_row,
     put_middle,
 )
-from balloon_usd.solver.kernels.device.warp_reduce import lowest_bit, warp_ballot, warp_max3, warp_or
+from balloon_usd.solver.kernels.device.search_lanes import search_lanes
+from balloon_usd.solver.kernels.device.warp_reduce import (
+    lowest_bit,
+    warp_ballot,
+    warp_max3,
+    warp_or,
+    without_lowest,
+)
 from balloon_usd.solver.kernels.physics.piercing_edge import (
     LONGER,
     answer_edge,
@@ -161,20 +168,24 @@ def answer_chunk(
     chunk: int,
     q: int,
     other: int,
+    part: int,
     together: int,
     world: int,
     mesh: Mesh,
     contacts: Contacts,
     crossings: Crossings,
 ):
-    """Answer the edges of a quad that pierce quads of a chunk."""
+    """Answer the edges of a quad that pierce quads of a chunk, a `part` of those near it: lanes that search
+    together share them out.
+    """
     c = vec4i_at(mesh.quads, q)
     own = int_at(mesh.quad_neck, q)
     base = int_at(mesh.chunk_quad, other)
     close = near_quads(chunk, q - int_at(mesh.chunk_quad, chunk), other, mesh, crossings)
+    close = without_lowest(close, part)
     while close != 0:
         r = base + lowest_bit(close)
-        close &= close - 1
+        close = without_lowest(close, search_lanes())
         d = vec4i_at(mesh.quads, r)
         neck = int_at(mesh.quad_neck, r)
         if neck < 0 or neck != own:
@@ -245,12 +256,17 @@ def find_piercing_walls(
     crossings: Crossings,
 ):
     """Sum up for every vertex how it is led out of walls that it has gone through, or how it and they go on
-    `together`, and count the edges that pierce a face, but for rubber of one neck; so many `parts` of the
-    other chunks for each chunk, by a warp of lanes each on a GPU.
+    `together`, and count the edges that pierce a face, but for rubber of one neck.
+
+    On a GPU a warp takes 8 quads of a chunk, in so many `parts` the chunks that they may pierce; lanes that
+    search together share out what is near their quad.
     """
     tile, lane = wp.tid()
     group = share_begin + tile
-    chunk = group // parts
+    lanes = search_lanes()
+    chunk = group // (parts * lanes)
+    stretch = group // parts % lanes
+    at_once = wp.block_dim() // lanes
     first = int_at(mesh.chunk_quad, chunk)
     world = int_at(mesh.quad_world, first)
     if int_at(crossings.untangling_round, world) < 0:
@@ -272,6 +288,6 @@ def find_piercing_walls(
         while others != 0:
             other = begin + lowest_bit(others) * parts
             others &= others - 1
-            for q in range(first + lane, last, wp.block_dim()):
-                answer_chunk(chunk, q, other, together, world, mesh, contacts, crossings)
+            for q in range(first + at_once * stretch + lane // lanes, last, at_once * lanes):
+                answer_chunk(chunk, q, other, lane % lanes, together, world, mesh, contacts, crossings)
         begin += wp.block_dim() * parts

@@ -53,11 +53,15 @@ def chunk_surface(
     state: State,
 ):
     """Write the middle (m), the vector area (m2) and the reach (m) of every quad, and the lowest and the
-    highest coordinates (m) of what the quads of a chunk reach; nothing touches them yet. A warp of lanes each
-    on a GPU.
+    highest coordinates (m) of what the quads of a chunk reach; nothing touches them yet, and the lists of
+    every sculpture are empty. A warp of lanes each on a GPU.
     """
     group, lane = wp.tid()
     chunk = share_begin + group
+    if lane == 0 and chunk < contacts.pair_count.shape[0]:
+        contacts.pair_count[chunk] = 0
+        contacts.pressed_count[chunk] = 0
+        contacts.listed_count[chunk] = 0
     high = wp.vec3(-FAR)
     low = wp.vec3(FAR)
     for q in range(mesh.chunk_quad[chunk] + lane, mesh.chunk_quad[chunk + 1], wp.block_dim()):

@@ -111,17 +111,6 @@ def about(i: int, mesh: Mesh, crossings: Crossings):
     return place / count, motion / count, smoothing
 
 
-@wp.kernel
-def begin_untangling(frame_ends: int, crossings: Crossings):
-    """Let walls be led apart that still cross; where they did before already, once a frame."""
-    world = wp.tid()
-    old = frame_ends == 1 and crossings.crossed_count[world] > 0
-    if old or crossings.untangling_round[world] == FAILED:
-        crossings.untangling_round[world] = 0
-        crossings.pierced_count[world] = 0
-        wp.atomic_max(crossings.tangled, 0, 1)
-
-
 @wp.func
 def way_of_vertex(i: int, most: float, crossings: Crossings):
     """Return how a vertex goes back (m), at most so far (m); its share in what is led says how far."""
