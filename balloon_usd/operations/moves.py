@@ -11,8 +11,13 @@ from typing import Literal
 
 Vector = tuple[float, float, float]
 
-Pose = Literal["as made", "stand", "hang", "hold"]
-"""How a finished figure is shown: where it was made, on the ground, on a thread, or held upright as it is."""
+Pose = Literal["as made", "stand", "hang", "hold", "drop", "throw"]
+"""How a finished figure is shown: where it was made, on the ground, on a thread, held upright as it is, or
+let go or thrown above the ground.
+"""
+
+LET_GO: tuple[Pose, ...] = ("drop", "throw")
+"""Poses in which hands let go of it above the ground."""
 
 Front = Literal["forward", "back", "left", "right", "up", "down"]
 """Which side of a figure, as it was made, is its front."""
@@ -230,6 +235,22 @@ class SetDown(Move):
     pose: Pose = "stand"
     front: Front = "forward"
     """The side that is turned to face -x."""
+    height: float = 0.0
+    """How far above the ground its lowest point comes, m."""
+    gravity: float = 0.0
+    """Under which it has to stand, m/s2; 0 where it floats."""
+
+
+@dataclass(frozen=True)
+class Fall(Move):
+    """Let the finished figure fall as it is, as a rigid body of its true weight."""
+
+    gravity: float = 0.0
+    """m/s2"""
+    velocity: Vector = (0.0, 0.0, 0.0)
+    """With which it is thrown, m/s."""
+    ground: bool = True
+    """Whether the plane z = 0 is there to fall on."""
 
 
 @dataclass(frozen=True)

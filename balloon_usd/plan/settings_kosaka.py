@@ -76,7 +76,7 @@ def _steps(recipe: Recipe) -> Iterator[Problem]:
 
 
 def _gravity(recipe: Recipe) -> Iterator[Problem]:
-    gravity = recipe.physics.gravity
+    gravity = recipe.gravity
     if gravity > HEAVIEST:
         text = (
             f"at {gravity:g} m/s2 the air of model kosaka, which has weight, runs out through its wall, "

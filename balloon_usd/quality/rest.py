@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from balloon_usd.operations.moves import SetDown
+from balloon_usd.operations.moves import Fall, SetDown
 from balloon_usd.quality.measures import MEASURES
 from balloon_usd.solver.status import COMES_UNDONE
 
@@ -28,7 +28,9 @@ class Rest:
     def __init__(self, plan: Plan) -> None:
         """Find out when to look."""
         fps, last = plan.recipe.fps, plan.frame_count
-        carried = [m.start for m in plan.choreography.moves if isinstance(m, SetDown)]
+        carried = [m.start for m in plan.choreography.moves if isinstance(m, (SetDown, Fall))]
+        self._falls_on = any(isinstance(m, Fall) and not m.ground for m in plan.choreography.moves)
+        """Whether the figure still falls in the end, with no ground to land on."""
         # The time of a frame is (code - 1) / fps.
         self._let_go = min(1 + round(plan.choreography.let_go * fps), last)
         self._rested = min(1 + round(carried[0] * fps), last) if carried else last
@@ -63,7 +65,8 @@ class Rest:
 
     def results(self) -> dict[str, dict[str, Any]]:
         """Return speed and creep, once the last frame is taken."""
-        return {"speed": MEASURES["speed"].result(self._speed), "creep": self._creep_found()}
+        speed = None if self._falls_on else self._speed
+        return {"speed": MEASURES["speed"].result(speed), "creep": self._creep_found()}
 
     def _creep_found(self) -> dict[str, Any]:
         """Return the creep; what comes undone goes where that leads it, which is none."""

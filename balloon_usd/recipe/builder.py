@@ -42,6 +42,8 @@ class RecipeBuilder:
         fps: float | None = None,
         tempo: Tempo | None = None,
         pose: Pose | None = None,
+        height: LengthLike | None = None,
+        speed: float | None = None,
         front: Front | None = None,
         mirror: bool = False,
     ) -> None:
@@ -51,7 +53,8 @@ class RecipeBuilder:
         self._name = name
         self._balloons: dict[str, Entries] = {}
         self._steps: list[Entries] = []
-        self._end = _given({"pose": pose, "front": front, "mirror": mirror or None})
+        falling = {"height": None if height is None else self._length(height), "speed": speed}
+        self._end = _given({"pose": pose, **falling, "front": front, "mirror": mirror or None})
         self._physics: Entries = {}
 
     def balloon(

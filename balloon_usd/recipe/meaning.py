@@ -11,6 +11,7 @@ from balloon_usd.operations.workpiece import Workpiece
 from .balloons import FILLINGS, FLAT_ONLY, balloons_in
 from .mesh_words import mesh_complaints, meshes_in
 from .model_words import model_complaints
+from .pose_words import pose_complaints
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -41,7 +42,9 @@ def meaning_of(data: object) -> Meaning:
         if not meshes or step.pumped:
             step.check(bench)
     piece = _blown_up(meshes, len(steps)) if meshes else bench.finished(len(steps))
-    return Meaning([*bench.complaints, *mesh_complaints(data), *model_complaints(data)], piece)
+    return Meaning(
+        [*bench.complaints, *mesh_complaints(data), *model_complaints(data), *pose_complaints(data)], piece
+    )
 
 
 def _blown_up(meshes: Sequence[str], steps: int) -> Workpiece:

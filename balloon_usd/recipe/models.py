@@ -18,6 +18,8 @@ class ModelTraits:
     """Name and number in the provenance of results: another number may move points."""
     title: str
     """What it is made of, in a few words."""
+    has_weight: bool
+    """Whether the finished figure has its true weight, and falls."""
     winds: bool
     """Whether joints are wound by turns, and so can unwind; else they freeze."""
     starts_blown_up: bool
@@ -32,8 +34,9 @@ class ModelTraits:
 
 MODELS: dict[ModelName, ModelTraits] = {
     "latex": ModelTraits(
-        version="latex 17",
+        version="latex 18",
         title="hyperelastic rubber and gas",
+        has_weight=True,
         winds=True,
         starts_blown_up=False,
         has_air_particles=False,
@@ -43,6 +46,7 @@ MODELS: dict[ModelName, ModelTraits] = {
     "kosaka": ModelTraits(
         version="kosaka 3",
         title="springs and air particles",
+        has_weight=False,
         winds=False,
         starts_blown_up=True,
         has_air_particles=True,

@@ -23,8 +23,8 @@ class Physics(Entries):
     """Law of the rubber."""
     softening: StrictBool = True
     """Whether rubber that was stretched once stays softer (Mullins effect)."""
-    gravity: Annotated[float, Between(0.0, 100.0, "m/s2")] = 0.0
-    """Acceleration downwards, m/s2."""
+    gravity: Annotated[float, Between(0.0, 100.0, "m/s2")] | None = None
+    """Acceleration downwards, m/s2, of the finished figure; chosen by the pose when absent."""
     friction: Annotated[float, Between(0.0, 3.0)] = 0.8
     """Coulomb coefficient of latex on latex."""
     substeps: Annotated[int, Between(20, MOST_SUBSTEPS, whole=True)] | None = None

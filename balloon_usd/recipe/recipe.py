@@ -18,10 +18,10 @@ from pydantic import (
 from balloon_usd.language.marks import Marks
 from balloon_usd.language.names import Name, Text
 from balloon_usd.language.problem import Complaint, Notice, Path, Problem, RecipeError, path_text, quoted
-from balloon_usd.language.quantities import METRES, Between, Reading, Units
+from balloon_usd.language.quantities import METRES, Between, LengthWithin, Reading, Units
 from balloon_usd.language.yaml_reader import Document, read_yaml
 from balloon_usd.operations.modifiers import Entries
-from balloon_usd.operations.moves import Front, Pose
+from balloon_usd.operations.moves import LET_GO, Front, Pose
 from balloon_usd.operations.table import Step
 from balloon_usd.operations.tempo import Tempo
 from balloon_usd.operations.workpiece import Workpiece
@@ -35,6 +35,10 @@ from .upgrades import upgraded
 from .writer import recipe_entries, recipe_text
 
 FRAMES_PER_SECOND = 24.0
+HIGHEST = 10.0
+"""Farthest above the ground that a figure can be let go, m."""
+EARTH = 9.81
+"""Gravity of figures that stand, fall or are thrown, m/s2."""
 
 
 @dataclass(frozen=True)
@@ -78,6 +82,11 @@ class Recipe(Entries):
     pose: Pose = "as made"
     """How the finished figure is shown: where it was made, or put so that it stands on the ground at the
     origin, hangs from a thread, or is held with its middle at the origin."""
+    height: Annotated[float, LengthWithin(high=HIGHEST, low_included=True)] | None = None
+    """How far above the ground the lowest point of a figure is that is dropped or thrown, 1 m when absent; m
+    in Python."""
+    speed: Annotated[float, Between(0.0, 10.0, "m/s")] | None = None
+    """How fast it is thrown ahead, 3 m/s when absent."""
     front: Front = "forward"
     """Which side of the figure, as it is made, is its front: in the end it is turned to face -x."""
     mirror: StrictBool = False
@@ -132,6 +141,17 @@ class Recipe(Entries):
     def piece(self) -> Workpiece:
         """What the steps make of the balloons, one after the other."""
         return self._piece
+
+    @property
+    def gravity(self) -> float:
+        """Gravity that acts on the finished figure, m/s2: that of the earth where its pose is one on the
+        ground, and none where hands or a thread hold it, if the recipe does not say.
+        """
+        given = self.physics.gravity
+        if given is None:
+            grounded = self.physics.traits.has_weight and self.pose in ("stand", *LET_GO)
+            return EARTH if grounded else 0.0
+        return given
 
     @property
     def file(self) -> str:

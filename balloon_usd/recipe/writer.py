@@ -25,7 +25,7 @@ Entries = dict[str, object]
 
 HEAD = ("name", "title", "source", "units", "fps", "tempo")
 """Keys between the format and the balloons, in this order."""
-END = ("pose", "front", "mirror")
+END = ("pose", "height", "speed", "front", "mirror")
 """Keys behind the steps, in this order."""
 
 _PLAIN_WORD = re.compile(r"[A-Za-z_][A-Za-z0-9_.+ -]*", re.ASCII)
@@ -50,6 +50,8 @@ def recipe_entries(
         "steps": [step_entries(step, units) for step in steps],
     }
     entries |= {key: written[key] for key in END if key in written}
+    if isinstance(height := written.get("height"), float):
+        entries["height"] = length_entry(height, units)
     physics = written.get("physics")
     if isinstance(physics, dict):
         entries["physics"] = _physics_entries(physics, units)

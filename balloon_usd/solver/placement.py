@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +17,11 @@ class Placement(NamedTuple):
     """Rotation matrix, (3, 3)."""
     shift: NDArray[np.float32]
     """(3,), m."""
+
+    @classmethod
+    def by(cls, turn: Floats, shift: Floats) -> Self:
+        """Return a turn (3, 3) about the origin and a shift (3,) behind it, m."""
+        return cls(turn.astype(np.float32), shift.astype(np.float32))
 
     def put(self, points: NDArray[np.float32]) -> None:
         """Move points (N, 3) in place, m."""

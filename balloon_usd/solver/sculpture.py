@@ -127,14 +127,14 @@ class Sculpture:
         return Carried(joints, by, middle[joints].astype(np.float64))
 
     @property
-    def _vertices(self) -> slice:
+    def vertices(self) -> slice:
         """All its vertices in the scene."""
         start = self.scene.vertex_start
         return slice(int(start[self.bodies[0]]), int(start[self.bodies[-1] + 1]))
 
     def walls(self) -> NDArray[np.float64]:
         """Return where all its vertices are, (V, 3), m."""
-        walls: NDArray[np.float64] = self.hands.places[self._vertices].astype(np.float64)
+        walls: NDArray[np.float64] = self.hands.places[self.vertices].astype(np.float64)
         return walls
 
     def centre(self, points: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from balloon_usd.solver.motions.opening import fit, opening_path, rotation, rotation_vector
+from balloon_usd.solver.motions.opening import fit, half_turn_vector, opening_path
+from balloon_usd.solver.rotations import rotation
 
 TURNED = rotation(np.array([0.4, -1.1, 0.7]))
 WIDTH = 0.05
@@ -81,4 +82,4 @@ def test_what_is_left_of_a_balloon_leaves_a_net_where_no_bubble_is():
 @pytest.mark.parametrize("angle", [0.0, 1e-7, 0.5, 3.1, np.pi])
 def test_a_rotation_is_found_again_up_to_half_a_turn(angle):
     matrix = rotation(angle * np.array([0.6, 0.0, -0.8]))
-    assert rotation(rotation_vector(matrix)) == pytest.approx(matrix, abs=1e-6)
+    assert rotation(half_turn_vector(matrix)) == pytest.approx(matrix, abs=1e-6)

@@ -10,8 +10,8 @@ from balloon_usd.plan import plan
 from balloon_usd.recipe import Recipe
 from balloon_usd.solver.kernels.arrays.latex import Rubber
 from balloon_usd.solver.kernels.arrays.shared import Balloons, Hands, Mesh, State
-from balloon_usd.solver.latex.hinge import rotation
 from balloon_usd.solver.latex.spins import Spins, VertexSet
+from balloon_usd.solver.rotations import rotation
 from balloon_usd.solver.simulation import simulate_many
 from tests.solver.spin_kernels import step_freely
 

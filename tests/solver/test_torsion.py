@@ -11,8 +11,9 @@ from balloon_usd.balloon.wound_neck import drawn_in_a_turn
 from balloon_usd.plan import plan
 from balloon_usd.plan.open_tube import softened
 from balloon_usd.recipe import Recipe
-from balloon_usd.solver.latex.hinge import HingedParts, Part, rotation, rotation_vector, screw
+from balloon_usd.solver.latex.hinge import HingedParts, Part, screw
 from balloon_usd.solver.latex.torsion import OPEN_ANGLE, WoundJoint
+from balloon_usd.solver.rotations import rotation, rotation_vector
 
 CHAIN = "format: 1\nname: c\nunits: cm\nballoons: {main: {size: 260, length: 14, tail: 5}}\nsteps: [bubbles: {a: 8}]\n"
 

@@ -92,7 +92,7 @@ class KosakaModel(Model):
         worlds = [world for world, run in enumerate(runs) for _ in run]
         settings = SceneSettings(
             dt=dt,
-            gravity=plans[0].recipe.physics.gravity,
+            gravity=plans[0].recipe.gravity,
             drag=RUBBER_DRAG,
             contact_offset=min(b.parameters.contact_offset for b in bodies),
         )

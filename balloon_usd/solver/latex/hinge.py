@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from balloon_usd.balloon.air import AIR_DENSITY
 from balloon_usd.solver.latex.spins import VertexSet
+from balloon_usd.solver.rotations import NO_ANGLE, cross, rotation, rotation_vector
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -22,8 +23,6 @@ Floats = NDArray[np.float64]
 
 CLEAR = 1e-6
 """What lies farther than this beyond a joint turns with what lies beyond it, m."""
-NO_ANGLE = 1e-9
-"""Angle below which a part is taken not to turn, rad."""
 
 
 @dataclass
@@ -154,23 +153,3 @@ def screw(turned: Floats, moved: Floats, seconds: float) -> tuple[float, Floats,
     k = cross(vector / angle)
     mean = np.eye(3) + (1.0 - math.cos(angle)) / angle * k + (1.0 - math.sin(angle) / angle) * k @ k
     return angle / seconds, vector / angle, np.asarray(np.linalg.solve(mean, moved)) / seconds
-
-
-def rotation(vector: Floats) -> Floats:
-    """Return the matrix of a rotation vector, (3,), rad (Rodrigues)."""
-    angle = float(np.linalg.norm(vector))
-    k = cross(vector / max(angle, NO_ANGLE))
-    return np.asarray(np.eye(3) + math.sin(angle) * k + (1.0 - math.cos(angle)) * k @ k)
-
-
-def rotation_vector(matrix: Floats) -> Floats:
-    """Return the vector of a rotation by less than half a turn, (3,), rad."""
-    twice = np.array([matrix[2, 1] - matrix[1, 2], matrix[0, 2] - matrix[2, 0], matrix[1, 0] - matrix[0, 1]])
-    sine = 0.5 * float(np.linalg.norm(twice))
-    angle = math.atan2(sine, 0.5 * (float(np.trace(matrix)) - 1.0))
-    return np.asarray(twice * (angle / (2.0 * max(sine, NO_ANGLE))))
-
-
-def cross(v: Floats) -> Floats:
-    """Return the matrix of the cross product with a vector, (3, 3)."""
-    return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])

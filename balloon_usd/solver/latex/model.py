@@ -85,7 +85,6 @@ class LatexModel(Model):
         physics = plans[0].recipe.physics
         settings = SceneSettings(
             dt=1.0 / (fps * substeps),
-            gravity=physics.gravity,
             friction=physics.friction,
             fingers=any(isinstance(move, Press) for plan in plans for move in plan.choreography.moves),
             scale_mass=physics.mass_scaling == "selective",

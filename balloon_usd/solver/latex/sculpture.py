@@ -38,7 +38,7 @@ class LatexSculpture(Sculpture):
 
     def centre(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the centre of the mass of its rubber, (3,), m; `points`: its vertices, (V, 3), m."""
-        mass = self.scene.true_mass.numpy()[self._vertices].astype(np.float64)
+        mass = self.scene.true_mass.numpy()[self.vertices].astype(np.float64)
         middle: NDArray[np.float64] = mass @ points / mass.sum()
         return middle
 

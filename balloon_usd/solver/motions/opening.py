@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from balloon_usd.solver.motions.unfolding import ONE_JOINT, along_sides, clearance, rotation_onto, unfolded
+from balloon_usd.solver.rotations import rotation
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -64,7 +65,7 @@ def opening_path(
     mirror, turned, _ = min(fits, key=lambda each: each[2])
     shape, ahead = shape * mirror @ turned.T, ahead * mirror @ turned.T
     pairs = np.array(sides, dtype=np.int64).reshape(-1, 2)
-    turn = np.zeros(3) if onward is None else rotation_vector(_aim(shape, ahead, here, pairs, width))
+    turn = np.zeros(3) if onward is None else half_turn_vector(_aim(shape, ahead, here, pairs, width))
     way = _way(here, shape, pairs, width)
     shares = np.linspace(0.0, 1.0, WAYPOINTS)
     poses = np.array([pose @ rotation(share * turn).T for pose, share in zip(way, shares, strict=True)])
@@ -166,15 +167,7 @@ def _turning(one: Floats, other: Floats) -> Floats:
     return rotation(axis * (math.atan2(sine, float(one @ other)) / sine))
 
 
-def rotation(vector: Floats) -> Floats:
-    """Return the matrix of a rotation vector, (3,), rad (Rodrigues)."""
-    angle = float(np.linalg.norm(vector))
-    x, y, z = vector / max(angle, 1e-12)
-    k = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    return np.asarray(np.eye(3) + math.sin(angle) * k + (1.0 - math.cos(angle)) * k @ k)
-
-
-def rotation_vector(matrix: Floats) -> Floats:
+def half_turn_vector(matrix: Floats) -> Floats:
     """Return the vector of a rotation by up to half a turn, (3,), rad."""
     angle = math.acos(min(max(0.5 * (float(np.trace(matrix)) - 1.0), -1.0), 1.0))
     axis = np.linalg.svd(matrix - np.eye(3))[2][-1]

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from balloon_usd.operations.moves import FRONTS
+from balloon_usd.operations.moves import FRONTS, LET_GO
 from balloon_usd.solver.motions.motion import Motion
 from balloon_usd.solver.motions.smooth import smooth
 from balloon_usd.solver.placement import Placement, axis_and_angle, turn_about, turn_between
@@ -30,26 +30,36 @@ class SetDown(Motion):
         self._sculpture = sculpture
         points = sculpture.walls()
         self._centre = sculpture.centre(points)
+        turn, shift = self._end(move, points)
+        self._axis, self._angle = axis_and_angle(turn)
+        self._way = turn @ self._centre + shift - self._centre
+
+    def _end(self, move: moves.SetDown, points: Floats) -> tuple[Floats, Floats]:
+        """Return the turn (3, 3) about the origin and the shift (3,) behind it, m, after which it stays.
+
+        `points`: its vertices, (V, 3), m.
+        """
         facing = turn_about(*turn_between(np.array(FRONTS[move.front]), np.array(FRONTS["forward"])))
         arms = (points - self._centre) @ facing.T
-        thread = _thread(arms, facing, self._centre, sculpture)
+        thread = _thread(arms, facing, self._centre, self._sculpture)
         down = DOWN
         if move.pose == "stand":
             down = standing_direction(arms, np.zeros(3), DOWN)
         elif move.pose == "hang":
             down = _unit(-thread)
         tipping = turn_about(*turn_between(down, DOWN))
-        self._axis, self._angle = axis_and_angle(tipping @ facing)
-        self._way = np.zeros(3)
-        if move.pose != "as made":
-            self._way = -(self._centre + _pivot(move.pose, arms @ tipping.T, tipping @ thread))
+        turn = tipping @ facing
+        if move.pose == "as made":
+            return turn, self._centre - turn @ self._centre
+        pivot = _pivot(move.pose, arms @ tipping.T, tipping @ thread)
+        return turn, np.array([0.0, 0.0, move.height]) - pivot - turn @ self._centre
 
     def advance(self, share: float) -> None:
         """Carry it a share of the way."""
         progress = smooth(share)
         turn = turn_about(self._axis, progress * self._angle)
         shift = self._centre + progress * self._way - turn @ self._centre
-        self._sculpture.placement = Placement(turn.astype(np.float32), shift.astype(np.float32))
+        self._sculpture.placement = Placement.by(turn, shift)
 
 
 def _thread(arms: Floats, facing: Floats, centre: Floats, sculpture: Sculpture) -> Floats:
@@ -74,7 +84,7 @@ def _pivot(pose: str, turned: Floats, thread: Floats) -> Floats:
         return thread
     low, high = turned.min(axis=0), turned.max(axis=0)
     middle: Floats = 0.5 * (low + high)
-    if pose == "stand":
+    if pose in ("stand", *LET_GO):
         middle[2] = low[2]
     return middle
 

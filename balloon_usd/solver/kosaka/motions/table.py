@@ -35,6 +35,8 @@ KOSAKA_MOTIONS: Motions = {
     moves.Press: Press,
     moves.Weld: KosakaWeld,
     moves.SetDown: SetDown,
+    # Only latex has a weight.
+    moves.Fall: Wait,
     moves.Loosen: Wait,
     moves.LetGo: LetGo,
     moves.Hold: Wait,

@@ -24,7 +24,7 @@ LIES_AFTER = 0.5
 class Hold(Motion):
     """A sculpture that hands put down: what it lies on takes its swing, and then keeps it from creeping.
 
-    Not under gravity, for nothing is below it: it falls. What leaks shrinks, and so does not stick.
+    What leaks shrinks, and so does not stick.
     """
 
     def __init__(self, _: moves.Hold, sculpture: LatexSculpture) -> None:
@@ -32,7 +32,7 @@ class Hold(Motion):
         self._sculpture = sculpture
         physics = sculpture.plan.recipe.physics
         self._bodies = list(sculpture.bodies)
-        self._put_down, self._leaks = physics.gravity == 0.0, physics.leak is not None
+        self._leaks = physics.leak is not None
         self._drag = float(sculpture.hands.drag[self._bodies[0]])
         self._seconds = 0.0
         """Time since nothing comes undone any more."""
@@ -40,7 +40,7 @@ class Hold(Motion):
     def advance(self, _: float) -> None:
         """Put it down further, unless it is coming undone."""
         sculpture = self._sculpture
-        if not self._put_down or sculpture.unwinding is not None:
+        if sculpture.unwinding is not None:
             return
         self._seconds += sculpture.frame.end - sculpture.frame.begin
         growing = self._drag * math.exp(self._seconds / PUT_DOWN_SECONDS)

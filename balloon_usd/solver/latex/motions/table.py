@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from balloon_usd.operations import moves
 from balloon_usd.solver.latex.motions.bend import LatexBend
+from balloon_usd.solver.latex.motions.fall import Fall
 from balloon_usd.solver.latex.motions.hold import Hold
 from balloon_usd.solver.latex.motions.inflate import Inflate
 from balloon_usd.solver.latex.motions.lead_in import LatexLeadIn
@@ -13,12 +14,12 @@ from balloon_usd.solver.latex.motions.let_go import LatexLetGo
 from balloon_usd.solver.latex.motions.loosen import Loosen
 from balloon_usd.solver.latex.motions.pinch import Pinch
 from balloon_usd.solver.latex.motions.press import LatexPress
+from balloon_usd.solver.latex.motions.set_down import LatexSetDown
 from balloon_usd.solver.latex.motions.set_net import LatexSetNet
 from balloon_usd.solver.latex.motions.spin import Spin
 from balloon_usd.solver.latex.motions.turn_fold import TurnFold
 from balloon_usd.solver.motions.bring import Bring
 from balloon_usd.solver.motions.gather import Gather
-from balloon_usd.solver.motions.set_down import SetDown
 from balloon_usd.solver.motions.wait import Wait
 from balloon_usd.solver.motions.weld import Weld
 
@@ -38,7 +39,8 @@ LATEX_MOTIONS: Motions = {
     moves.Press: LatexPress,
     moves.Weld: Weld,
     moves.TurnFold: TurnFold,
-    moves.SetDown: SetDown,
+    moves.SetDown: LatexSetDown,
+    moves.Fall: Fall,
     moves.Loosen: Loosen,
     moves.LetGo: LatexLetGo,
     moves.Hold: Hold,

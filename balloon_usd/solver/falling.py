@@ -1,0 +1,182 @@
+"""A figure that falls: weight, buoyancy, drag by area, and the ground, which pushes and rubs."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from balloon_usd.balloon.air import OUTSIDE_DENSITY
+from balloon_usd.solver.rotations import cross, rotation
+
+if TYPE_CHECKING:
+    from balloon_usd.solver.rigid_figure import RigidFigure
+
+Floats = NDArray[np.float64]
+
+STEP = 5.0e-4
+"""Longest time step on the ground, s: a tenth of the period with which a small figure bounces on its feet."""
+DRAG_STEPS = 10
+"""Steps for which drag and the list of vertices near the ground are kept; in the air they are one."""
+DRAG = 1.1
+"""Drag coefficient of a wall that faces the wind: of a cylinder across it, at Reynolds numbers from 1e3 to
+1e5 (Hoerner 1965, Fluid-Dynamic Drag, 3-9). A ball has half of it.
+"""
+BOUNCE = 0.16
+"""Damping of the ground's push, in that which lets nothing bounce: six tenths of the speed come back
+(judged).
+"""
+RUBBING = 0.5
+"""Stiffness of a bristle that rubs on the ground, in that of the ground's push."""
+NEAR = 0.02
+"""Height below which a vertex may touch the ground before vertices are looked at again, m."""
+SETTLING = 0.01
+"""Time between two looks of hands that let a figure settle, s."""
+CALMED = 0.9
+"""Speed that they leave it."""
+STILL = 1.0e-5
+"""Speed below which it rests, m/s."""
+MOST_SETTLING = 400
+"""Looks after which they let it go anyway."""
+DOWN = np.array([0.0, 0.0, -1.0])
+
+
+class FallingFigure:
+    """The motion of a rigid figure; times in s, places in m."""
+
+    def __init__(
+        self, figure: RigidFigure, gravity: float, friction: float, velocity: Floats, *, ground: bool
+    ) -> None:
+        """Let go of a figure where it is.
+
+        `gravity`: m/s2; `friction`: on the ground, the plane z = 0, if there is any; `velocity`: with which
+        it is thrown, (3,), m/s.
+        """
+        self.figure = figure
+        self.centre = figure.centre.copy()
+        """Where its centre of inertia is, (3,), m."""
+        self.turn = np.eye(3)
+        """How it is turned, (3, 3)."""
+        self.velocity = velocity.astype(float)
+        """Of its centre, (3,), m/s."""
+        self.spin = np.zeros(3)
+        """Angular velocity, (3,), rad/s."""
+        self.push = 0.0
+        """Upward force of the ground, in the mean of the time advanced last, N."""
+        self._weight = figure.heavy * gravity
+        self._friction, self._ground = friction, ground
+        self._anchors = np.full((len(figure.points), 2), np.nan)
+        """Where the bristle of every vertex that touches is rooted in the ground, (V, 2), m."""
+        self._inverse = np.linalg.inv(figure.tensor)
+        self._damping = 2.0 * BOUNCE * np.sqrt(figure.firmness * figure.inertial)
+
+    @property
+    def weight(self) -> float:
+        """What it weighs in air, N."""
+        return self._weight
+
+    def moved(self, turn: Floats, shift: Floats) -> tuple[Floats, Floats]:
+        """Return a turn (3, 3) and a shift (3,), m, that had brought it where it was let go, and what has
+        become of them.
+        """
+        return self.turn @ turn, self.centre + self.turn @ (shift - self.figure.centre)
+
+    def settle(self) -> None:
+        """Let it go gently, with hands that take its swing, until it rests."""
+        for _ in range(MOST_SETTLING):
+            self.advance(SETTLING)
+            if max(np.linalg.norm(self.velocity), np.linalg.norm(self.spin) * NEAR) < STILL:
+                break
+            self.velocity *= CALMED
+            self.spin *= CALMED
+
+    def advance(self, seconds: float) -> None:
+        """Let it fall for some time."""
+        blocks = max(1, math.ceil(seconds / (DRAG_STEPS * STEP) - 1.0e-9))
+        pushed = 0.0
+        for _ in range(blocks):
+            drag, torque = self._drag()
+            near = self._near()
+            steps = DRAG_STEPS if len(near) else 1
+            for _ in range(steps):
+                pushed += self._step(seconds / (blocks * steps), drag, torque, near) / steps
+        self.push = pushed / blocks
+
+    def _step(self, dt: float, drag: Floats, torque: Floats, near: NDArray[np.int64]) -> float:
+        """Advance by one time step, by symplectic Euler, and return the push of the ground, N."""
+        figure, turn = self.figure, self.turn
+        push, twist = self._touch(near)
+        force = drag + self._weight * DOWN + push
+        # Euler's equation of rotation, in the frame of the figure.
+        spin = self.spin @ turn
+        torque = (torque + twist) @ turn + cross(figure.heavy_arm) @ (self._weight * DOWN @ turn)
+        torque -= cross(spin) @ (figure.tensor @ spin)
+        gained = dt / figure.inertial * force
+        self.velocity = self.velocity + gained
+        self.spin = turn @ (spin + dt * self._inverse @ torque)
+        # In the air, where steps are long, by the mean of both speeds.
+        self.centre = self.centre + dt * (self.velocity if len(near) else self.velocity - 0.5 * gained)
+        self.turn = rotation(dt * self.spin) @ turn
+        return float(push[2])
+
+    def _drag(self) -> tuple[Floats, Floats]:
+        """Return the drag of the air (N) and its torque (N m): of every wall that faces the wind."""
+        arms, areas = self.figure.panels @ self.turn.T, self.figure.areas @ self.turn.T
+        going = self.velocity + arms @ cross(self.spin).T
+        facing = np.maximum((areas * going).sum(axis=1), 0.0)
+        force = -0.5 * OUTSIDE_DENSITY * DRAG * facing[:, None] * going
+        return force.sum(axis=0), _torque(arms, force)
+
+    def _near(self) -> NDArray[np.int64]:
+        """Return the vertices that may touch the ground soon; the bristles of all others are gone."""
+        if not self._ground:
+            return np.empty(0, dtype=np.int64)
+        height = self.figure.points @ self.turn[2] + self.centre[2]
+        near = np.flatnonzero(height < NEAR)
+        gone = height > 0.0
+        self._anchors[gone] = np.nan
+        return near
+
+    def _touch(self, near: NDArray[np.int64]) -> tuple[Floats, Floats]:
+        """Return the force of the ground (N) and its torque (N m): a push with damping, and Coulomb friction
+        by bristles.
+        """
+        arms = self.figure.points[near] @ self.turn.T
+        height = arms[:, 2] + self.centre[2]
+        touching = height < 0.0
+        if not touching.any():
+            self._anchors[near] = np.nan
+            return np.zeros(3), np.zeros(3)
+        self._anchors[near[~touching]] = np.nan
+        at, arms, depth = near[touching], arms[touching], -height[touching]
+        going = self.velocity + arms @ cross(self.spin).T
+        stiff, damping = self.figure.firmness[at], self._damping[at]
+        force = np.zeros_like(arms)
+        force[:, 2] = np.maximum(stiff * depth - damping * going[:, 2], 0.0)
+        force[:, :2] = self._rub(at, arms, going, force[:, 2])
+        return force.sum(axis=0), _torque(arms, force)
+
+    def _rub(self, at: NDArray[np.int64], arms: Floats, going: Floats, push: Floats) -> Floats:
+        """Return the friction on vertices that touch, (N, 2), N; where they slide their bristles are drawn
+        along.
+        """
+        stiff = RUBBING * self.figure.firmness[at, None]
+        damping = RUBBING * self._damping[at, None]
+        where = arms[:, :2] + self.centre[:2]
+        anchors = np.where(np.isnan(self._anchors[at]), where, self._anchors[at])
+        force = -stiff * (where - anchors) - damping * going[:, :2]
+        most = self._friction * push
+        size = np.linalg.norm(force, axis=1)
+        slides = size > most
+        force *= np.minimum(most / np.maximum(size, 1.0e-12), 1.0)[:, None]
+        stuck = where + (force + damping * going[:, :2]) / stiff
+        self._anchors[at] = np.where(slides[:, None], stuck, anchors)
+        return force
+
+
+def _torque(arms: Floats, force: Floats) -> Floats:
+    """Return the sum of the torques (3,) of forces (N, 3) at the ends of arms (N, 3)."""
+    moment = arms.T @ force
+    return np.array([moment[1, 2] - moment[2, 1], moment[2, 0] - moment[0, 2], moment[0, 1] - moment[1, 0]])

@@ -1,0 +1,79 @@
+"""What a figure of latex weighs, and where: its rubber, and the gas of every bubble."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from balloon_usd.balloon.air import MOLAR_MASS
+from balloon_usd.solver.rigid_figure import Lumps, RigidFigure
+
+if TYPE_CHECKING:
+    from balloon_usd.solver.latex.sculpture import LatexSculpture
+
+Floats = NDArray[np.float64]
+
+DISC = math.sqrt(0.5)
+"""Radius of the ring that has the inertia of a disc, in that of the disc: the gas of a slice of a bubble."""
+SLACK = 500.0
+"""Least pressure behind a wall that stands on the ground, Pa: what is flat is as firm as if it had this."""
+NARROW = 0.005
+"""Least radius of a wall that stands on the ground, m."""
+
+
+def rigid_figure(sculpture: LatexSculpture, points: Floats) -> RigidFigure:
+    """Return a sculpture with its vertices at points (V, 3), m, as a rigid body."""
+    scene, hands, own = sculpture.scene, sculpture.hands, sculpture.vertices
+    segment = scene.vertex_segment.numpy()[own]
+    quads = np.concatenate(
+        [scene.bodies[b].quads + scene.vertex_start[b] - own.start for b in sculpture.bodies]
+    )
+    middles = _ring_middles(points, scene.vertex_ring.numpy()[own])
+    out = points - middles
+    radius = np.linalg.norm(out, axis=1)
+    rubber = scene.true_mass.numpy()[own].astype(float)
+    share = _shares(_wall_about(points, quads) * radius, segment, len(hands.amount))
+    gas = Lumps(
+        middles + DISC * out, MOLAR_MASS * share * hands.amount[segment], share * hands.volume[segment]
+    )
+    lumps = Lumps.of([Lumps(points, rubber, np.zeros(len(rubber))), gas])
+    return RigidFigure.of(lumps, points, quads, _firmness(sculpture, segment, radius))
+
+
+def _firmness(sculpture: LatexSculpture, segment: NDArray[np.int64], radius: Floats) -> Floats:
+    """Return how stiff the ground's push on every vertex is, (V,), N/m: where a round wall is pressed flat,
+    the pressure behind it acts on an area that grows with the depth by 2 pi times the radius.
+    """
+    scene, hands = sculpture.scene, sculpture.hands
+    volume = np.maximum(hands.volume, 1.0e-12).astype(float)
+    gauge = hands.amount * float(scene.air.molar_energy) / volume - scene.settings.atmosphere
+    behind = np.where(segment >= 0, gauge[segment], 0.0)
+    return 2.0 * math.pi * np.maximum(radius, NARROW) * np.maximum(behind, SLACK)
+
+
+def _ring_middles(points: Floats, ring: NDArray[np.int64]) -> Floats:
+    """Return the middle of the ring of every vertex, (V, 3), m."""
+    _, ring, count = np.unique(ring, return_inverse=True, return_counts=True)
+    sums = np.stack([np.bincount(ring, weights=points[:, k]) for k in range(3)], axis=1)
+    middles: Floats = (sums / count[:, None])[ring]
+    return middles
+
+
+def _wall_about(points: Floats, quads: NDArray[np.int64]) -> Floats:
+    """Return the area of the wall about every vertex, (V,), m2."""
+    c = points[quads]
+    area = 0.125 * np.linalg.norm(np.cross(c[:, 2] - c[:, 0], c[:, 3] - c[:, 1]), axis=1)
+    return np.asarray(np.bincount(quads.ravel(), np.repeat(area, 4), len(points)), dtype=float)
+
+
+def _shares(weights: Floats, segment: NDArray[np.int64], segments: int) -> Floats:
+    """Return the share that every vertex has of its segment, (V,), in proportion to weights (V,); none where
+    it belongs to no segment.
+    """
+    inside = segment >= 0
+    weights = np.where(inside, weights, 0.0)
+    total = np.bincount(np.maximum(segment, 0), weights=weights, minlength=segments)
+    return np.asarray(np.where(inside, weights / np.maximum(total, 1.0e-30)[np.maximum(segment, 0)], 0.0))
