@@ -65,6 +65,8 @@ class FallingFigure:
         """Angular velocity, (3,), rad/s."""
         self.push = 0.0
         """Upward force of the ground, in the mean of the time advanced last, N."""
+        self.sleeps = False
+        """Whether it lies still on the ground."""
         self._weight = figure.heavy * gravity
         self._friction, self._ground = friction, ground
         self._anchors = np.full((len(figure.points), 2), np.nan)
@@ -87,13 +89,15 @@ class FallingFigure:
         """Let it go gently, with hands that take its swing, until it rests."""
         for _ in range(MOST_SETTLING):
             self.advance(SETTLING)
-            if max(np.linalg.norm(self.velocity), np.linalg.norm(self.spin) * NEAR) < STILL:
+            if self.sleeps:
                 break
             self.velocity *= CALMED
             self.spin *= CALMED
 
     def advance(self, seconds: float) -> None:
-        """Let it fall for some time."""
+        """Let it fall for some time; it sleeps once it rests on the ground, and is not computed any more."""
+        if self.sleeps:
+            return
         blocks = max(1, math.ceil(seconds / (DRAG_STEPS * STEP) - 1.0e-9))
         pushed = 0.0
         for _ in range(blocks):
@@ -103,6 +107,8 @@ class FallingFigure:
             for _ in range(steps):
                 pushed += self._step(seconds / (blocks * steps), drag, torque, near) / steps
         self.push = pushed / blocks
+        speed = max(float(np.linalg.norm(self.velocity)), NEAR * float(np.linalg.norm(self.spin)))
+        self.sleeps = self.push > 0.0 and speed < STILL
 
     def _step(self, dt: float, drag: Floats, torque: Floats, near: NDArray[np.int64]) -> float:
         """Advance by one time step, by symplectic Euler, and return the push of the ground, N."""

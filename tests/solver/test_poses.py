@@ -103,3 +103,32 @@ def test_a_figure_is_held_as_it_is_with_its_middle_at_the_origin():
     assert points[-1].min(axis=0) + points[-1].max(axis=0) == pytest.approx(np.zeros(3), abs=2e-3)
     moved = points[-1] - points[0]
     assert np.abs(moved - moved.mean(axis=0)).max() < 2e-3
+
+
+def test_a_figure_that_is_dropped_falls_and_lies_on_the_ground():
+    points, doing, _ = made("drop\nheight: 0.3 m")
+    low = points[:, :, 2].min(axis=1)
+    assert doing == "fall"
+    assert low.max() == pytest.approx(0.3, abs=5e-3)
+    assert low[60:].min() > -2e-3
+    assert low[-1] == pytest.approx(0.0, abs=5e-4)
+    assert np.linalg.norm(points[-1] - points[-13], axis=1).max() < 2e-3
+
+
+def test_a_figure_that_is_thrown_flies_ahead():
+    points, doing, _ = made("throw\nspeed: 2")
+    middle = points.mean(axis=1)
+    fastest = -np.diff(middle[:, 0]).min() * 24.0
+    assert doing == "fly"
+    assert 1.4 < fastest < 2.0
+    assert middle[-1, 0] < -0.3
+    assert points[-1, :, 2].min() == pytest.approx(0.0, abs=1e-3)
+
+
+def test_without_a_pose_a_figure_falls_only_where_its_recipe_asks_for_gravity():
+    text = STOOL.replace("POSE", "as made").replace("hold: 0.5", "hold: 0.5, gravity: 9.81")
+    frames = [frame.copy() for (frame,) in simulate_many([plan(Recipe.parse(text))], device="cpu").frames()]
+    way = (frames[-13].points[0] - frames[-1].points[0]).mean(axis=0)
+    assert frames[-1].doing == "fall"
+    assert 0.15 < way[2] < 0.5
+    assert abs(way[0]) < 0.05

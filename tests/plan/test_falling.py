@@ -1,0 +1,54 @@
+"""What the plan makes of poses in which a figure falls."""
+
+from __future__ import annotations
+
+import pytest
+
+from balloon_usd.operations.moves import Fall, SetDown
+from balloon_usd.plan import plan
+from balloon_usd.plan.choreography import LANDING_SECONDS, POSED_SECONDS, SLOW_FALL
+from balloon_usd.recipe import Recipe
+
+PAIR = """
+format: 1
+name: pair
+units: cm
+balloons: {main: {size: 260, tail: 20}}
+steps:
+  - bubbles: {a: 5, b: 5}
+"""
+
+
+def last_moves(end):
+    return plan(Recipe.parse(PAIR + end)).choreography.moves[-2:]
+
+
+@pytest.mark.parametrize("end", ["", "pose: hold", "pose: hang", "pose: stand\nphysics: {gravity: 0}"])
+def test_nothing_falls_that_hands_or_a_thread_hold_or_that_has_no_weight(end):
+    assert not any(isinstance(move, Fall) for move in last_moves(end))
+
+
+def test_a_figure_is_lifted_before_it_is_dropped_and_shown_until_it_lies():
+    lift, fall = last_moves("pose: drop\nheight: 150")
+    assert isinstance(lift, SetDown)
+    assert isinstance(fall, Fall)
+    assert (lift.pose, lift.height, lift.text, fall.text) == ("drop", 1.5, "lift up", "fall")
+    assert (fall.gravity, fall.velocity, fall.ground) == (9.81, (0.0, 0.0, 0.0), True)
+    assert fall.seconds == pytest.approx(1.5 / SLOW_FALL + LANDING_SECONDS)
+
+
+def test_a_figure_is_thrown_ahead():
+    _, fall = last_moves("pose: throw\nspeed: 5")
+    assert (fall.velocity, fall.text) == ((-5.0, 0.0, 0.0), "fly")
+
+
+def test_a_figure_stands_by_its_weight():
+    _, fall = last_moves("pose: stand")
+    assert isinstance(fall, Fall)
+    assert (fall.seconds, fall.text) == (POSED_SECONDS, "stand")
+
+
+def test_a_figure_that_stays_where_it_was_made_has_no_ground_to_fall_on():
+    hold, fall = last_moves("physics: {gravity: 9.81, hold: 1.5}")
+    assert fall.start == hold.end
+    assert (fall.ground, fall.seconds) == (False, 1.5)
