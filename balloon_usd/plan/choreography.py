@@ -60,7 +60,7 @@ THROW_SPEED = 3.0
 """How fast they are thrown, m/s, where it does not."""
 SLOW_FALL = 0.6
 """Speed with which the lightest figures fall in the end, a 260 across the wind, m/s."""
-LANDING_SECONDS = 4.0
+LANDING_SECONDS = 5.0
 """From when the slowest figure lands until it is no longer shown, s: a dog tips over and lies after three."""
 
 LOOSEN_SECONDS = 3.0

@@ -16,10 +16,12 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-STEP = 5.0e-4
-"""Longest time step on the ground, s: a tenth of the period with which a small figure bounces on its feet."""
-DRAG_STEPS = 10
-"""Steps for which drag and the list of vertices near the ground are kept; in the air they are one."""
+BLOCK = 5.0e-3
+"""Longest time for which drag and the list of vertices near the ground are kept, s; a step in the air."""
+ANGLE = 0.8
+"""Angle by which the quickest swing on the ground goes on in a time step, rad: at 2 it would grow."""
+FEET = 4
+"""Vertices that touch the ground from which on each is pushed less: a figure that lies is no stiffer."""
 DRAG = 1.1
 """Drag coefficient of a wall that faces the wind: of a cylinder across it, at Reynolds numbers from 1e3 to
 1e5 (Hoerner 1965, Fluid-Dynamic Drag, 3-9). A ball has half of it.
@@ -30,6 +32,10 @@ BOUNCE = 0.16
 """
 RUBBING = 0.5
 """Stiffness of a bristle that rubs on the ground, in that of the ground's push."""
+ROLLING = 3.0e-4
+"""Arm of the ground's push against rolling, m: a fifth of the radius on which a foot is flat (judged)."""
+SLOW_ROLL = 0.05
+"""Spin from which on rolling is braked in full, rad/s."""
 NEAR = 0.02
 """Height below which a vertex may touch the ground before vertices are looked at again, m."""
 SETTLING = 0.01
@@ -72,6 +78,8 @@ class FallingFigure:
         self._anchors = np.full((len(figure.points), 2), np.nan)
         """Where the bristle of every vertex that touches is rooted in the ground, (V, 2), m."""
         self._inverse = np.linalg.inv(figure.tensor)
+        self._step_seconds = ANGLE / quickest(figure)
+        """Longest time step on the ground, s."""
         self._damping = 2.0 * BOUNCE * np.sqrt(figure.firmness * figure.inertial)
 
     @property
@@ -98,12 +106,12 @@ class FallingFigure:
         """Let it fall for some time; it sleeps once it rests on the ground, and is not computed any more."""
         if self.sleeps:
             return
-        blocks = max(1, math.ceil(seconds / (DRAG_STEPS * STEP) - 1.0e-9))
+        blocks = max(1, math.ceil(seconds / BLOCK - 1.0e-9))
         pushed = 0.0
         for _ in range(blocks):
             drag, torque = self._drag()
             near = self._near()
-            steps = DRAG_STEPS if len(near) else 1
+            steps = math.ceil(seconds / blocks / self._step_seconds) if len(near) else 1
             for _ in range(steps):
                 pushed += self._step(seconds / (blocks * steps), drag, torque, near) / steps
         self.push = pushed / blocks
@@ -158,28 +166,48 @@ class FallingFigure:
         self._anchors[near[~touching]] = np.nan
         at, arms, depth = near[touching], arms[touching], -height[touching]
         going = self.velocity + arms @ cross(self.spin).T
-        stiff, damping = self.figure.firmness[at], self._damping[at]
+        share = min(1.0, FEET / len(at))
+        stiff, damping = share * self.figure.firmness[at], share * self._damping[at]
         force = np.zeros_like(arms)
         force[:, 2] = np.maximum(stiff * depth - damping * going[:, 2], 0.0)
-        force[:, :2] = self._rub(at, arms, going, force[:, 2])
-        return force.sum(axis=0), _torque(arms, force)
+        where = arms[:, :2] + self.centre[:2]
+        force[:, :2] = self._rub(at, where, going[:, :2], RUBBING * stiff, RUBBING * damping, force[:, 2])
+        total = force.sum(axis=0)
+        braked = ROLLING * total[2] / max(float(np.linalg.norm(self.spin)), SLOW_ROLL)
+        return total, _torque(arms, force) - braked * self.spin
 
-    def _rub(self, at: NDArray[np.int64], arms: Floats, going: Floats, push: Floats) -> Floats:
+    def _rub(
+        self,
+        at: NDArray[np.int64],
+        where: Floats,
+        going: Floats,
+        stiff: Floats,
+        damping: Floats,
+        push: Floats,
+    ) -> Floats:
         """Return the friction on vertices that touch, (N, 2), N; where they slide their bristles are drawn
         along.
         """
-        stiff = RUBBING * self.figure.firmness[at, None]
-        damping = RUBBING * self._damping[at, None]
-        where = arms[:, :2] + self.centre[:2]
         anchors = np.where(np.isnan(self._anchors[at]), where, self._anchors[at])
-        force = -stiff * (where - anchors) - damping * going[:, :2]
-        most = self._friction * push
-        size = np.linalg.norm(force, axis=1)
-        slides = size > most
+        damped = damping[:, None] * going
+        force = -stiff[:, None] * (where - anchors) - damped
+        most, size = self._friction * push, np.linalg.norm(force, axis=1)
         force *= np.minimum(most / np.maximum(size, 1.0e-12), 1.0)[:, None]
-        stuck = where + (force + damping * going[:, :2]) / stiff
-        self._anchors[at] = np.where(slides[:, None], stuck, anchors)
+        rooted = where + (force + damped) / stiff[:, None]
+        self._anchors[at] = np.where((size > most)[:, None], rooted, anchors)
         return force
+
+
+def quickest(figure: RigidFigure) -> float:
+    """Return the rate of the quickest swing of a figure on the ground, rad/s: on the vertex that is firmest
+    for the mass that has to be moved there.
+    """
+    inverse = np.linalg.inv(figure.tensor)
+    arms = np.array([cross(point) for point in figure.points])
+    # What a unit force at a vertex, in any direction, accelerates it by.
+    yielding = np.eye(3) / figure.inertial - arms @ inverse @ arms
+    rates = FEET * figure.firmness * np.linalg.eigvalsh(yielding)[:, -1]
+    return math.sqrt(float(rates.max()))
 
 
 def _torque(arms: Floats, force: Floats) -> Floats:
