@@ -26,8 +26,11 @@ def _parts(data: Data) -> Iterator[str]:
     for key, unit in (("gas", "%"), ("tail", "cm")):
         if data[key]["verdict"] != Verdict.NONE:
             yield _difference(key, data[key], unit)
-    yield f"{'moving' if _off(data['speed']) else 'calm'} ({MILLI * data['speed']['value']:.1f} mm/s)"
+    yield _speed(data["speed"])
     yield from _creep(data["creep"])
+    # Records of earlier versions do not tell how figures stand.
+    if (lean := data.get("lean", {"value": None}))["value"] is not None:
+        yield f"{'fell over' if _off(lean) else 'stands'}, leaning {lean['value']:.1f} degrees"
     yield from _joints(data["joints"])
     yield _crossings(data["crossings"], data["depth"])
     yield from _symmetry(data)
@@ -40,6 +43,12 @@ def _off(result: Data) -> bool:
 def _difference(what: str, result: Data, unit: str) -> str:
     amount = f"{CENTI * result['value']:.1f} {unit}"
     return f"{what} {amount} off ({result['worst']})" if _off(result) else f"{what} within {amount}"
+
+
+def _speed(result: Data) -> str:
+    if result["verdict"] == Verdict.NONE:
+        return "falls"
+    return f"{'moving' if _off(result) else 'calm'} ({MILLI * result['value']:.1f} mm/s)"
 
 
 def _creep(result: Data) -> Iterator[str]:

@@ -65,6 +65,7 @@ MEASURES = _table(
         5,
         "largest way of a vertex from the let-go to the end; none where a joint comes undone",
     ),
+    Measure("lean", "deg", 15.0, 1, "angle by which a figure that stands leans; none where none is to stand"),
     Measure("joints", "1", 0, 0, "joints that were meant to hold and do not"),
     Measure("crossings", "1", 0, 0, "pairs of an edge and a face that it pierces, but for those in one neck"),
     Measure("depth", "m", 0.001, 6, "depth of the deepest vertex at such a pair that lies inside a wall"),

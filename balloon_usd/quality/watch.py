@@ -12,6 +12,7 @@ from balloon_usd.quality.joints import lost_joints
 from balloon_usd.quality.measures import MEASURES, Verdict
 from balloon_usd.quality.ranking import excess
 from balloon_usd.quality.rest import Rest
+from balloon_usd.quality.standing import Standing
 from balloon_usd.quality.symmetry import symmetry_of
 from balloon_usd.quality.twists import TwistTails
 from balloon_usd.quality.walls import walls_of
@@ -48,12 +49,14 @@ class QualityWatch:
         self._led_apart, self._led_frames = 0.0, 0
         """Farthest that a wall was led out of others in a frame, m, and in how many frames any was."""
         self._rest = Rest(plan)
+        self._standing = Standing(plan)
         self._tails = TwistTails(plan, meshes)
         self._end: Frame | None = None
 
     def add(self, frame: Frame) -> None:
         """Take the next frame; the last one must not be changed afterwards."""
         self._rest.add(frame)
+        self._standing.add(frame)
         self._tails.add(frame)
         if frame.shift is not None and (most := float(frame.shift.max(initial=0.0))) > 0.0:
             self._led_apart, self._led_frames = max(self._led_apart, most), self._led_frames + 1
@@ -71,6 +74,7 @@ class QualityWatch:
             "gas": MEASURES["gas"].largest(_gas(plan, meshes, end)),
             "tail": MEASURES["tail"].largest(self._tails.off),
             **self._rest.results(),
+            **self._standing.results(),
             "joints": _joints(plan, meshes, end),
             **self._crossings(end),
             **symmetry_of(plan, meshes, end),

@@ -28,6 +28,16 @@ def rotation_vector(matrix: Floats) -> Floats:
     return np.asarray(twice * (angle / (2.0 * max(sine, NO_ANGLE))))
 
 
+def rotation_onto(others: Floats, places: Floats) -> Floats:
+    """Return the rotation, (3, 3), that lays places nearest to others, both about their middle (Kabsch 1976).
+
+    `others`: weighted, where some count more; both (N, 3), m.
+    """
+    u, _, v = np.linalg.svd(others.T @ places)
+    u[:, -1] *= np.sign(np.linalg.det(u @ v))
+    return np.asarray(u @ v)
+
+
 def cross(v: Floats) -> Floats:
     """Return the matrix of the cross product with a vector, (3, 3)."""
     return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])

@@ -311,7 +311,8 @@ def test_figures_of_any_kind_are_measured_in_what_they_have(recipe, nothing):
     for code in range(1, plan.frame_count + 1):
         watch.add(Frame(code, points, (), volume, volume, "hold"))
     data = watch.data()
-    assert {key for key in MEASURES if data[key]["verdict"] == "none"} == nothing
+    # None of them is put on its feet.
+    assert {key for key in MEASURES if data[key]["verdict"] == "none"} == {"lean", *nothing}
     assert data["crossings"]["value"] == 0
     assert quality_line(data).startswith("gas within ")
 
@@ -342,3 +343,25 @@ def test_figures_are_sorted_by_what_went_wrong(still):
     order = worst_first(figures, figures.__getitem__)
     assert order == ["both", "worse gas", "gas", "good"]
     assert all(len(figures[a]["off"]) >= len(figures[b]["off"]) for a, b in pairwise(order))
+
+
+@pytest.mark.parametrize(("degrees", "told"), [(3.0, "stands, leaning 3.0 degrees"), (70.0, "fell over")])
+def test_a_figure_that_stands_tells_how_far_it_leans(degrees, told):
+    plan = plan_of(Recipe.parse(EARS + "pose: stand\nfront: left\n"))
+    meshes = [mesh_of(strip, detail_named("draft")) for strip in plan.strips.values()]
+    angle = np.radians(degrees)
+    facing = np.array([[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    leaning = np.array(
+        [[1.0, 0.0, 0.0], [0.0, np.cos(angle), -np.sin(angle)], [0.0, np.sin(angle), np.cos(angle)]]
+    )
+
+    def leans(frame):
+        if frame.time_code < plan.frame_count:
+            return frame
+        turned = frame.points[0].astype(float) @ (leaning @ facing).T + [0.1, 0.2, 0.3]
+        return replace(frame, points=(turned.astype(np.float32),))
+
+    found = quality_of((plan, meshes), leans)
+    assert found["lean"]["value"] == pytest.approx(degrees, abs=0.1)
+    assert found["lean"]["verdict"] == ("good" if degrees < 15.0 else "off")
+    assert told in quality_line(found)

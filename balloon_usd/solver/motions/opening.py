@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from balloon_usd.solver.motions.unfolding import ONE_JOINT, along_sides, clearance, rotation_onto, unfolded
-from balloon_usd.solver.rotations import rotation
+from balloon_usd.solver.motions.unfolding import ONE_JOINT, along_sides, clearance, unfolded
+from balloon_usd.solver.rotations import rotation, rotation_onto
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from balloon_usd.plan.stress import distances, majorize
+from balloon_usd.solver.rotations import rotation_onto
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -71,16 +72,6 @@ def along_sides(places: Floats, sides: Ints) -> Floats:
     """
     start, end = places[sides[:, :1]], places[sides[:, 1:]]
     return np.asarray(start + ALONG_SIDE[:, None] * (end - start))
-
-
-def rotation_onto(others: Floats, places: Floats) -> Floats:
-    """Return the rotation, (3, 3), that lays places nearest to others, both about their middle (Kabsch 1976).
-
-    `others`: weighted, where some count more; both (N, 3), m.
-    """
-    u, _, v = np.linalg.svd(others.T @ places)
-    u[:, -1] *= np.sign(np.linalg.det(u @ v))
-    return np.asarray(u @ v)
 
 
 def _laid_over(places: Floats, others: Floats) -> Floats:
