@@ -54,6 +54,8 @@ POSING: dict[str, tuple[str, str]] = {
 """What hands do to pose a figure, and what it does then."""
 FALLING: dict[str, str] = {"as made": "fall", "stand": "stand", "drop": "fall", "throw": "fly"}
 """What a figure does under gravity, in the poses in which nothing holds it."""
+LIFT_SPEED = 1.0
+"""Mean speed at which hands lift a figure higher than they carry others, m/s."""
 DROP_HEIGHT = 1.0
 """How far above the ground figures are let go, m, where a recipe does not say."""
 THROW_SPEED = 3.0
@@ -118,6 +120,7 @@ def _pose(recipe: Recipe, score: Score, *, mirrored: bool) -> None:
         seconds = POSE_SECONDS if recipe.front == "forward" else TURN_SECONDS
         front = OTHER_SIDE.get(recipe.front, recipe.front) if mirrored else recipe.front
         height = _height(recipe) if recipe.pose in LET_GO else 0.0
+        seconds = max(seconds, height / LIFT_SPEED)
         carry = SetDown(
             score.now, seconds, last, doing, pose=recipe.pose, front=front, height=height, gravity=gravity
         )

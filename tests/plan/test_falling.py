@@ -37,6 +37,11 @@ def test_a_figure_is_lifted_before_it_is_dropped_and_shown_until_it_lies():
     assert fall.seconds == pytest.approx(1.5 / SLOW_FALL + LANDING_SECONDS)
 
 
+def test_a_figure_is_lifted_high_no_faster_than_one_metre_a_second():
+    lift, _ = last_moves("pose: drop\nheight: 6 m")
+    assert lift.seconds == 6.0
+
+
 def test_a_figure_is_thrown_ahead():
     _, fall = last_moves("pose: throw\nspeed: 5")
     assert (fall.velocity, fall.text) == ((-5.0, 0.0, 0.0), "fly")

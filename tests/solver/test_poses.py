@@ -7,8 +7,10 @@ from functools import cache
 import numpy as np
 import pytest
 
+from balloon_usd.balloon.air import MOLAR_MASS, OUTSIDE_DENSITY
 from balloon_usd.plan import plan
 from balloon_usd.recipe import Recipe
+from balloon_usd.solver.latex.weight import rigid_figure
 from balloon_usd.solver.simulation import simulate_many
 
 STOOL = """
@@ -132,3 +134,17 @@ def test_without_a_pose_a_figure_falls_only_where_its_recipe_asks_for_gravity():
     assert frames[-1].doing == "fall"
     assert 0.15 < way[2] < 0.5
     assert abs(way[0]) < 0.05
+
+
+def test_a_figure_weighs_its_rubber_and_the_gas_that_is_more_than_the_air_it_displaces():
+    points, _, sculpture = made("hold")
+    figure = rigid_figure(sculpture, points[-1])
+    rubber = float(sculpture.scene.true_mass.numpy().sum())
+    gas = MOLAR_MASS * float(sculpture.hands.amount.sum())
+    air = OUTSIDE_DENSITY * float(sculpture.hands.volume.sum())
+    assert figure.heavy == pytest.approx(rubber + gas - air, rel=1e-3)
+    assert figure.inertial == pytest.approx(rubber + gas + 0.5 * air, rel=1e-3)
+    assert gas / air == pytest.approx(1.08, abs=0.02)
+    assert (points[-1].min(axis=0) < figure.centre).all()
+    assert (points[-1].max(axis=0) > figure.centre).all()
+    assert np.linalg.eigvalsh(figure.tensor).min() > 0.0
