@@ -25,6 +25,7 @@ from balloon_usd.operations.tempo import PACES
 from balloon_usd.plan.laid_out import LaidOut
 from balloon_usd.plan.nets import nets_of
 from balloon_usd.plan.setting_nets import set_nets
+from balloon_usd.recipe.recipe import EARTH
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -130,7 +131,19 @@ def _pose(recipe: Recipe, score: Score, *, mirrored: bool) -> None:
         velocity = (-ahead, 0.0, 0.0) if recipe.pose == "throw" else (0.0, 0.0, 0.0)
         ground = recipe.pose != "as made"
         seconds, doing = _fall_seconds(recipe), FALLING[recipe.pose]
-        score.add(Fall(score.now, seconds, last, doing, gravity=gravity, velocity=velocity, ground=ground))
+        height = _height(recipe) if recipe.pose in LET_GO else 0.0
+        fall = Fall(
+            score.now,
+            seconds,
+            last,
+            doing,
+            gravity=gravity,
+            velocity=velocity,
+            height=height,
+            ground=ground,
+        )
+        if seconds > 0.0:
+            score.add(fall)
     elif isinstance(score.moves[-1], SetDown):
         score.add(Move(score.now, POSED_SECONDS, last, done))
 
@@ -143,7 +156,8 @@ def _height(recipe: Recipe) -> float:
 def _fall_seconds(recipe: Recipe) -> float:
     """Return how long a finished figure is shown that falls, or stands by its weight, s."""
     if recipe.pose in LET_GO:
-        return _height(recipe) / SLOW_FALL + LANDING_SECONDS
+        # Speeds go with the root of gravity.
+        return (_height(recipe) / SLOW_FALL + LANDING_SECONDS) * math.sqrt(EARTH / recipe.gravity)
     return recipe.physics.hold if recipe.pose == "as made" else POSED_SECONDS
 
 

@@ -18,11 +18,10 @@ if TYPE_CHECKING:
     from balloon_usd.language.problem import Path
 
 PHYSICS = {
-    "gravity": "nothing holds a balloon from a mesh, so it would fall",
     "mass_scaling": "without it a mesh has no time step that is known to work",
 }
 """Keys of the physics whose other values a mesh does not bear, and why."""
-USUAL: dict[str, object] = {"gravity": 0, "mass_scaling": "selective"}
+USUAL: dict[str, object] = {"mass_scaling": "selective"}
 """The values that it does."""
 
 

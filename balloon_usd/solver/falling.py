@@ -18,6 +18,12 @@ Floats = NDArray[np.float64]
 
 BLOCK = 5.0e-3
 """Longest time for which drag and the list of vertices near the ground are kept, s; a step in the air."""
+SHORTEST = 2.5e-4
+"""Shortest time for which they are kept, s."""
+SLOWED = 0.02
+"""Share of the speed that drag takes meanwhile, at most."""
+NUDGE = np.array([0.01, 0.007, 0.0])
+"""Spin with which hands let go, rad/s: no hand is so steady that a heart stays on its point."""
 ANGLE = 0.8
 """Angle by which the quickest swing on the ground goes on in a time step, rad: at 2 it would grow."""
 FEET = 4
@@ -44,21 +50,31 @@ CALMED = 0.9
 """Speed that they leave it."""
 STILL = 1.0e-5
 """Speed below which it rests, m/s."""
+CALM, CALM_SECONDS = 1.0e-3, 0.5
+"""Speed (m/s) and time (s) of a figure that hardly moves, and so does not move on."""
 MOST_SETTLING = 400
 """Looks after which they let it go anyway."""
 DOWN = np.array([0.0, 0.0, -1.0])
+STEADY = np.zeros(3)
 
 
 class FallingFigure:
     """The motion of a rigid figure; times in s, places in m."""
 
     def __init__(
-        self, figure: RigidFigure, gravity: float, friction: float, velocity: Floats, *, ground: bool
+        self,
+        figure: RigidFigure,
+        gravity: float,
+        friction: float,
+        velocity: Floats = STEADY,
+        spin: Floats = STEADY,
+        *,
+        ground: bool,
     ) -> None:
         """Let go of a figure where it is.
 
-        `gravity`: m/s2; `friction`: on the ground, the plane z = 0, if there is any; `velocity`: with which
-        it is thrown, (3,), m/s.
+        `gravity`: m/s2; `friction`: on the ground, the plane z = 0, if there is any; `velocity`, `spin`: with
+        which it is thrown, (3,), m/s and rad/s.
         """
         self.figure = figure
         self.centre = figure.centre.copy()
@@ -67,12 +83,14 @@ class FallingFigure:
         """How it is turned, (3, 3)."""
         self.velocity = velocity.astype(float)
         """Of its centre, (3,), m/s."""
-        self.spin = np.zeros(3)
+        self.spin = spin.astype(float)
         """Angular velocity, (3,), rad/s."""
         self.push = 0.0
         """Upward force of the ground, in the mean of the time advanced last, N."""
         self.sleeps = False
         """Whether it lies still on the ground."""
+        self._calm = 0.0
+        """For how long it has hardly moved, s."""
         self._weight = figure.heavy * gravity
         self._friction, self._ground = friction, ground
         self._anchors = np.full((len(figure.points), 2), np.nan)
@@ -106,17 +124,26 @@ class FallingFigure:
         """Let it fall for some time; it sleeps once it rests on the ground, and is not computed any more."""
         if self.sleeps:
             return
-        blocks = max(1, math.ceil(seconds / BLOCK - 1.0e-9))
-        pushed = 0.0
-        for _ in range(blocks):
+        pushed, left = 0.0, seconds
+        while left > 0.0:
             drag, torque = self._drag()
             near = self._near()
-            steps = math.ceil(seconds / blocks / self._step_seconds) if len(near) else 1
+            slowing = float(np.linalg.norm(drag)) / self.figure.inertial
+            block = min(BLOCK, SLOWED * float(np.linalg.norm(self.velocity)) / max(slowing, 1.0e-9), left)
+            # In full blocks, the last of which is not much shorter.
+            block = left / math.ceil(left / max(block, SHORTEST) - 1.0e-9)
+            steps = math.ceil(block / self._step_seconds) if len(near) else 1
             for _ in range(steps):
-                pushed += self._step(seconds / (blocks * steps), drag, torque, near) / steps
-        self.push = pushed / blocks
+                pushed += self._step(block / steps, drag, torque, near) * block / steps
+            left -= block
+        self.push = pushed / seconds
+        self._fall_asleep(seconds)
+
+    def _fall_asleep(self, seconds: float) -> None:
+        """Let it sleep if it rests on the ground, or has hardly moved for a while."""
         speed = max(float(np.linalg.norm(self.velocity)), NEAR * float(np.linalg.norm(self.spin)))
-        self.sleeps = self.push > 0.0 and speed < STILL
+        self._calm = self._calm + seconds if self.push > 0.0 and speed < CALM else 0.0
+        self.sleeps = self.push > 0.0 and (speed < STILL or self._calm > CALM_SECONDS)
 
     def _step(self, dt: float, drag: Floats, torque: Floats, near: NDArray[np.int64]) -> float:
         """Advance by one time step, by symplectic Euler, and return the push of the ground, N."""

@@ -37,6 +37,15 @@ def test_a_figure_is_lifted_before_it_is_dropped_and_shown_until_it_lies():
     assert fall.seconds == pytest.approx(1.5 / SLOW_FALL + LANDING_SECONDS)
 
 
+def test_a_figure_falls_longer_where_gravity_is_weak():
+    (_, here), (_, there) = (last_moves(f"pose: drop\nphysics: {{gravity: {g}}}") for g in (9.81, 9.81 / 4))
+    assert there.seconds == pytest.approx(2.0 * here.seconds)
+
+
+def test_a_figure_that_is_shown_for_no_time_does_not_fall():
+    assert not any(isinstance(move, Fall) for move in last_moves("physics: {gravity: 9.81, hold: 0}"))
+
+
 def test_a_figure_is_lifted_high_no_faster_than_one_metre_a_second():
     lift, _ = last_moves("pose: drop\nheight: 6 m")
     assert lift.seconds == 6.0

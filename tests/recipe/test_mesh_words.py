@@ -96,10 +96,6 @@ def test_meshes_and_tubes_do_not_go_into_one_recipe() -> None:
 @pytest.mark.parametrize(
     ("physics", "message"),
     [
-        (
-            "{gravity: 9.8}",
-            "physics.gravity: nothing holds a balloon from a mesh, so it would fall, expected 0",
-        ),
         ("{mass_scaling: none}", "known to work, expected selective"),
         (
             "{model: kosaka}",
@@ -110,3 +106,8 @@ def test_meshes_and_tubes_do_not_go_into_one_recipe() -> None:
 def test_physics_that_no_mesh_bears_is_refused(physics: str, message: str) -> None:
     (line,) = told(HEART + f"steps: [wait: 1]\nphysics: {physics}\n")
     assert message in line
+
+
+def test_a_mesh_falls_by_the_gravity_that_its_recipe_says() -> None:
+    text = HEART + "steps: [wait: 1]\npose: drop\nphysics: {gravity: 1.62}\n"
+    assert Recipe.parse(text).gravity == 1.62

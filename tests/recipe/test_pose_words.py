@@ -45,12 +45,29 @@ def test_gravity_acts_in_poses_on_the_ground_if_the_recipe_does_not_say(end, gra
         ("pose: drop\nspeed: 2", "speed: goes with a figure that falls, expected pose: throw"),
         (
             "pose: drop\nphysics: {gravity: 0}",
-            "physics.gravity: is 0, and so nothing falls in pose drop, expected more than 0, or no such line",
+            "physics.gravity: is too little for a figure to fall in pose drop, expected at least 0.1, or no such line",
         ),
         (
             "pose: throw\nphysics: {model: kosaka}",
-            "pose: makes no sense with model kosaka, whose springs have no weight, expected one of as made, "
+            "pose: makes no sense with model kosaka, whose figures have no true weight, expected one of as made, "
             "stand, hang, hold",
+        ),
+        (
+            "height: 1\nphysics: {model: kosaka}",
+            "height: goes with a figure that falls, expected no such line",
+        ),
+        (
+            "pose: stand\nphysics: {model: kosaka, gravity: 0.3}",
+            "physics.gravity: draws a figure of model kosaka through the ground, which only latex knows, "
+            "expected 0, or no such line",
+        ),
+        (
+            "pose: fall\nheight: 1",
+            'pose: unknown pose "fall", expected one of as made, stand, hang, hold, drop, throw',
+        ),
+        (
+            "pose: drop\nphysics: {gravity: false}",
+            "physics.gravity: False is no number, expected 0 to 100 m/s2",
         ),
         (
             "pose: drop\nheight: 12 m",

@@ -18,7 +18,6 @@ CORNERS = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in
 FACES = np.array(
     [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]], dtype=np.int32
 )
-STILL = np.zeros(3)
 
 
 def box(*, height=0.0, displaced=0.0, faces=FACES, turn=None):
@@ -38,7 +37,7 @@ def heights(figure, fall):
 
 
 def test_a_figure_without_drag_falls_as_stones_do():
-    fall = FallingFigure(smooth_box(height=2.0), GRAVITY, 0.5, STILL, ground=True)
+    fall = FallingFigure(smooth_box(height=2.0), GRAVITY, 0.5, ground=True)
     begin = fall.centre[2]
     fall.advance(0.5)
     assert begin - fall.centre[2] == pytest.approx(0.5 * GRAVITY * 0.5**2, rel=1e-9)
@@ -57,7 +56,7 @@ def test_air_that_is_displaced_carries_and_has_to_be_moved():
 def test_in_the_end_drag_on_the_face_ahead_carries_the_weight(axis):
     turn = np.roll(np.eye(3), axis, axis=0)
     figure = box(turn=turn)
-    fall = FallingFigure(figure, GRAVITY, 0.5, STILL, ground=False)
+    fall = FallingFigure(figure, GRAVITY, 0.5, ground=False)
     fall.advance(6.0)
     area = np.prod(SIZE) / SIZE[(2 - axis) % 3]
     speed = np.sqrt(2.0 * MASS * GRAVITY / (OUTSIDE_DENSITY * DRAG * area))
@@ -66,7 +65,7 @@ def test_in_the_end_drag_on_the_face_ahead_carries_the_weight(axis):
 
 def test_a_figure_that_spins_freely_keeps_its_energy_and_its_angular_momentum():
     figure = smooth_box()
-    fall = FallingFigure(figure, 0.0, 0.5, STILL, ground=False)
+    fall = FallingFigure(figure, 0.0, 0.5, ground=False)
     fall.spin = np.array([0.5, 6.0, 0.5])
 
     def kept():
@@ -83,7 +82,7 @@ def test_a_figure_that_spins_freely_keeps_its_energy_and_its_angular_momentum():
 
 def test_it_bounces_with_the_share_of_its_speed_that_its_damping_leaves():
     figure = smooth_box(height=0.05)
-    fall = FallingFigure(figure, GRAVITY, 0.5, STILL, ground=True)
+    fall = FallingFigure(figure, GRAVITY, 0.5, ground=True)
     speeds = []
     for _ in range(400):
         fall.advance(0.0005)
@@ -110,7 +109,7 @@ def test_a_figure_that_slides_is_braked_by_friction_alone(friction):
 
 def test_what_rests_on_the_ground_does_not_creep():
     figure = smooth_box()
-    fall = FallingFigure(figure, GRAVITY, 0.3, STILL, ground=True)
+    fall = FallingFigure(figure, GRAVITY, 0.3, ground=True)
     fall.settle()
     assert fall.sleeps
     before = fall.centre.copy()
@@ -128,14 +127,14 @@ def test_a_box_on_its_edge_falls_on_the_nearest_side():
         [[np.cos(angle), 0.0, np.sin(angle)], [0.0, 1.0, 0.0], [-np.sin(angle), 0.0, np.cos(angle)]]
     )
     figure = smooth_box(turn=turn)
-    fall = FallingFigure(figure, GRAVITY, 0.8, STILL, ground=True)
+    fall = FallingFigure(figure, GRAVITY, 0.8, ground=True)
     fall.advance(3.0)
     assert np.ptp(np.sort(heights(figure, fall))[:4]) < 1e-4
     assert np.ptp(heights(figure, fall)) == pytest.approx(SIZE[2], abs=1e-3)
 
 
 def test_without_ground_it_falls_on():
-    fall = FallingFigure(smooth_box(), GRAVITY, 0.5, STILL, ground=False)
+    fall = FallingFigure(smooth_box(), GRAVITY, 0.5, ground=False)
     fall.advance(1.0)
     assert fall.centre[2] < -4.0
 

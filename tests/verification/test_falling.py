@@ -65,7 +65,7 @@ def test_a_dog_stands_for_five_seconds_on_the_ground_that_carries_its_weight(ver
     sculpture = simulation.model.performers[0].sculpture
     points = np.concatenate(last.points).astype(float)
     figure = rigid_figure(sculpture, points)
-    standing = FallingFigure(figure, GRAVITY, 0.8, np.zeros(3), ground=True)
+    standing = FallingFigure(figure, GRAVITY, 0.8, ground=True)
     for _ in range(50):
         standing.sleeps = False
         standing.advance(0.1)

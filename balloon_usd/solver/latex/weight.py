@@ -19,9 +19,9 @@ Floats = NDArray[np.float64]
 DISC = math.sqrt(0.5)
 """Radius of the ring that has the inertia of a disc, in that of the disc: the gas of a slice of a bubble."""
 SLACK = 500.0
-"""Least pressure behind a wall that stands on the ground, Pa: what is flat is as firm as if it had this."""
+"""Pressure up to which rubber is flat, Pa."""
 NARROW = 0.005
-"""Least radius of a wall that stands on the ground, m."""
+"""Radius of rubber that is flat all over, m."""
 
 
 def rigid_figure(sculpture: LatexSculpture, points: Floats) -> RigidFigure:
@@ -46,12 +46,18 @@ def rigid_figure(sculpture: LatexSculpture, points: Floats) -> RigidFigure:
 def _firmness(sculpture: LatexSculpture, segment: NDArray[np.int64], radius: Floats) -> Floats:
     """Return how stiff the ground's push on every vertex is, (V,), N/m: where a round wall is pressed flat,
     the pressure behind it acts on an area that grows with the depth by 2 pi times the radius.
+
+    What is flat, and knots, are as firm as the softest bubble: they are small, and what they are of is not.
     """
     scene, hands = sculpture.scene, sculpture.hands
     volume = np.maximum(hands.volume, 1.0e-12).astype(float)
     gauge = hands.amount * float(scene.air.molar_energy) / volume - scene.settings.atmosphere
-    behind = np.where(segment >= 0, gauge[segment], 0.0)
-    return 2.0 * math.pi * np.maximum(radius, NARROW) * np.maximum(behind, SLACK)
+    blown = [s for s in np.unique(segment[segment >= 0]).tolist() if gauge[s] > SLACK]
+    firm = np.zeros(len(gauge))
+    for each in blown:
+        firm[each] = 2.0 * math.pi * float(np.median(radius[segment == each])) * gauge[each]
+    softest = firm[blown].min() if blown else 2.0 * math.pi * NARROW * SLACK
+    return np.asarray(np.maximum(np.where(segment >= 0, firm[segment], 0.0), softest))
 
 
 def _ring_middles(points: Floats, ring: NDArray[np.int64]) -> Floats:

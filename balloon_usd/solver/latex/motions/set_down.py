@@ -30,7 +30,7 @@ class LatexSetDown(SetDown):
             return turn, shift
         figure = rigid_figure(self._sculpture, points @ turn.T + shift)
         friction = self._sculpture.plan.recipe.physics.friction
-        fall = FallingFigure(figure, move.gravity, friction, np.zeros(3), ground=True)
+        fall = FallingFigure(figure, move.gravity, friction, ground=True)
         fall.settle()
         turn, shift = fall.moved(turn, shift)
         stands = points @ turn.T + shift
