@@ -1,6 +1,6 @@
-"""Draw the pictures of operations from their examples, on the CPU.
+"""Draw the pictures of operations from their examples, and of a dog that is dropped, on the CPU.
 
-`python docs/pictures.py` draws all of them, `python docs/pictures.py press lock` only some.
+`python docs/pictures.py` draws all of them, `python docs/pictures.py press drop` only some.
 """
 
 from __future__ import annotations
@@ -24,6 +24,11 @@ if TYPE_CHECKING:
     from balloon_usd.plan import Plan
 
 PICTURES = Path(__file__).parent / "pictures" / "operations"
+DOG = Path(__file__).parents[1] / "recipes" / "dog.yaml"
+DROP = "drop"
+"""The pose that has a picture, too."""
+FALLEN = (0.0, 0.9, 1.25, 2.0, 5.0)
+"""Times after the let-go at which the dog is drawn, s."""
 SIZE = ("300", "220")
 """Width and height of one frame, pixels."""
 MARGIN, GAP, TITLE = 24, 14, 56
@@ -49,6 +54,18 @@ def draw(words: Sequence[str], folder: Path) -> None:
             # What closed rings make shows best from where the knot is.
             picture = _beside(picture, _sheet(stage, frames[-1:], "front"))
         picture.quantize(COLORS, kmeans=PASSES).save(PICTURES / f"{word}.png", optimize=True)
+
+
+def draw_drop(folder: Path) -> None:
+    """Simulate a dog that is dropped, and draw how it falls, lands and lies."""
+    file = folder / f"{DROP}.yaml"
+    file.write_text(DOG.read_text(encoding="utf-8") + f"pose: {DROP}\n", encoding="utf-8")
+    made = plan(Recipe.load(file))
+    _call("run", str(file), "-o", str(folder), "--device", "cpu", "--no-report", "--no-preview")
+    let_go = made.choreography.moves[-1].start
+    frames = [1 + round(made.recipe.fps * (let_go + time)) for time in FALLEN]
+    picture = _sheet(folder / made.recipe.name, frames, "side")
+    picture.quantize(COLORS, kmeans=PASSES).save(PICTURES.parent / f"{DROP}.png", optimize=True)
 
 
 def _sheet(stage: Path, frames: Sequence[int], view: str) -> Image.Image:
@@ -92,4 +109,8 @@ def _call(*words: str) -> None:
 
 if __name__ == "__main__":
     with TemporaryDirectory() as scratch:
-        draw(sys.argv[1:] or WORDS, Path(scratch))
+        wanted = sys.argv[1:] or [*WORDS, DROP]
+        if words := [word for word in wanted if word != DROP]:
+            draw(words, Path(scratch))
+        if DROP in wanted:
+            draw_drop(Path(scratch))
