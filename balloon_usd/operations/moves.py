@@ -249,8 +249,8 @@ class Fall(Move):
     """m/s2"""
     velocity: Vector = (0.0, 0.0, 0.0)
     """With which it is thrown, m/s."""
-    height: float = 0.0
-    """Of its lowest point above the ground, m; 0 where it stands, or has no ground."""
+    spin: Vector = (0.0, 0.0, 0.0)
+    """With which hands let go of it, rad/s."""
     ground: bool = True
     """Whether the plane z = 0 is there to fall on."""
 

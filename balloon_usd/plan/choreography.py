@@ -8,24 +8,20 @@ from typing import TYPE_CHECKING
 from balloon_usd.operations.inflate import Inflate as InflateStep
 from balloon_usd.operations.modifiers import Pointed, Timed
 from balloon_usd.operations.moves import (
-    LET_GO,
-    OTHER_SIDE,
     Choreography,
-    Fall,
     Hold,
     Inflate,
     LetGo,
     Loosen,
     Move,
     Pinch,
-    SetDown,
 )
 from balloon_usd.operations.score import Score
 from balloon_usd.operations.tempo import PACES
 from balloon_usd.plan.laid_out import LaidOut
 from balloon_usd.plan.nets import nets_of
+from balloon_usd.plan.posing import pose
 from balloon_usd.plan.setting_nets import set_nets
-from balloon_usd.recipe.recipe import EARTH
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -37,34 +33,6 @@ if TYPE_CHECKING:
 
 SPREAD_SECONDS = 1.5
 """Time in which the air particles of a balloon that starts blown up spread, s."""
-
-POSE_SECONDS = 2.0
-"""Carrying the finished figure to where it stays, s."""
-POSED_SECONDS = 1.0
-"""How long it is shown there, s."""
-TURN_SECONDS = 4.0
-"""The same if its front is turned: the ends of a figure a metre long stay below 1.5 m/s."""
-POSING: dict[str, tuple[str, str]] = {
-    "as made": ("turn", "turned"),
-    "stand": ("set down", "stand"),
-    "hang": ("hang up", "hang"),
-    "hold": ("hold up", "held"),
-    "drop": ("lift up", "held"),
-    "throw": ("lift up", "held"),
-}
-"""What hands do to pose a figure, and what it does then."""
-FALLING: dict[str, str] = {"as made": "fall", "stand": "stand", "drop": "fall", "throw": "fly"}
-"""What a figure does under gravity, in the poses in which nothing holds it."""
-LIFT_SPEED = 1.0
-"""Mean speed at which hands lift a figure higher than they carry others, m/s."""
-DROP_HEIGHT = 1.0
-"""How far above the ground figures are let go, m, where a recipe does not say."""
-THROW_SPEED = 3.0
-"""How fast they are thrown, m/s, where it does not."""
-SLOW_FALL = 0.6
-"""Speed with which the lightest figures fall in the end, a 260 across the wind, m/s."""
-LANDING_SECONDS = 5.0
-"""From when the slowest figure lands until it is no longer shown, s: a dog tips over and lies after three."""
 
 LOOSEN_SECONDS = 3.0
 """Time in which hands let go of a finished figure, s: at once, and it would jump, and what was squeezed moves
@@ -109,56 +77,8 @@ def choreograph(recipe: Recipe, strips: Mapping[str, Strip], table: RingTable) -
         score.add(Loosen(score.now, seconds, len(recipe.steps), "loosen the grip"))
     score.add(LetGo(score.now, 0.0, len(recipe.steps), "let go", for_good=True))
     score.add(Hold(score.now, recipe.physics.hold, len(recipe.steps), "hold"))
-    _pose(recipe, score, mirrored=mirrored)
+    pose(recipe, score, mirrored=mirrored)
     return Choreography(tuple(score.moves), score.now, mirrored)
-
-
-def _pose(recipe: Recipe, score: Score, *, mirrored: bool) -> None:
-    """Add what becomes of the finished figure."""
-    last, gravity = len(recipe.steps), recipe.gravity
-    doing, done = POSING[recipe.pose]
-    if (recipe.pose, recipe.front) != ("as made", "forward"):
-        seconds = POSE_SECONDS if recipe.front == "forward" else TURN_SECONDS
-        front = OTHER_SIDE.get(recipe.front, recipe.front) if mirrored else recipe.front
-        height = _height(recipe) if recipe.pose in LET_GO else 0.0
-        seconds = max(seconds, height / LIFT_SPEED)
-        carry = SetDown(
-            score.now, seconds, last, doing, pose=recipe.pose, front=front, height=height, gravity=gravity
-        )
-        score.add(carry)
-    if gravity > 0.0 and recipe.physics.traits.has_weight and recipe.pose in FALLING:
-        ahead = recipe.speed if recipe.speed is not None else THROW_SPEED
-        velocity = (-ahead, 0.0, 0.0) if recipe.pose == "throw" else (0.0, 0.0, 0.0)
-        ground = recipe.pose != "as made"
-        seconds, doing = _fall_seconds(recipe), FALLING[recipe.pose]
-        height = _height(recipe) if recipe.pose in LET_GO else 0.0
-        fall = Fall(
-            score.now,
-            seconds,
-            last,
-            doing,
-            gravity=gravity,
-            velocity=velocity,
-            height=height,
-            ground=ground,
-        )
-        if seconds > 0.0:
-            score.add(fall)
-    elif isinstance(score.moves[-1], SetDown):
-        score.add(Move(score.now, POSED_SECONDS, last, done))
-
-
-def _height(recipe: Recipe) -> float:
-    """Return how far above the ground a figure is let go, m."""
-    return DROP_HEIGHT if recipe.height is None else recipe.height
-
-
-def _fall_seconds(recipe: Recipe) -> float:
-    """Return how long a finished figure is shown that falls, or stands by its weight, s."""
-    if recipe.pose in LET_GO:
-        # Speeds go with the root of gravity.
-        return (_height(recipe) / SLOW_FALL + LANDING_SECONDS) * math.sqrt(EARTH / recipe.gravity)
-    return recipe.physics.hold if recipe.pose == "as made" else POSED_SECONDS
 
 
 def _points_right(recipe: Recipe) -> bool:

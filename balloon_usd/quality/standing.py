@@ -25,23 +25,25 @@ class Standing:
 
     def __init__(self, plan: Plan) -> None:
         """Find out when it is set down, if it is."""
-        self._carries = [m for m in plan.choreography.moves if isinstance(m, SetDown) and m.pose == "stand"]
+        carries = (m for m in plan.choreography.moves if isinstance(m, SetDown) and m.pose == "stand")
+        self._carry = next(carries, None)
         # The time of a frame is (code - 1) / fps.
-        self._before = [1 + int(carry.start * plan.recipe.fps) for carry in self._carries]
+        self._before = 1 + int(self._carry.start * plan.recipe.fps) if self._carry else 0
         self._last = plan.frame_count
         self._kept: dict[int, Floats] = {}
 
     def add(self, frame: Frame) -> None:
         """Take the next frame."""
-        if self._carries and frame.time_code in (*self._before, self._last):
+        if self._carry and frame.time_code in (self._before, self._last):
             self._kept[frame.time_code] = np.concatenate(frame.points).astype(float)
 
     def results(self) -> dict[str, dict[str, Any]]:
         """Return the lean, once the last frame is taken; none of a figure that stands nowhere."""
-        if not self._carries:
+        if self._carry is None:
             return {"lean": MEASURES["lean"].result(None)}
-        (carry,), (before,) = self._carries, self._before
-        made, stands = (self._kept[code] - self._kept[code].mean(axis=0) for code in (before, self._last))
-        facing = turn_about(*turn_between(np.array(FRONTS[carry.front]), np.array(FRONTS["forward"])))
+        kept = (self._kept[code] for code in (self._before, self._last))
+        made, stands = (points - points.mean(axis=0) for points in kept)
+        front = np.array(FRONTS[self._carry.front])
+        facing = turn_about(*turn_between(front, np.array(FRONTS["forward"])))
         up = rotation_onto(stands, made) @ facing[2]
         return {"lean": MEASURES["lean"].result(float(np.degrees(np.arccos(np.clip(up[2], -1.0, 1.0)))))}

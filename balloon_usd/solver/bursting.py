@@ -8,6 +8,7 @@ import numpy as np
 
 from balloon_usd.balloon.burst import SCATTER, WHOLE, burst_energy, burst_load, least_burst_stretch
 from balloon_usd.balloon.rubber import relaxed_stretches
+from balloon_usd.solver.corners import vector_areas
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -72,7 +73,7 @@ class _Wall:
         self._rubber = strip.rubber
         self._names = [bubble.name for bubble in strip.bubbles]
         self._quads, self._bubble = mesh.quads, mesh.quad_bubble
-        self._rest = _areas(mesh.points, mesh.quads)
+        self._rest = np.linalg.norm(vector_areas(mesh.points, mesh.quads), axis=1)
         self._volume = strip.size.thickness * self._rest
         corners = np.repeat(0.25 * self._volume, 4)
         vertices = np.bincount(mesh.quads.ravel(), corners, minlength=len(mesh.points))
@@ -101,15 +102,8 @@ class _Wall:
         if not taut.size:
             return NO_LOAD
         large, volume = large[taut], self._volume[taut]
-        grown = _areas(points, self._quads[taut]) / self._rest[taut]
+        grown = np.linalg.norm(vector_areas(points, self._quads[taut]), axis=1) / self._rest[taut]
         energies = self._rubber.energy(*relaxed_stretches(large, grown / large))
         energies = np.minimum(energies, HUGE * burst_energy(self._rubber))
         parts = np.bincount(self._bubble[taut], volume * (energies / energies.max()) ** SCATTER)
         return WallLoad(burst_load(self._rubber, volume, energies), self._names[int(np.argmax(parts))])
-
-
-def _areas(points: NDArray[np.float32], quads: NDArray[np.int32]) -> NDArray[np.float64]:
-    """Return the areas of quads, (Q,) m2."""
-    a, b, c, d = (points[quads[:, k]].astype(np.float64) for k in range(4))
-    across: NDArray[np.float64] = np.cross(c - a, d - b)
-    return np.asarray(0.5 * np.linalg.norm(across, axis=1))

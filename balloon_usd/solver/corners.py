@@ -1,8 +1,8 @@
-"""Which corners of which faces meet at a vertex."""
+"""Corners of faces: which of them meet at a vertex, and the areas between them."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -34,3 +34,9 @@ def corner_table(quads: NDArray[np.int32], vertices: int) -> NDArray[np.int32]:
         chain = [vertex, *range(first[vertex], first[vertex] + rows[vertex] - 1)]
         table[chain[:-1], 3] = -2 - np.array(chain[1:])
     return table
+
+
+def vector_areas(points: NDArray[np.floating[Any]], quads: NDArray[np.integer[Any]]) -> NDArray[np.float64]:
+    """Return the outward vector areas of quads (Q, 4) between points (V, 3), m, (Q, 3), m2."""
+    corners = points[quads].astype(float)
+    return np.asarray(0.5 * np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]))

@@ -22,8 +22,6 @@ SHORTEST = 2.5e-4
 """Shortest time for which they are kept, s."""
 SLOWED = 0.02
 """Share of the speed that drag takes meanwhile, at most."""
-NUDGE = np.array([0.01, 0.007, 0.0])
-"""Spin with which hands let go, rad/s: no hand is so steady that a heart stays on its point."""
 ANGLE = 0.8
 """Angle by which the quickest swing on the ground goes on in a time step, rad: at 2 it would grow."""
 FEET = 4
@@ -91,7 +89,8 @@ class FallingFigure:
         """Whether it lies still on the ground."""
         self._calm = 0.0
         """For how long it has hardly moved, s."""
-        self._weight = figure.heavy * gravity
+        self.weight = figure.heavy * gravity
+        """What it weighs in air, N."""
         self._friction, self._ground = friction, ground
         self._anchors = np.full((len(figure.points), 2), np.nan)
         """Where the bristle of every vertex that touches is rooted in the ground, (V, 2), m."""
@@ -99,11 +98,6 @@ class FallingFigure:
         self._step_seconds = ANGLE / quickest(figure)
         """Longest time step on the ground, s."""
         self._damping = 2.0 * BOUNCE * np.sqrt(figure.firmness * figure.inertial)
-
-    @property
-    def weight(self) -> float:
-        """What it weighs in air, N."""
-        return self._weight
 
     def moved(self, turn: Floats, shift: Floats) -> tuple[Floats, Floats]:
         """Return a turn (3, 3) and a shift (3,), m, that had brought it where it was let go, and what has
@@ -149,10 +143,10 @@ class FallingFigure:
         """Advance by one time step, by symplectic Euler, and return the push of the ground, N."""
         figure, turn = self.figure, self.turn
         push, twist = self._touch(near)
-        force = drag + self._weight * DOWN + push
+        force = drag + self.weight * DOWN + push
         # Euler's equation of rotation, in the frame of the figure.
         spin = self.spin @ turn
-        torque = (torque + twist) @ turn + cross(figure.heavy_arm) @ (self._weight * DOWN @ turn)
+        torque = (torque + twist) @ turn + cross(figure.heavy_arm) @ (self.weight * DOWN @ turn)
         torque -= cross(spin) @ (figure.tensor @ spin)
         gained = dt / figure.inertial * force
         self.velocity = self.velocity + gained

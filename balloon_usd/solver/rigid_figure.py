@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from balloon_usd.balloon.air import OUTSIDE_DENSITY
+from balloon_usd.solver.corners import vector_areas
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -76,11 +77,10 @@ class RigidFigure:
         tensor = square * np.eye(3) - (moved[:, None] * arms).T @ arms
         weighing = lumps.mass - OUTSIDE_DENSITY * lumps.displaced
         heavy = float(weighing.sum())
-        corners = points[quads] - centre
         return cls(
             points=points - centre,
-            panels=corners.mean(axis=1),
-            areas=0.5 * np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]),
+            panels=points[quads].mean(axis=1) - centre,
+            areas=vector_areas(points, quads),
             centre=centre,
             inertial=inertial,
             tensor=tensor,

@@ -19,8 +19,7 @@ class WallSearch:
     def __init__(self, launcher: Launcher) -> None:
         self._launcher = launcher
         launcher.values["touch"] = launcher.scene.touch
-        lanes = launcher.lanes(WARP)
-        self._groups = -(-len(launcher.scene.x) * min(SEARCH_LANES, lanes) // lanes)
+        self._groups = -(-len(launcher.scene.x) * launcher.lanes(SEARCH_LANES) // launcher.lanes(WARP))
         # One block size for all: each size is a separate compilation.
         launcher.launch(find_own_walls, len(launcher.scene.x), lanes=WARP)
         self._grouped = launcher.lanes(WARP) == 1

@@ -6,7 +6,7 @@ import pytest
 
 from balloon_usd.operations.moves import Fall, SetDown
 from balloon_usd.plan import plan
-from balloon_usd.plan.choreography import LANDING_SECONDS, POSED_SECONDS, SLOW_FALL
+from balloon_usd.plan.posing import LANDING_SECONDS, POSED_SECONDS, SLOW_FALL
 from balloon_usd.recipe import Recipe
 
 PAIR = """

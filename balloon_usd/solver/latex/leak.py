@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from balloon_usd.balloon.leak import conductance
+from balloon_usd.solver.corners import vector_areas
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -67,9 +68,8 @@ class Leak:
         `grown`: its length at rest, as a share of that between closed necks.
         """
         quads, rubber = self._wall(segment)
-        corners = x[quads].astype(float)
-        area = 0.5 * np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
-        return float(conductance(np.linalg.norm(area, axis=1), grown * rubber).sum())
+        area = np.linalg.norm(vector_areas(x, quads), axis=1)
+        return float(conductance(area, grown * rubber).sum())
 
     def _wall(self, segment: int) -> tuple[NDArray[np.int32], NDArray[np.float32]]:
         """Return the wall of a segment: once it leaks it is bent no more."""

@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     from balloon_usd.solver.launch import Launcher
 
 PARTS = 4
-"""Warps of a GPU that look for what one chunk of quads pierces: one dog has too few chunks to fill it
-(with the candidates of each quad kept as bits, 350 -> 41 us a frame of a dog on an H200).
+"""Parts in which a GPU looks through what quads may pierce, each by warps of its own: one dog has too few
+chunks to fill it. With 2 the crown of 54 bubbles takes 7 % longer; with 8, 256 dogs take a sixth longer.
 """
 
 
@@ -40,7 +40,7 @@ class Untangling:
         """Get ready; `between_searches`: time between two searches for facing walls, s."""
         self._launcher = launcher
         self._between_searches = between_searches
-        self._parts = PARTS if launcher.lanes(WARP) > 1 else 1
+        self._parts = launcher.lanes(PARTS)
         launcher.load(box_walls, find_piercing_walls, measure_momentum, lanes=WARP)
         launcher.load(begin_keeping_apart, draw_back, take_momentum)
         self.start()
@@ -117,7 +117,7 @@ class Untangling:
         """Find where walls cross as they are kept apart."""
         chunks = len(self._launcher.scene.box_low)
         self._launcher.share_out(box_walls, chunks, lanes=WARP)
-        groups = self._parts * min(SEARCH_LANES, self._launcher.lanes(WARP)) * chunks
+        groups = self._parts * self._launcher.lanes(SEARCH_LANES) * chunks
         self._launcher.share_out(
             find_piercing_walls, groups, lanes=WARP, parts=self._parts, together=together
         )

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from balloon_usd.balloon.air import MOLAR_MASS
+from balloon_usd.solver.corners import vector_areas
 from balloon_usd.solver.rigid_figure import Lumps, RigidFigure
 
 if TYPE_CHECKING:
@@ -70,8 +71,7 @@ def _ring_middles(points: Floats, ring: NDArray[np.int64]) -> Floats:
 
 def _wall_about(points: Floats, quads: NDArray[np.int64]) -> Floats:
     """Return the area of the wall about every vertex, (V,), m2."""
-    c = points[quads]
-    area = 0.125 * np.linalg.norm(np.cross(c[:, 2] - c[:, 0], c[:, 3] - c[:, 1]), axis=1)
+    area = 0.25 * np.linalg.norm(vector_areas(points, quads), axis=1)
     return np.asarray(np.bincount(quads.ravel(), np.repeat(area, 4), len(points)), dtype=float)
 
 

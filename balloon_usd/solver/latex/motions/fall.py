@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from balloon_usd.solver.falling import NUDGE, FallingFigure
+from balloon_usd.solver.falling import FallingFigure
 from balloon_usd.solver.latex.weight import rigid_figure
 from balloon_usd.solver.motions.motion import Motion
 from balloon_usd.solver.placement import Placement
@@ -27,10 +27,8 @@ class Fall(Motion):
         points = sculpture.walls() @ self._start[0].T + self._start[1]
         friction = sculpture.plan.recipe.physics.friction
         figure = rigid_figure(sculpture, points)
-        nudge = NUDGE if move.height > 0.0 else np.zeros(3)
-        self._falling = FallingFigure(
-            figure, move.gravity, friction, np.array(move.velocity), nudge, ground=move.ground
-        )
+        velocity, spin = np.array(move.velocity), np.array(move.spin)
+        self._falling = FallingFigure(figure, move.gravity, friction, velocity, spin, ground=move.ground)
         self._until = move.start
         """Time to which it has fallen, s."""
 

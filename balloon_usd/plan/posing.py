@@ -1,0 +1,105 @@
+"""What becomes of a finished figure: hands carry it to its pose, and where nothing holds it, it falls."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from balloon_usd.operations.moves import LET_GO, OTHER_SIDE, Fall, Move, SetDown
+from balloon_usd.recipe.recipe import EARTH
+
+if TYPE_CHECKING:
+    from balloon_usd.operations.moves import Vector
+    from balloon_usd.operations.score import Score
+    from balloon_usd.recipe import Recipe
+
+POSE_SECONDS = 2.0
+"""Carrying the finished figure to where it stays, s."""
+POSED_SECONDS = 1.0
+"""How long it is shown there, s."""
+TURN_SECONDS = 4.0
+"""The same if its front is turned: the ends of a figure a metre long stay below 1.5 m/s."""
+POSING: dict[str, tuple[str, str]] = {
+    "as made": ("turn", "turned"),
+    "stand": ("set down", "stand"),
+    "hang": ("hang up", "hang"),
+    "hold": ("hold up", "held"),
+    "drop": ("lift up", "held"),
+    "throw": ("lift up", "held"),
+}
+"""What hands do to pose a figure, and what it does then."""
+FALLING: dict[str, str] = {"as made": "fall", "stand": "stand", "drop": "fall", "throw": "fly"}
+"""What a figure does under gravity, in the poses in which nothing holds it."""
+LIFT_SPEED = 1.0
+"""Mean speed at which hands lift a figure higher than they carry others, m/s."""
+DROP_HEIGHT = 1.0
+"""How far above the ground figures are let go, m, where a recipe does not say."""
+THROW_SPEED = 3.0
+"""How fast they are thrown, m/s, where it does not."""
+SLOW_FALL = 0.6
+"""Speed with which the lightest figures fall in the end, a 260 across the wind, m/s."""
+LANDING_SECONDS = 5.0
+"""From when the slowest figure lands until it is no longer shown, s: a dog tips over and lies after three."""
+NUDGE: Vector = (0.01, 0.007, 0.0)
+"""Spin with which hands let go above the ground, rad/s: no hand is so steady that a heart stays on its point.
+"""
+STILL: Vector = (0.0, 0.0, 0.0)
+
+
+def pose(recipe: Recipe, score: Score, *, mirrored: bool) -> None:
+    """Add what becomes of the finished figure of a recipe to the moves that make it."""
+    last = len(recipe.steps)
+    doing, done = POSING[recipe.pose]
+    carried = (recipe.pose, recipe.front) != ("as made", "forward")
+    if carried:
+        seconds = POSE_SECONDS if recipe.front == "forward" else TURN_SECONDS
+        front = OTHER_SIDE.get(recipe.front, recipe.front) if mirrored else recipe.front
+        height = _height(recipe)
+        seconds = max(seconds, height / LIFT_SPEED)
+        score.add(
+            SetDown(
+                score.now,
+                seconds,
+                last,
+                doing,
+                pose=recipe.pose,
+                front=front,
+                height=height,
+                gravity=recipe.gravity,
+            )
+        )
+    if recipe.gravity > 0.0 and recipe.physics.traits.has_weight and recipe.pose in FALLING:
+        if (seconds := _fall_seconds(recipe)) > 0.0:
+            score.add(_fall(recipe, score.now, seconds))
+    elif carried:
+        score.add(Move(score.now, POSED_SECONDS, last, done))
+
+
+def _fall(recipe: Recipe, start: float, seconds: float) -> Fall:
+    """Return how it falls from a time on (s), for some seconds."""
+    ahead = recipe.speed if recipe.speed is not None else THROW_SPEED
+    return Fall(
+        start,
+        seconds,
+        len(recipe.steps),
+        FALLING[recipe.pose],
+        gravity=recipe.gravity,
+        velocity=(-ahead, 0.0, 0.0) if recipe.pose == "throw" else STILL,
+        spin=NUDGE if _height(recipe) > 0.0 else STILL,
+        ground=recipe.pose != "as made",
+    )
+
+
+def _height(recipe: Recipe) -> float:
+    """Return how far above the ground hands let go of a figure, m; 0 where they do not."""
+    if recipe.pose not in LET_GO:
+        return 0.0
+    return DROP_HEIGHT if recipe.height is None else recipe.height
+
+
+def _fall_seconds(recipe: Recipe) -> float:
+    """Return how long a finished figure is shown that falls, or stands by its weight, s."""
+    if recipe.pose in LET_GO:
+        # Speeds go with the root of gravity.
+        return (_height(recipe) / SLOW_FALL + LANDING_SECONDS) * math.sqrt(EARTH / recipe.gravity)
+    return recipe.physics.hold if recipe.pose == "as made" else POSED_SECONDS
