@@ -16,6 +16,7 @@ class Ear(TwistsClosed):
     pulled: ClassVar[float] = 0.9
     of_balls: ClassVar[bool] = True
     gas: ClassVar[float] = 0.85
+    slack: ClassVar[float] = 1.4
     example: ClassVar[str] = """\
 format: 1
 name: bear_head

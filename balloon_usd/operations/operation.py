@@ -39,6 +39,8 @@ class Operation(Entries):
     """Whether it lays the two halves of each of them side by side."""
     gas: ClassVar[float] = 1.0
     """Share of the gas of its length that hands leave in each of them, if not told to press any out."""
+    slack: ClassVar[float] = 1.0
+    """Rubber of each of them, in that of a firm bubble of its length."""
     guides: ClassVar[tuple[float, ...]] = (0.5,)
     """Where hands lead each of them, as shares of its length."""
     by_bubble: ClassVar[bool] = False

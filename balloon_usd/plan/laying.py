@@ -103,7 +103,7 @@ def _tube(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> Strip
     along, rest_along, drawn_before = 0.0, 0.0, 0.0
     bent = {each for step in recipe.steps if isinstance(step, Bend) for each in step.names}
     for made in _wound(recipe, name, size, rubber):
-        index, kind, bubble, length, gas, drawn = made
+        index, kind, bubble, length, gas, drawn, slack = made
         shape, left = tube.pinched(made.twisted)
         if not left.blown_up:
             path: Path = ("steps", index, recipe.steps[index].word, bubble)
@@ -112,7 +112,8 @@ def _tube(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> Strip
         place = along, along + length, rest_along, rest_end
         pressure = shape.pressure * gauge_pressure(size, maxwell_state(tube.rubber).p_star)
         planned = PlannedBubble(bubble, name, kind, length, *place, shape.volume, index, pressure)
-        bubbles.append(replace(planned, bent=bubble in bent, gas=gas, drawn=(drawn_before, drawn)))
+        drawn_in = drawn_before, drawn
+        bubbles.append(replace(planned, bent=bubble in bent, gas=gas, drawn=drawn_in, slack=slack))
         tube, along, rest_along, drawn_before = left, along + length, rest_end, drawn
     rest = _rest_of_tube(recipe, name, tube, along, rest_along)
     bubbles.append(replace(rest, bent=rest.name in bent, drawn=(drawn_before, 0.0)))
@@ -157,7 +158,8 @@ def _wound(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> list
     for made in _made(recipe, name):
         step = recipe.steps[made.step]
         turns = step.turns if isinstance(step, Turned) and recipe.physics.traits.winds else 0.0
-        found.append(made._replace(drawn=drawn_rubber(size, softened(rubber), turns)))
+        drawn = drawn_rubber(size, softened(rubber), turns)
+        found.append(made._replace(drawn=drawn, slack=step.slack))
     return found
 
 

@@ -42,6 +42,8 @@ class Twisted(NamedTuple):
     """Share of the gas of that length that hands leave in it: a soft one keeps less."""
     drawn: float = 0.0
     """Unstressed rubber that its turns draw into the neck behind it, m."""
+    slack: float = 1.0
+    """Rubber, in that of a firm bubble of that length: hands gather more for what they will fold small."""
 
     def scaled(self, share: float) -> Twisted:
         """Return a bubble of a share of its length, with as many turns."""
@@ -100,7 +102,7 @@ class OpenTube:
         shape = bubble_of_length(self.size, self.rubber, bubble.length)
         shape = replace(
             shape,
-            rest_length=shape.rest_length * bulged.b / now.b,
+            rest_length=bubble.slack * shape.rest_length * bulged.b / now.b,
             diameter=shape.diameter * now.a / bulged.a,
             volume=bubble.gas * shape.volume * (now.a / bulged.a) ** 2,
             pressure=shape.pressure * now.p_star / bulged.p_star,
@@ -167,7 +169,8 @@ def tail_range(size: BalloonSize, rubber: Rubber, bubbles: Sequence[Twisted]) ->
     gained = bulged - tail_volume_per_rest_length(size, rubber)
     shapes = [bubble_of_length(size, rubber, bubble.length) for bubble in bubbles]
     gas = sum(bubble.gas * shape.volume for bubble, shape in zip(bubbles, shapes, strict=True))
-    rest = sum(shape.rest_length + bubble.drawn for bubble, shape in zip(bubbles, shapes, strict=True))
+    pairs = zip(bubbles, shapes, strict=True)
+    rest = sum(bubble.slack * shape.rest_length + bubble.drawn for bubble, shape in pairs)
     used = (bulged * rest - gas) / gained
     return TailRange(used, size.length - rest - end_rest_length(size, rubber) + used)
 

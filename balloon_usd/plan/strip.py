@@ -30,11 +30,13 @@ class Made(NamedTuple):
     """Share of the gas of that length that hands leave in it."""
     drawn: float = 0.0
     """Unstressed rubber that its turns draw into the neck behind it, m; only of tubes."""
+    slack: float = 1.0
+    """Rubber that hands gather for it, in that of a firm bubble of its length; only of tubes."""
 
     @property
     def twisted(self) -> Twisted:
         """What it takes of a tube."""
-        return Twisted(self.length, self.gas, self.drawn)
+        return Twisted(self.length, self.gas, self.drawn, self.slack)
 
 
 @dataclass(frozen=True)
@@ -66,11 +68,13 @@ class PlannedBubble:
     """Share of the gas of its length that hands leave in it: below 1 of a soft one."""
     drawn: tuple[float, float] = (0.0, 0.0)
     """Unstressed rubber that turns draw in all into the necks before and behind it, half of it from it, m."""
+    slack: float = 1.0
+    """Rubber that hands gather for it, in that of a firm bubble of its length."""
 
     @property
     def twisted(self) -> Twisted:
         """What it takes of a tube."""
-        return Twisted(self.length, self.gas, self.drawn[1])
+        return Twisted(self.length, self.gas, self.drawn[1], self.slack)
 
     @property
     def rest_length(self) -> float:

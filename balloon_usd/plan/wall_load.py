@@ -23,8 +23,8 @@ RING = ((0.6, 1.0), (1.0, 1.7), (1.6, 2.5), (3.0, 2.1), (4.0, 1.8), (6.0, 1.4), 
 simulations give, in which no gas is pressed out of a bubble before it is bent.
 """
 SOFT = 1.5
-"""Power of the share of gas with which that energy falls where hands press some out: in simulations of loops
-of 8 and 12 cm 1.4 to 1.7.
+"""Power of the share of gas with which that energy falls where hands press some out, or gather more rubber:
+in simulations of loops of 8 and 12 cm 1.4 to 1.7.
 """
 PAIR = ((0.5, 0.95), (1.0, 1.2), (1.5, 1.24), (2.4, 1.15), (6.0, 1.04), (10.0, 1.0))
 """The same of a bubble whose two ends are joined with those of another."""
@@ -59,7 +59,7 @@ def _bent(strip: Strip, bubble: PlannedBubble, graph: SculptureGraph, hardness: 
     length = bubble.length / (2.0 * strip.inflated_radius)
     if len(mine) == 1:
         # A hard tube gives way less where it is bent.
-        soft = math.pow(bubble.gas / BY_KIND[bubble.kind].gas, SOFT)
+        soft = math.pow(bubble.gas / (BY_KIND[bubble.kind].gas * bubble.slack), SOFT)
         return hardness * soft * _between(RING, length)
     if sum(other == mine for other in ends.values()) > 1:
         return _between(PAIR, length)
