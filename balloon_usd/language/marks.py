@@ -23,6 +23,8 @@ class Marks:
     """Places of plain values only: a list or mapping is found by its key."""
     moved: tuple[tuple[Path, Path], ...] = ()
     """Parts that an upgrade has moved, in order: each path before it and after it."""
+    repeats: dict[Path, str] = field(default_factory=dict)
+    """In which of its repeats a part is written out, as `k = 3`, of parts that stand once in the file."""
 
     def written(self, path: Path) -> Path:
         """Return where a part stands in the file, as its writer wrote it."""
@@ -43,7 +45,9 @@ class Marks:
     def problem(self, path: Path, text: str, at: Place | None = None) -> Problem:
         """Make a problem of what is wrong at a path."""
         line, column = at or self.place(path)
-        return Problem(self.file, line, column, path_text(self.written(path)), escaped(text))
+        repeat = self.repeats.get(path[:2])
+        where = f" (with {repeat})" if repeat else ""
+        return Problem(self.file, line, column, path_text(self.written(path)), escaped(text + where))
 
     def notice(self, path: Path, text: str) -> Notice:
         """Make a notice of what should be known of a path."""

@@ -26,8 +26,12 @@ METRES: dict[str, Decimal] = {
     "in": Decimal("0.0254"),
     '"': Decimal("0.0254"),
     "ft": Decimal("0.3048"),
+    "finger": Decimal("0.02"),
+    "fingers": Decimal("0.02"),
+    "hand": Decimal("0.08"),
+    "hands": Decimal("0.08"),
 }
-"""Metres in one unit (international inch and foot)."""
+"""Metres in one unit: international inch and foot; a finger and a hand are so wide, four fingers a hand."""
 
 NEWTONS: dict[str, Decimal] = {"N": Decimal(1), "mN": Decimal("0.001")}
 """Newtons in one unit."""
@@ -44,9 +48,12 @@ SECONDS: dict[str, Decimal] = {
 LONGEST = 5.0
 """Metres. Three times the longest balloon in the trade, so that a slip of the unit is seen."""
 
-_NUMBER = r"[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]{1,3})?"
-_QUANTITY = re.compile(rf"\s*({_NUMBER})\s*([A-Za-z\"]*)\s*", re.ASCII)
-_PERCENT = re.compile(rf"\s*{_NUMBER}\s*%?\s*", re.ASCII)
+UNSIGNED = r"(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]{1,3})?"
+"""Pattern of a number without a sign."""
+NUMBER = rf"[-+]?{UNSIGNED}"
+"""Pattern of a number."""
+_QUANTITY = re.compile(rf"\s*({NUMBER})\s*([A-Za-z\"]*)\s*", re.ASCII)
+_PERCENT = re.compile(rf"\s*{NUMBER}\s*%?\s*", re.ASCII)
 _DECIMAL_COMMA = re.compile(r"\s*[0-9]+,[0-9]+\s*[a-z\"]*\s*", re.ASCII)
 _LONGEST_TEXT = 40
 

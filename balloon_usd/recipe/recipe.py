@@ -30,6 +30,7 @@ from .balloons import Balloon
 from .meaning import meaning_of
 from .physics import Physics
 from .recipe_file import FilePath, read_recipe_file
+from .repeats import written_out
 from .translation import validation_complaints
 from .upgrades import upgraded
 from .writer import recipe_entries, recipe_text
@@ -113,7 +114,7 @@ class Recipe(Entries):
         Raises:
             RecipeError: with all problems of the text.
         """
-        document, notices = upgraded(read_yaml(text, file))
+        document, notices = upgraded(written_out(read_yaml(text, file)))
         complaints = list(document.complaints)
         try:
             recipe = cls.model_validate(document.data, context=Reading(_units_in(document.data)))

@@ -4,15 +4,21 @@ from __future__ import annotations
 
 from typing import Any
 
+from .formula_schema import with_formulas
 from .recipe import Recipe
 
 SCHEMA_DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
 
 def recipe_schema() -> dict[str, Any]:
-    """JSON Schema made from the models that check a recipe."""
-    schema = _without_null(Recipe.model_json_schema())
-    return {"$schema": SCHEMA_DIALECT, **schema}
+    """JSON Schema of recipes as they are written, made from the models that check them."""
+    return {"$schema": SCHEMA_DIALECT, **with_formulas(model_schema())}
+
+
+def model_schema() -> dict[str, Any]:
+    """Return the same of recipes that are written out, without named values, formulas and repeats."""
+    found: dict[str, Any] = _without_null(Recipe.model_json_schema())
+    return found
 
 
 def _without_null(schema: Any) -> Any:

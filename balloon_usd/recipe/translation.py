@@ -15,6 +15,7 @@ from balloon_usd.operations.table import BY_WORD, WORDS, words_in
 from .balloons import Balloon
 from .kosaka import Kosaka
 from .physics import Physics
+from .repeats import LET, REPEAT
 
 if TYPE_CHECKING:
     from pydantic import BaseModel, ValidationError
@@ -123,9 +124,9 @@ def _unfit_key(path: Path, data: object) -> str | None:
 
 def _unknown_key(path: Path, root: type[BaseModel]) -> str:
     if path[0] == "steps" and len(path) == 3:
-        return unknown("key", path[-1], [*WORDS, *MODIFIERS])
+        return unknown("key", path[-1], [*WORDS, *MODIFIERS, REPEAT])
     model = _model_at(path[:-1], root)
-    return unknown("key", path[-1], model.model_fields)
+    return unknown("key", path[-1], [*model.model_fields, *([] if path[:-1] else [LET])])
 
 
 def _unknown_choice(path: Path, value: object, expected: str) -> str:

@@ -13,6 +13,7 @@ from balloon_usd.recipe.balloons import Balloon
 from balloon_usd.recipe.kosaka import Kosaka
 from balloon_usd.recipe.physics import Physics
 from balloon_usd.recipe.recipe import Recipe
+from balloon_usd.recipe.repeats import LET
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -91,7 +92,7 @@ def _keys(path: Path, node: dict[str, object]) -> list[str]:
     model: type[BaseModel] | None = None
     match path:
         case ():
-            return [key for key in Recipe.model_fields if key not in GIVEN]
+            return [key for key in (*Recipe.model_fields, LET) if key not in GIVEN]
         case ("steps", int()):
             return _step_keys(node)
         case ("balloons", _):

@@ -10,7 +10,7 @@ from sphinx.util.docutils import SphinxDirective
 from balloon_usd.operations.modifiers import MODIFIERS
 from balloon_usd.operations.table import BY_WORD, OPERATIONS
 from balloon_usd.quality.measures import MEASURES
-from balloon_usd.recipe import recipe_schema
+from balloon_usd.recipe.schema import model_schema
 from balloon_usd.report.document import DIGITS, UNITS
 from balloon_usd.solver.kernels.arrays import kosaka, latex, shared  # noqa: F401  # they fill the table
 from balloon_usd.solver.kernels.arrays.table import ARRAYS, STRUCTS
@@ -28,7 +28,7 @@ class RecipeKeys(SphinxDirective):
 
     def run(self) -> list[nodes.Node]:
         """Return the table of the block that is named: Balloon, Physics, Kosaka or a step."""
-        keys = recipe_schema()["$defs"][self.arguments[0]]["properties"]
+        keys = model_schema()["$defs"][self.arguments[0]]["properties"]
         rows = ((f"`{name}`", _allowed(key), _default(key), key["description"]) for name, key in keys.items())
         return self.parse_text_to_nodes(table(("key", "values", "default", "meaning"), rows))
 

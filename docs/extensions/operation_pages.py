@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 from balloon_usd.operations.moves import LetGo, Move
 from balloon_usd.operations.table import OPERATIONS
 from balloon_usd.plan import plan
-from balloon_usd.recipe import Recipe, RecipeBuilder, recipe_schema
+from balloon_usd.recipe import Recipe, RecipeBuilder
+from balloon_usd.recipe.schema import model_schema
 from balloon_usd.recipe.writer import flow_text
 
 if TYPE_CHECKING:
@@ -88,7 +89,7 @@ def table(head: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:
 
 def _key_rows(operation: type[Operation]) -> Iterator[tuple[str, ...]]:
     """Yield the word, the keys of its value, and what may stand beside it."""
-    definitions = recipe_schema()["$defs"]
+    definitions = model_schema()["$defs"]
     own = definitions[operation.__name__]["properties"]
     inner = {} if operation.value_model is None else definitions[operation.value_model.__name__]["properties"]
     keys = {operation.word: own[operation.word]}

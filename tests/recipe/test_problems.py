@@ -55,7 +55,7 @@ ONE_STEP = [
     (
         "bubbles: {a: 4 yd}",
         18,
-        'steps[0].bubbles.a: unknown length unit "yd", expected one of mm, cm, m, in, ", ft',
+        'steps[0].bubbles.a: unknown length unit "yd", expected one of mm, cm, m, in, ", ft, finger, fingers, hand, hands',
     ),
     (
         "bubbles: {a: '10,5 cm'}",

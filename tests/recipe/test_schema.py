@@ -190,6 +190,52 @@ WRONG = [
 ]
 
 
+WRITTEN = """\
+format: 1
+name: petals
+units: cm
+let: {size: 3, skin: red, count: 6, long: 2 hands}
+balloons:
+  petal_<k>: {repeat: {k: = count}, size: 260, color: = skin, tail: = size * 2}
+steps:
+  - repeat: {k: 2 to count}
+    note: each is joined to the one before it
+    steps:
+      - {bubbles: {b_<k>: = 2 * size}, balloon: petal_<k>, burp: = 10 * 2}
+      - repeat: {side: [left, right], at: [1, 2]}
+        steps: [{loop: {<side>_<k>: = long}, balloon: petal_<k>, point: <side>, turns: = at + 1}]
+  - {bubbles: {b_1: 2 fingers}, balloon: petal_1}
+  - lock: {joints: [b_1.start, b_<count>.start]}
+"""
+
+
+def test_the_schema_and_the_reader_take_repeats_formulas_and_named_values() -> None:
+    assert len(Recipe.parse(WRITTEN).steps) == 17
+    assert accepts(SCHEMA, plain(WRITTEN))
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong"),
+    [
+        ("let: {size: 3,", "let: {size: [3],"),
+        ("{k: = count}, size", "{k: 0}, size"),
+        ("{k: 2 to count}", "{}"),
+        ("    note: each is", "    turns: 3\n    note: each is"),
+        ("- repeat: {k: 2", "- repeats: {k: 2"),
+        (
+            "steps: [{loop: {<side>_<k>: = long}, balloon: petal_<k>, point: <side>, turns: = at + 1}]",
+            "steps: []",
+        ),
+    ],
+)
+def test_the_schema_and_the_reader_refuse_the_same_slips_in_repeats(right: str, wrong: str) -> None:
+    text = WRITTEN.replace(right, wrong)
+    assert text != WRITTEN
+    with pytest.raises(RecipeError):
+        Recipe.parse(text)
+    assert not accepts(SCHEMA, plain(text))
+
+
 @pytest.mark.parametrize("text", WRONG)
 def test_the_schema_and_the_reader_refuse_the_same_slips(text: str) -> None:
     with pytest.raises(RecipeError):
@@ -209,7 +255,8 @@ def test_the_schema_and_the_reader_refuse_the_same_slips(text: str) -> None:
     ],
 )
 def test_the_schema_describes_every_key_and_forbids_others(found: dict[str, Any], model: type) -> None:
-    assert list(found["properties"]) == list(model.model_fields)
+    beside = {Recipe: ["let"], Balloon: ["repeat"]}.get(model, [])
+    assert list(found["properties"]) == [*model.model_fields, *beside]
     assert found["additionalProperties"] is False
     assert all(entry["description"] for entry in found["properties"].values())
 
@@ -219,7 +266,9 @@ def test_the_schema_requires_what_the_reader_requires() -> None:
     assert SCHEMA["$defs"]["Balloon"]["oneOf"] == [{"required": ["size"]}, {"required": ["mesh"]}]
     assert "required" not in SCHEMA["$defs"]["Physics"]
     steps = SCHEMA["properties"]["steps"]["items"]["oneOf"]
-    assert steps == [{"$ref": f"#/$defs/{each.__name__}"} for each in OPERATIONS]
+    assert steps == [
+        {"$ref": f"#/$defs/{each}"} for each in [*(each.__name__ for each in OPERATIONS), "Repeat"]
+    ]
     assert [SCHEMA["$defs"][each.__name__]["required"] for each in OPERATIONS] == [
         [w.word] for w in OPERATIONS
     ]

@@ -304,3 +304,18 @@ def test_a_recipe_with_an_older_word_is_varied_by_the_new_one_and_keeps_its_text
     assert [str(notice)[-41:] for notice in made.notices] == [
         "7:5: push is called press now: press: {...}"[-41:]
     ]
+
+
+def test_a_named_value_is_varied_wherever_formulas_use_it(tmp_path):
+    file = tmp_path / "pair.yaml"
+    file.write_text(
+        "format: 1\nname: pair\nunits: cm\nlet: {ear: 3}  # both\nballoons: {main: {size: 260, tail: 10}}\n"
+        "steps:\n- repeat: {k: 2}\n  steps: [{bubbles: {b_<k>: = 2 * ear}}, {ear: {e_<k>: = ear}}]\n"
+    )
+    made = vary_recipe(file, {"let.ear": [2.5, 4]}, tmp_path / "made")
+    lengths = [list(Recipe.load(each.file).steps[2].lengths.values()) for each in made.written]
+    assert lengths == [pytest.approx([0.05]), pytest.approx([0.08])]
+    assert "let: {ear: 4}  # both" in made.written[1].file.read_text()
+    assert refused(file, {"let.era": [1]}, tmp_path / "other") == [
+        'let.era: unknown key "era", did you mean "ear"?'
+    ]
