@@ -167,7 +167,7 @@ def _is_read(found: Sequence[object], value: object) -> bool:
 
 
 def _check_bubbles(names: Sequence[str], read: bool, path: Path, bench: Workbench) -> None:
-    found = [bench.find(name, path) for name in names]
+    found = [bench.find_firm(name, path) for name in names]
     if not read or not all(found):
         return
     if len(set(names)) < len(names):

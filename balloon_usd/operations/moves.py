@@ -85,6 +85,13 @@ class Inflate(Move):
 
 
 @dataclass(frozen=True)
+class Pop(Move):
+    """Prick a bubble: its gas is gone at once."""
+
+    bubble: str = ""
+
+
+@dataclass(frozen=True)
 class Pinch(Move):
     """Close the neck at a ring between two fingers."""
 

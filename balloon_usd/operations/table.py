@@ -17,6 +17,7 @@ from balloon_usd.operations.lock import Lock
 from balloon_usd.operations.loop import Loop
 from balloon_usd.operations.modifiers import Burped, OnBalloon, Pointed, Timed, Turned
 from balloon_usd.operations.operation import Operation
+from balloon_usd.operations.pop import Pop
 from balloon_usd.operations.press import Press
 from balloon_usd.operations.rest import Rest
 from balloon_usd.operations.squeeze import Squeeze
@@ -36,6 +37,7 @@ OPERATIONS: tuple[type[Operation], ...] = (
     Bend,
     Press,
     Squeeze,
+    Pop,
     Inflate,
     Wait,
 )

@@ -61,6 +61,7 @@ class Workbench:
         self._balloons = tuple(balloons)
         self.piece = Workpiece(self._balloons)
         self._made_at: dict[str, Path] = {}
+        self._popped_at: dict[str, Path] = {}
         self._ended: dict[str, Path] = {}
         self._made_ever, self._rests = made_ever, rests
         self._pumped = pumped
@@ -135,6 +136,30 @@ class Workbench:
         self.piece.make(int(path[1]), name, balloon, last=last)
         return True
 
+    def pop(self, name: str, path: Path) -> None:
+        """Burst a bubble that is there, whole, and of which each neighbour is shut for good."""
+        if not self.find_firm(name, path) or name not in self.piece.bubbles:
+            return
+        for end in (Joint(name, "start"), Joint(name, "end")):
+            joint = self.piece.joint(end)
+            if len(joint) > 1 and not self.piece.is_merged(joint):
+                other = next(each.bubble for each in joint if each != end)
+                what = f"the twist between {quoted(name)} and {quoted(other)} would let the gas of both out"
+                self.complain(path, f"{what}, expected an ear or a lock there first")
+                return
+        self._popped_at[name] = path
+        self.piece.pop(int(path[1]), name)
+
+    def find_firm(self, name: str, path: Path, rests: Iterable[str] = ()) -> bool:
+        """Say whether a bubble exists by now and has its gas, and complain if it does not; as `find`."""
+        if not self.find(name, path, rests):
+            return False
+        if name in self._popped_at:
+            at = path_text(self._popped_at[name])
+            self.complain(path, f"bubble {quoted(name)} was popped at {at}, expected one that has its gas")
+            return False
+        return True
+
     def close(self, name: str, path: Path) -> None:
         """Let the two ends of a new bubble become one."""
         if name in self.piece.bubbles:
@@ -157,7 +182,8 @@ class Workbench:
     def find_whole(self, name: str, place: Place, path: Path) -> None:
         """Complain if a bubble, which may be an unnamed rest, does not exist by now."""
         if name not in self._rests:
-            self.find(name, path, (rest for rest, found in self._rests.items() if found.last <= place.index))
+            rests = (rest for rest, found in self._rests.items() if found.last <= place.index)
+            self.find_firm(name, path, rests)
             return
         rest = self._rests[name]
         if rest.last > place.index:

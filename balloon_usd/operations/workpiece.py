@@ -59,7 +59,15 @@ class Contact:
     other: str
 
 
-Event: TypeAlias = Made | Joined | Cut | Contact
+@dataclass(frozen=True)
+class Popped:
+    """A bubble was burst: its rubber still hangs between its joints, but keeps nothing from turning."""
+
+    step: int
+    bubble: str
+
+
+Event: TypeAlias = Made | Joined | Cut | Contact | Popped
 
 
 class Workpiece:
@@ -76,12 +84,15 @@ class Workpiece:
         self._joints: DisjointSets[Joint] = DisjointSets()
         self._brought: set[Joint] = set()
         """Ends that a step brought together with others."""
+        self._popped: set[str] = set()
         self._known: Connections | None = None
         """What hangs together, if it was asked for since the last event."""
+        self._known_stiff: Connections | None = None
+        """The same without what is limp."""
 
     def __getstate__(self) -> dict[str, object]:
         """Leave out what follows from the rest."""
-        return self.__dict__ | {"_known": None}
+        return self.__dict__ | {"_known": None, "_known_stiff": None}
 
     # Effects.
 
@@ -105,6 +116,10 @@ class Workpiece:
         """Let one bubble hold another without a common joint."""
         self._do(Contact(step, kind, bubble, other))
 
+    def pop(self, step: int, bubble: str) -> None:
+        """Burst a bubble."""
+        self._do(Popped(step, bubble))
+
     def _do(self, event: Event) -> None:
         if isinstance(event, Made):
             self._make(event)
@@ -113,8 +128,10 @@ class Workpiece:
             self._brought.update(event.ends)
         elif isinstance(event, Cut):
             self._cut(event.end)
+        elif isinstance(event, Popped):
+            self._popped.add(event.bubble)
         self.history.append(event)
-        self._known = None
+        self._known = self._known_stiff = None
 
     def _make(self, made: Made) -> None:
         trails = self._trails[made.balloon]
@@ -191,6 +208,11 @@ class Workpiece:
         return tuple(event for event in self.history if isinstance(event, Contact))
 
     @property
+    def popped(self) -> frozenset[str]:
+        """Bubbles that have been burst."""
+        return frozenset(self._popped)
+
+    @property
     def joints(self) -> tuple[tuple[Joint, ...], ...]:
         """Bubble ends that are one, by balloon and along it; each joint where its first end comes."""
         members: dict[Joint, list[Joint]] = {}
@@ -232,8 +254,8 @@ class Workpiece:
         return len(Connections(ends).pieces()) == 1 and set(meeting.values()) == {2}
 
     def bridges(self) -> frozenset[str]:
-        """Return the bubbles that belong to no closed ring."""
-        return self._connections.bridges
+        """Return the bubbles that belong to no closed ring; one of which a bubble is popped is open."""
+        return self._stiff.bridges
 
     def pieces(self) -> list[frozenset[str]]:
         """Return the bubbles of each connected piece, in the order of their first ones."""
@@ -258,7 +280,7 @@ class Workpiece:
 
     def hangs_on(self, end: Joint) -> frozenset[str]:
         """Return what hangs on one end of a bubble: all other bubbles that come along when it is moved."""
-        return self._connections.reached(self._joints.root(end), without=end.bubble)
+        return self._stiff.reached(self._joints.root(end), without=end.bubble)
 
     def through(self, bubbles: Iterable[str]) -> frozenset[str]:
         """Return the bubbles that go through a ring of these."""
@@ -271,6 +293,16 @@ class Workpiece:
             ends = {bubble: self._ends(bubble) for trail in self.trails for bubble in trail}
             self._known = Connections(ends)
         return self._known
+
+    @property
+    def _stiff(self) -> Connections:
+        """What hangs together so that it turns together."""
+        if not self._popped:
+            return self._connections
+        if self._known_stiff is None:
+            firm = (bubble for trail in self.trails for bubble in trail if bubble not in self._popped)
+            self._known_stiff = Connections({bubble: self._ends(bubble) for bubble in firm})
+        return self._known_stiff
 
     def _ends(self, bubble: str) -> tuple[Joint, Joint]:
         """Return the joints of a bubble's start and end, each named by one of its ends."""

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from balloon_usd.language.lengths import at_least, at_most, cm
 from balloon_usd.operations.moves import LeadIn
-from balloon_usd.operations.workpiece import Joined
+from balloon_usd.operations.workpiece import Joined, Popped
 from balloon_usd.plan.parking import parked
 
 if TYPE_CHECKING:
@@ -103,7 +103,7 @@ def _budget_lines(plan: Plan, budget: Budget) -> Iterator[str]:
     if plan.recipe.physics.traits.winds:
         gas += f" at {budget.pressure / 1e3:.1f} kPa, {budget.gas_amount:.3f} mol"
     yield f"  blow up {cm(budget.inflated_length)}, leave {cm(budget.tail)} flat: {gas}"
-    each = f"about {cm(budget.cost_per_twist)} each"
+    each = f"about {cm((budget.tail_needed - budget.drawn) / max(twists, 1))} each"
     if budget.drawn > 0.0:
         each += f", and {cm(budget.drawn)} that turns draw in"
     yield (
@@ -124,6 +124,8 @@ def _graph_lines(plan: Plan) -> Iterator[str]:
     yield f"{ring_line(graph)}; {strokes} could make it"
     led_in = _led_in(plan)
     for event in plan.recipe.piece.history:
+        if isinstance(event, Popped):
+            yield f"  step {event.step + 1} pops {event.bubble}"
         if isinstance(event, Joined):
             for balloon in (name for name, step in led_in.items() if step == event.step):
                 side = "right" if _aside(plan)[balloon] > 0.0 else "left"

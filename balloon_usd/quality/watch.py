@@ -111,7 +111,7 @@ def counted_over_time(plan: Plan, codes: range) -> list[int]:
 
 def _gas(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame) -> dict[str, float]:
     """Return by which share of it the volume of each bubble differs from the plan; not of those that share
-    their gas across a joint that has come undone.
+    their gas across a joint that has come undone, nor of popped ones.
     """
     # The plan counts round tubes.
     polygon = {
@@ -128,7 +128,7 @@ def _gas(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame) -> dict[str, f
     return {
         bubble.name: float(volume) / (polygon[bubble.balloon] * bubble.volume) - 1.0
         for bubble, volume in zip(plan.bubbles, frame.volume, strict=True)
-        if bubble.volume > 0.0 and bubble.name not in sharing
+        if bubble.volume > 0.0 and bubble.name not in sharing | plan.recipe.piece.popped
     }
 
 

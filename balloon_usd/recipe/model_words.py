@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from balloon_usd.language.problem import Complaint
 from balloon_usd.operations.entries import steps_in
 from balloon_usd.operations.inflate import Inflate
+from balloon_usd.operations.pop import Pop
 from balloon_usd.operations.squeeze import Squeeze
 
 from .balloons import balloons_in
@@ -61,6 +62,9 @@ def _kosaka_steps(data: object) -> Iterator[Complaint]:
         if Squeeze.word in step.words:
             what = "makes no sense with model kosaka, whose fingers are forces on patches of a wall"
             yield Complaint((*step.path, Squeeze.word), f"{what}, expected press, or no such step")
+        if Pop.word in step.words:
+            what = "makes no sense with model kosaka, whose air particles stay in"
+            yield Complaint((*step.path, Pop.word), f"{what}, expected no such step")
         if "burp" in step.entries:
             what = "makes no sense with model kosaka, whose bubbles keep the air particles that are in them"
             yield Complaint((*step.path, "burp"), f"{what}, expected no burp")

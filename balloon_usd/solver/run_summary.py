@@ -88,7 +88,7 @@ class RunSummary:
         """Gas of the bubbles that have missed the plan, in shares of the planned, by name.
 
         None before the end, of what leaks on purpose or has no pressure, and of bubbles whose twists came
-        undone.
+        undone or that were popped.
         """
         last, plan = self._last, self._plan
         physics = plan.recipe.physics
@@ -101,6 +101,8 @@ class RunSummary:
                 continue
             polygon = polygon_share(mesh.around)
             for bubble in _closed(strip, last.undone):
+                if bubble.name in plan.recipe.piece.popped:
+                    continue
                 k = number[bubble.name]
                 has = (ATMOSPHERE + float(last.pressure[k])) * float(last.volume[k]) / polygon
                 found[bubble.name] = has / ((ATMOSPHERE + (bubble.pressure or 0.0)) * bubble.volume)

@@ -162,3 +162,15 @@ def test_a_bubble_is_a_bridge_if_there_are_more_pieces_without_it(pairs):
 def test_a_long_chain_is_all_bridges():
     piece = chain(*(f"b{k}" for k in range(2000)))
     assert len(piece.bridges()) == 2000
+
+
+def test_a_ring_of_which_a_bubble_is_popped_is_open_and_hangs_together_all_the_same():
+    piece = chain("nose", "a", "b", "c", "tail")
+    piece.join(5, [start("a"), end("c")])
+    assert piece.bridges() == {"nose", "tail"}
+    piece.pop(6, "b")
+    assert piece.bridges() == {"nose", "a", "c", "tail"}
+    assert piece.popped == {"b"}
+    assert piece.after(5).popped == frozenset()
+    assert len(piece.pieces()) == 1
+    assert piece.hangs_on(end("a")) == frozenset()

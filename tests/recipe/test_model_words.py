@@ -232,3 +232,44 @@ def test_names_that_cannot_be_printed_are_escaped_in_every_message() -> None:
     ]
     assert found.isprintable()
     assert "\\u0378a" in found
+
+
+def test_springs_cannot_be_popped() -> None:
+    found = messages(f"{CAPSULE}{AB}  - pop: a\n{KOSAKA}")
+    assert any(
+        "steps[1].pop: makes no sense with model kosaka, whose air particles stay in" in each
+        for each in found
+    )
+
+
+EARS = "  - bubbles: {a: 5}\n  - ear: {one: 3}\n  - bubbles: {gap: 4}\n  - ear: {two: 3}\n  - rest: end\n"
+
+
+@pytest.mark.parametrize(
+    ("steps", "told"),
+    [
+        (f"{EARS}  - pop: gap\n", None),
+        (f"{EARS}  - pop: end\n", None),
+        (f"{EARS}  - pop: a\n", None),
+        (f"{EARS}  - pop: gep\n", 'steps[5].pop: unknown bubble "gep", did you mean "gap"?'),
+        (f"{EARS}  - pop: [gap]\n", "steps[5].pop: "),
+        (f"{EARS}  - pop: gap\n  - pop: gap\n", 'steps[6].pop: bubble "gap" was popped at steps[5].pop'),
+        (
+            f"{EARS}  - pop: gap\n  - press: {{bubble: gap, depth: 1}}\n",
+            'steps[6].press.bubble: bubble "gap" was popped at steps[5].pop, expected one that has its gas',
+        ),
+        (f"{EARS}  - pop: gap\n  - bend: {{gap: 20}}\n", 'steps[6].bend.gap: bubble "gap" was popped'),
+        (
+            f"{AB}  - bubbles: {{c: 5}}\n  - pop: b\n",
+            'steps[2].pop: the twist between "b" and "a" would let the gas of both out, expected an ear or a lock'
+            " there first",
+        ),
+        (f"  - pop: a\n{AB}", 'steps[0].pop: bubble "a" does not exist yet'),
+    ],
+)
+def test_only_what_is_shut_off_for_good_is_popped_and_only_once(steps: str, told: str | None) -> None:
+    text = f"{TUBE}{steps}"
+    if told is None:
+        assert Recipe.parse(text).piece.popped
+    else:
+        assert any(told in each for each in messages(text))

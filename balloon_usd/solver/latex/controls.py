@@ -57,6 +57,8 @@ class LatexControls(Hands):
         self.softening = scene.softening_rate.numpy().copy()
         self.amount, self.volume = scene.amount.numpy().copy(), scene.volume.numpy().copy()
         """Gas of every segment, mol, and its volume, m3."""
+        self.pressure = scene.pressure.numpy().copy()
+        """Gauge pressure of every segment, Pa."""
         self._passages = b"", b"", b""
         """How wide all necks are at both ends of the frame and what is pushed through, as last looked at."""
         self._necks: dict[str, NDArray[Any]] = {}
@@ -64,7 +66,7 @@ class LatexControls(Hands):
         self.upload()
 
     def _rarely_changed(self) -> tuple[str, ...]:
-        return (*super()._rarely_changed(), "amount", "vertex_spin")
+        return (*super()._rarely_changed(), "amount", "pressure", "vertex_spin")
 
     def begin_frame(self, state: Mapping[str, NDArray[Any]]) -> None:
         """Take over the state read back last, lift all fingers and stop all spins."""
@@ -74,6 +76,7 @@ class LatexControls(Hands):
             self.neck_flow[:] = 0.0
             self._pushing = False
         self.amount, self.volume = state["amount"].copy(), state["volume"]
+        self.pressure = state["pressure"]
 
     def pull(self, joint: int) -> None:
         """Pull a ring with a firm grip instead of leading it, until it is let go."""
@@ -154,6 +157,13 @@ class LatexControls(Hands):
         """Take gas out of some segments, both (bubbles,), mol."""
         self.amount[bubbles] -= lost
         self._due["amount"] = self.amount
+
+    def vent(self, segment: int, pressure: float) -> None:
+        """Open a segment to the room: it has no gas of its own any more, and this gauge pressure, Pa."""
+        self.amount[segment] = 0.0
+        self.pressure = self.pressure.copy()
+        self.pressure[segment] = pressure
+        self._due |= {"amount": self.amount, "pressure": self.pressure}
 
     def chambers(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         """Return the first and the last segment of the chamber that every segment lies in, (S,) each."""

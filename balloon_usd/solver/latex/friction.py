@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 class _Bubble(NamedTuple):
     """A bubble by its joints in the scene."""
 
+    name: str
     ends: tuple[int, ...]
     """Rings at its start and at its end; the tip has none."""
     guides: tuple[int, ...]
@@ -44,12 +45,15 @@ class Friction:
         """Take note of them; `rings`: joint of the scene of every planned ring."""
         self._plan = plan
         self._rings = rings
+        self.popped: set[str] = set()
+        """Bubbles that have been burst and keep nothing apart."""
 
     @cached_property
     def _bubbles(self) -> list[_Bubble]:
         table, rings = self._plan.table, self._rings
         return [
             _Bubble(
+                bubble.name,
                 tuple(rings[r] for r in table.ends(bubble.name) if r is not None),
                 tuple(rings[g] for g in table.guides(bubble.name)),
                 BY_KIND[bubble.kind].folds if bubble.kind in BY_KIND else False,
@@ -92,6 +96,8 @@ class Friction:
         """Return the bubbles that meet in a weld."""
         found = []
         for bubble in self._bubbles:
+            if bubble.name in self.popped:
+                continue
             inside = sum(ring in weld for ring in bubble.ends)
             if inside:
                 found.append(_Met(bubble, inside, next((r for r in bubble.ends if r not in weld), None)))
@@ -101,7 +107,7 @@ class Friction:
 def _neighbours(meeting: Sequence[_Met], closed: Callable[[int], bool]) -> set[int]:
     """Joints at the far ends of the bubbles that meet in a weld; of a loop or an open end, a ring inside."""
     found: set[int] = set()
-    for (_, guides, _), inside, outside in meeting:
+    for (_, _, guides, _), inside, outside in meeting:
         if outside is not None and closed(outside):
             found.add(outside)
         elif guides and inside == 2:

@@ -35,8 +35,9 @@ KOSAKA_MOTIONS: Motions = {
     moves.Press: Press,
     moves.Weld: KosakaWeld,
     moves.SetDown: SetDown,
-    # Only latex has a weight.
+    # Only latex has a weight, and bursts.
     moves.Fall: Wait,
+    moves.Pop: Wait,
     moves.Loosen: Wait,
     moves.LetGo: LetGo,
     moves.Hold: Wait,

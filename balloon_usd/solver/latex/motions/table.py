@@ -13,6 +13,7 @@ from balloon_usd.solver.latex.motions.lead_in import LatexLeadIn
 from balloon_usd.solver.latex.motions.let_go import LatexLetGo
 from balloon_usd.solver.latex.motions.loosen import Loosen
 from balloon_usd.solver.latex.motions.pinch import Pinch
+from balloon_usd.solver.latex.motions.pop import Pop
 from balloon_usd.solver.latex.motions.press import LatexPress
 from balloon_usd.solver.latex.motions.set_down import LatexSetDown
 from balloon_usd.solver.latex.motions.set_net import LatexSetNet
@@ -37,6 +38,7 @@ LATEX_MOTIONS: Motions = {
     moves.SetNet: LatexSetNet,
     moves.Bend: LatexBend,
     moves.Press: LatexPress,
+    moves.Pop: Pop,
     moves.Weld: Weld,
     moves.TurnFold: TurnFold,
     moves.SetDown: LatexSetDown,
