@@ -1,11 +1,14 @@
-"""Draw the pictures of operations from their examples, and of a dog that is dropped, on the CPU.
+"""Draw the pictures of operations from their examples, of a dog that is dropped, and of the gallery.
 
-`python docs/pictures.py` draws all of them, `python docs/pictures.py press drop` only some.
+`python docs/pictures.py` draws all but the gallery on the CPU, `python docs/pictures.py press drop` only some.
+`python docs/pictures.py gallery` draws the last frames of all recipes, on a GPU if there is one: a CPU of two
+cores takes a quarter of an hour.
 """
 
 from __future__ import annotations
 
 import sys
+from contextlib import suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
@@ -13,6 +16,7 @@ from typing import TYPE_CHECKING
 from PIL import Image
 
 from balloon_usd.cli import main
+from balloon_usd.cli.failure import Failure
 from balloon_usd.operations.moves import LetGo, Move
 from balloon_usd.operations.table import BY_WORD, WORDS
 from balloon_usd.plan import plan
@@ -24,13 +28,17 @@ if TYPE_CHECKING:
     from balloon_usd.plan import Plan
 
 PICTURES = Path(__file__).parent / "pictures" / "operations"
-DOG = Path(__file__).parents[1] / "recipes" / "dog.yaml"
+RECIPES = Path(__file__).parents[1] / "recipes"
+DOG = RECIPES / "dog.yaml"
 DROP = "drop"
 """The pose that has a picture, too."""
 FALLEN = (0.0, 0.9, 1.25, 2.0, 5.0)
 """Times after the let-go at which the dog is drawn, s."""
 SIZE = ("300", "220")
 """Width and height of one frame, pixels."""
+GALLERY = "gallery"
+VIEWS = ("three-quarter", "front")
+"""From where every figure of the gallery is seen."""
 MARGIN, GAP, TITLE = 24, 14, 56
 """Of a contact sheet: round all, between frames, and height of the title, pixels."""
 COLORS, PASSES = 256, 4
@@ -68,11 +76,39 @@ def draw_drop(folder: Path) -> None:
     picture.quantize(COLORS, kmeans=PASSES).save(PICTURES.parent / f"{DROP}.png", optimize=True)
 
 
-def _sheet(stage: Path, frames: Sequence[int], view: str) -> Image.Image:
+def draw_gallery(folder: Path) -> None:
+    """Simulate all recipes of latex, and draw each figure as it is in the end, from two sides."""
+    plans = [plan(Recipe.load(file)) for file in gallery_recipes()]
+    files = [made.recipe.file for made in plans]
+    # One of them jams.
+    with suppress(Failure):
+        _call("run", *files, "-o", str(folder), "--no-report", "--no-preview")
+    target = PICTURES.parent / GALLERY
+    target.mkdir(exist_ok=True)
+    for made in plans:
+        stage = folder / made.recipe.name
+        if stage.exists():
+            sheets = [_sheet(stage, [made.frame_count], view, "auto") for view in VIEWS]
+            frames = [
+                sheet.crop((MARGIN, TITLE, MARGIN + int(SIZE[0]), TITLE + int(SIZE[1]))) for sheet in sheets
+            ]
+            both = Image.new("RGB", (2 * int(SIZE[0]), int(SIZE[1])))
+            for at, frame in enumerate(frames):
+                both.paste(frame, (at * int(SIZE[0]), 0))
+            both.quantize(COLORS, kmeans=PASSES).save(target / f"{made.recipe.name}.png", optimize=True)
+
+
+def gallery_recipes() -> list[Path]:
+    """Return all recipes of latex that come with the program."""
+    folders = (RECIPES, RECIPES / "meshes", RECIPES / "book")
+    return [file for folder in folders for file in sorted(folder.glob("*.yaml"))]
+
+
+def _sheet(stage: Path, frames: Sequence[int], view: str, device: str = "cpu") -> Image.Image:
     """Draw frames of a stage in a row."""
     file = stage.with_name(f"{stage.name}_{view}.png")
     shown = ("--frames", ",".join(map(str, frames)), "--columns", str(len(frames)), "--size", *SIZE)
-    _call("preview", str(stage), "-o", str(file), *shown, "--view", view, "--device", "cpu")
+    _call("preview", str(stage), "-o", str(file), *shown, "--view", view, "--device", device)
     with Image.open(file) as image:
         return image.convert("RGB")
 
@@ -110,7 +146,9 @@ def _call(*words: str) -> None:
 if __name__ == "__main__":
     with TemporaryDirectory() as scratch:
         wanted = sys.argv[1:] or [*WORDS, DROP]
-        if words := [word for word in wanted if word != DROP]:
+        if words := [word for word in wanted if word not in (DROP, GALLERY)]:
             draw(words, Path(scratch))
+        if GALLERY in wanted:
+            draw_gallery(Path(scratch))
         if DROP in wanted:
             draw_drop(Path(scratch))

@@ -103,9 +103,11 @@ def _empty_sheet(scene: StageScene, count: int, columns: int, size: tuple[int, i
     sheet = Image.new("RGB", (width, height), PAPER)
     pen = ImageDraw.Draw(sheet)
     seconds = (scene.end - scene.start) / scene.fps
-    pen.text((MARGIN, MARGIN + 2), scene.title, INK, ImageFont.load_default(TITLE_SIZE), anchor="lt")
     facts = f"frames {scene.start:g} to {scene.end:g},  {seconds:.1f} s at {scene.fps:g} fps"
-    pen.text((width - MARGIN, MARGIN + 6), facts, PALE_INK, ImageFont.load_default(TEXT_SIZE), anchor="rt")
+    font, small = ImageFont.load_default(TITLE_SIZE), ImageFont.load_default(TEXT_SIZE)
+    room = width - 2 * MARGIN - GUTTER - pen.textlength(facts, small)
+    pen.text((MARGIN, MARGIN + 2), _shortened(scene.title, room, pen, font), INK, font, anchor="lt")
+    pen.text((width - MARGIN, MARGIN + 6), facts, PALE_INK, small, anchor="rt")
     return sheet
 
 

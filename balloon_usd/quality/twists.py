@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from balloon_usd.operations.moves import Pinch
+from balloon_usd.operations.moves import Pinch, Pop
 from balloon_usd.solver.flat_tails import FlatTails
 
 if TYPE_CHECKING:
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 class TwistTails:
     """Takes the frames of one sculpture, and measures in the last one before each next twist, or before the
-    hands let go.
+    hands let go, or pop what is left of the balloon.
     """
 
     def __init__(self, plan: Plan, meshes: Sequence[BalloonMesh]) -> None:
@@ -41,6 +41,7 @@ def _due(plan: Plan) -> dict[int, list[tuple[str, str, float]]]:
     """Return by time code the balloons that are measured, the bubbles twisted off, and the planned tails."""
     found: dict[int, list[tuple[str, str, float]]] = {}
     rings = plan.table.rings
+    popped = {move.bubble: move.start for move in plan.choreography.moves if isinstance(move, Pop)}
     for balloon, budget in plan.budgets.items():
         planned = {twist.bubble: twist.tail_left for twist in budget.twists}
         pinches = [
@@ -48,7 +49,8 @@ def _due(plan: Plan) -> dict[int, list[tuple[str, str, float]]]:
             for move in plan.choreography.moves
             if isinstance(move, Pinch) and rings[move.ring].balloon == balloon
         ]
-        ends = [*[move.start for move in pinches[1:]], plan.choreography.let_go]
+        over = popped.get(plan.strips[balloon].bubbles[-1].name, plan.choreography.let_go)
+        ends = [*[move.start for move in pinches[1:]], over]
         # A balloon that is not twisted has no pinches.
         for move, end in zip(pinches, ends, strict=False):
             bubble = rings[move.ring].bubble

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from operation_pages import link, modifier_row, operation_page, says, table, written
@@ -10,6 +11,7 @@ from sphinx.util.docutils import SphinxDirective
 from balloon_usd.operations.modifiers import MODIFIERS
 from balloon_usd.operations.table import BY_WORD, OPERATIONS
 from balloon_usd.quality.measures import MEASURES
+from balloon_usd.recipe import Recipe
 from balloon_usd.recipe.schema import model_schema
 from balloon_usd.report.document import DIGITS, UNITS
 from balloon_usd.solver.kernels.arrays import kosaka, latex, shared  # noqa: F401  # they fill the table
@@ -19,6 +21,9 @@ from balloon_usd.stage.properties import PROPERTIES
 if TYPE_CHECKING:
     from docutils import nodes
     from sphinx.application import Sphinx
+
+
+RECIPES = Path(__file__).parents[2] / "recipes"
 
 
 class RecipeKeys(SphinxDirective):
@@ -40,6 +45,28 @@ class Operations(SphinxDirective):
         """Return the table of all operations, in the order of their table."""
         rows = ((link(it.word), f"`{it.word}: {written(it)}`", says(it)) for it in OPERATIONS)
         return self.parse_text_to_nodes(table(("operation", "for example", "what is done"), rows))
+
+
+class Gallery(SphinxDirective):
+    """`gallery`: the picture of every recipe of a folder that has one, with its title and its file."""
+
+    required_arguments = 1
+
+    def run(self) -> list[nodes.Node]:
+        """Return the pictures of a folder within `recipes`, in the order of their titles."""
+        recipes = map(Recipe.load, (RECIPES / self.arguments[0]).glob("*.yaml"))
+        pictures = Path(self.env.srcdir) / "pictures" / "gallery"
+        shown = sorted((each.title, each) for each in recipes if (pictures / f"{each.name}.png").exists())
+        lines = [
+            f"![{title}](/pictures/gallery/{each.name}.png)\n\n**{title}**: `{_file(each)}`"
+            for title, each in shown
+        ]
+        return self.parse_text_to_nodes("\n\n".join(lines))
+
+
+def _file(recipe: Recipe) -> str:
+    """Return where a recipe lies, from the folder above all recipes."""
+    return Path(recipe.file).relative_to(RECIPES.parent).as_posix()
 
 
 class OneOperation(SphinxDirective):
@@ -130,6 +157,7 @@ def setup(app: Sphinx) -> dict[str, bool]:
     app.add_directive("recipe-keys", RecipeKeys)
     app.add_directive("operations", Operations)
     app.add_directive("operation", OneOperation)
+    app.add_directive("gallery", Gallery)
     app.add_directive("modifiers", Modifiers)
     app.add_directive("stage-properties", StageProperties)
     app.add_directive("report-units", ReportUnits)
