@@ -1,8 +1,8 @@
 """Draw the pictures of operations from their examples, of a dog that is dropped, and of the gallery.
 
-`python docs/pictures.py` draws all but the gallery on the CPU, `python docs/pictures.py press drop` only some.
-`python docs/pictures.py gallery` draws the last frames of all recipes, on a GPU if there is one: a CPU of two
-cores takes a quarter of an hour.
+`python docs/pictures.py` draws all but the gallery on the CPU, `python docs/pictures.py press drop` some.
+`python docs/pictures.py gallery` draws the last frames of all recipes, on a GPU if there is one: a CPU takes
+a quarter of an hour.
 """
 
 from __future__ import annotations

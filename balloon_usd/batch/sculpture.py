@@ -12,10 +12,12 @@ from balloon_usd.batch.messages import Made
 from balloon_usd.endings import endings_wait
 from balloon_usd.files.failed_name import failed_name
 from balloon_usd.files.hashes import hashes_of
+from balloon_usd.language.choices import all_of
 from balloon_usd.origin import provenance_of
 from balloon_usd.plan.meshing import meshes_of
 from balloon_usd.quality.watch import QualityWatch, counted_over_time
 from balloon_usd.report import History, write_report
+from balloon_usd.solver.errors import SimulationFailed
 from balloon_usd.solver.run_summary import RunSummary
 from balloon_usd.solver.status import Status
 from balloon_usd.stage import StageWriter
@@ -93,6 +95,7 @@ class Sculpture:
             ReportError: the report cannot be written.
         """
         name, folder = self._plan.recipe.name, self._order.folder
+        self.failed = self.failed or self._came_undone()
         if self.failed:
             remove_failed(folder, name)
             if not self._frames:
@@ -116,6 +119,14 @@ class Sculpture:
             time.perf_counter() - self._begun,
             self.failed and f"{self.failed}; {self._what_is_left(written)}",
         )
+
+    def _came_undone(self) -> str:
+        """Say at the end which joints have not held that must; nothing where all have."""
+        if not (unkept := list(self._quality.unkept())):
+            return ""
+        cause = f"{all_of(unkept)}, and must hold: wind locks with more turns, or change must_hold"
+        last = self._plan.frame_count
+        return str(SimulationFailed("hold", (last - 1) / self._plan.recipe.fps, cause, last))
 
     def _products(self, written: WrittenStage, quality: dict[str, Any] | None) -> dict[str, tuple[Path, ...]]:
         """Write the report; return the files of the stage, the shot and the report."""

@@ -12,6 +12,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from balloon_usd.balloon.tube_mesh import BalloonMesh
+    from balloon_usd.language.joint import Joint
+    from balloon_usd.operations.workpiece import Workpiece
     from balloon_usd.plan import Plan
     from balloon_usd.solver.frame import Frame
 
@@ -23,6 +25,10 @@ APART = 0.5
 """Distance to the next neck from which on a neck has left its joint, in the same; many lie side by side."""
 
 
+SLIPPED = " = "
+"""Stands between the necks of a lock that has slipped, where it is told what has come undone."""
+
+
 class PlannedJoint(NamedTuple):
     """A place where ends of bubbles meet when the hands have let go."""
 
@@ -32,11 +38,16 @@ class PlannedJoint(NamedTuple):
     """Necks, as rings of the plan."""
     holds: bool
     """Whether it is meant to: several bubbles meet in it, and it does not untwist."""
+    ends: tuple[Joint, ...]
+    """All ends of bubbles that meet in it."""
 
 
 def joints_of(plan: Plan) -> list[PlannedJoint]:
     """Return all joints of a plan, without those that are meant to slip; tips have none."""
-    piece = plan.recipe.piece.after(len(plan.recipe.steps), without=plan.slipping)
+    return _joints(plan, plan.recipe.piece.after(len(plan.recipe.steps), without=plan.slipping))
+
+
+def _joints(plan: Plan, piece: Workpiece) -> list[PlannedJoint]:
     loose = {loose.end for loose in plan.loose}
     found = []
     for ends in piece.joints:
@@ -44,7 +55,7 @@ def joints_of(plan: Plan) -> list[PlannedJoint]:
         rings = () if shaped else sorted({r for end in ends if (r := plan.table.joint(end)) is not None})
         if rings:
             holds = len(ends) > 1 and loose.isdisjoint(ends)
-            found.append(PlannedJoint(str(ends[0]), tuple(rings), holds))
+            found.append(PlannedJoint(str(ends[0]), tuple(rings), holds, tuple(ends)))
     return found
 
 
@@ -54,10 +65,43 @@ def lost_joints(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame) -> tupl
     One has if the simulation says so, a neck of it is open, or its necks lie apart.
     """
     meant = [joint for joint in joints_of(plan) if joint.holds]
-    undone = {name for told in frame.undone for name in told.split(" = ")}
-    return len(meant), [
-        joint.name for joint in meant if joint.name in undone or not _together(plan, meshes, frame, joint)
+    # Locks that slip as planned are no joints of these.
+    undone = {told for told in frame.undone if SLIPPED not in told}
+    return len(meant), [joint.name for joint in meant if _lost(plan, meshes, frame, joint, undone)]
+
+
+def unkept_joints(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame) -> list[tuple[str, list[str]]]:
+    """Return the joints that must hold by the recipe and do not in a frame, by a name and by all their ends;
+    if the recipe says nothing, those that are meant to.
+    """
+    wanted = plan.recipe.must_hold
+    undone = {told for told in frame.undone if SLIPPED not in told}
+    if wanted is None:
+        asked = [(joint.name, joint) for joint in joints_of(plan) if joint.holds]
+    else:
+        undone |= {name for told in frame.undone for name in told.split(SLIPPED)}
+        joints = _joints(plan, plan.recipe.piece)
+        asked = [(name, joint) for joint in joints if (name := _named(joint, wanted))]
+    return [
+        (name, [str(end) for end in joint.ends])
+        for name, joint in asked
+        if _lost(plan, meshes, frame, joint, undone)
     ]
+
+
+def _named(joint: PlannedJoint, wanted: str | tuple[Joint, ...]) -> str | None:
+    """Return how a joint that is wanted is called: as a recipe does; None for others."""
+    if isinstance(wanted, str):
+        return joint.name if wanted == "all" and len(joint.ends) > 1 else None
+    return next((str(end) for end in wanted if end in joint.ends), None)
+
+
+def _lost(
+    plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame, joint: PlannedJoint, undone: set[str]
+) -> bool:
+    if not undone.isdisjoint(map(str, joint.ends)):
+        return True
+    return not _together(plan, meshes, frame, joint)
 
 
 def _together(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame, joint: PlannedJoint) -> bool:

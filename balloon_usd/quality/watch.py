@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from balloon_usd.balloon.ringed_faces import polygon_share
 from balloon_usd.quality.crossing_counter import CrossingCounter
 from balloon_usd.quality.crossing_history import CrossingHistory
-from balloon_usd.quality.joints import lost_joints
+from balloon_usd.quality.joints import SLIPPED, lost_joints, unkept_joints
 from balloon_usd.quality.measures import MEASURES, Verdict
 from balloon_usd.quality.ranking import excess
 from balloon_usd.quality.rest import Rest
@@ -18,7 +18,7 @@ from balloon_usd.quality.twists import TwistTails
 from balloon_usd.quality.walls import walls_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
@@ -51,6 +51,8 @@ class QualityWatch:
         self._rest = Rest(plan)
         self._standing = Standing(plan)
         self._tails = TwistTails(plan, meshes)
+        self._undone: dict[str, int] = {}
+        """First time code at which each end of a joint had come undone."""
         self._end: Frame | None = None
 
     def add(self, frame: Frame) -> None:
@@ -58,12 +60,23 @@ class QualityWatch:
         self._rest.add(frame)
         self._standing.add(frame)
         self._tails.add(frame)
+        for name in (name for told in frame.undone for name in told.split(SLIPPED)):
+            self._undone.setdefault(name, frame.time_code)
         if frame.shift is not None and (most := float(frame.shift.max(initial=0.0))) > 0.0:
             self._led_apart, self._led_frames = max(self._led_apart, most), self._led_frames + 1
         if frame.time_code in self._counted:
             self.crossings.add(frame.time_code, self._counter.count(frame.points))
         if frame.time_code == self._plan.frame_count:
             self._end = frame
+
+    def unkept(self) -> Iterator[str]:
+        """Yield the joints that must hold by the recipe and have not, and when; none before the end."""
+        if self._end is None:
+            return
+        for name, ends in unkept_joints(self._plan, self._meshes, self._end):
+            code = min((self._undone[end] for end in ends if end in self._undone), default=None)
+            when = "" if code is None else f" at {(code - 1) / self._plan.recipe.fps:.1f} s"
+            yield f"{name} came undone{when}"
 
     def data(self) -> dict[str, Any] | None:
         """Return the quality as plain data, by the keys of `MEASURES`; None before the last frame."""

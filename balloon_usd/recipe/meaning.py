@@ -9,6 +9,7 @@ from balloon_usd.operations.entries import steps_in, workbench_of
 from balloon_usd.operations.workpiece import Workpiece
 
 from .balloons import FILLINGS, FLAT_ONLY, balloons_in
+from .held_words import held_complaints
 from .mesh_words import mesh_complaints, meshes_in
 from .model_words import model_complaints
 from .pose_words import pose_complaints
@@ -42,8 +43,11 @@ def meaning_of(data: object) -> Meaning:
         if not meshes or step.pumped:
             step.check(bench)
     piece = _blown_up(meshes, len(steps)) if meshes else bench.finished(len(steps))
+    told = bench.complaints
+    # Of what is not made rightly is not known what meets where.
+    held = [] if told else held_complaints(data, piece)
     return Meaning(
-        [*bench.complaints, *mesh_complaints(data), *model_complaints(data), *pose_complaints(data)], piece
+        [*told, *mesh_complaints(data), *model_complaints(data), *pose_complaints(data), *held], piece
     )
 
 

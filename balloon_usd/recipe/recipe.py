@@ -7,14 +7,17 @@ from typing import Annotated, Literal, Self
 from pydantic import (
     BeforeValidator,
     ConfigDict,
+    Discriminator,
     Field,
     PrivateAttr,
     StrictBool,
+    Tag,
     ValidationError,
     ValidationInfo,
     model_validator,
 )
 
+from balloon_usd.language.joint import JointEntry
 from balloon_usd.language.marks import Marks
 from balloon_usd.language.names import Name, Text
 from balloon_usd.language.problem import Complaint, Notice, Path, Problem, RecipeError, path_text, quoted
@@ -35,6 +38,21 @@ from .translation import validation_complaints
 from .upgrades import upgraded
 from .writer import recipe_entries, recipe_text
 
+ALL, SOME = "all or none of them", "a list of joints"
+"""Tags of the forms of `must_hold`, which never occur as keys of a recipe."""
+
+
+def _held(value: object) -> str | None:
+    if isinstance(value, (list, tuple)):
+        return SOME
+    return ALL if isinstance(value, str) else None
+
+
+Held = Annotated[
+    Annotated[Literal["all", "none"], Tag(ALL)]
+    | Annotated[Annotated[tuple[JointEntry, ...], Field(min_length=1)], Tag(SOME)],
+    Discriminator(_held),
+]
 FRAMES_PER_SECOND = 24.0
 HIGHEST = 10.0
 """Farthest above the ground that a figure can be let go, m."""
@@ -92,6 +110,9 @@ class Recipe(Entries):
     """Which side of the figure, as it is made, is its front: in the end it is turned to face -x."""
     mirror: StrictBool = False
     """Whether the finished stage is the mirror image of what the recipe says, left and right exchanged."""
+    must_hold: Held | None = None
+    """Joints of which one that comes undone makes the run fail: all, none, or some such as [nose.end]; when
+    absent those that hold as planned."""
     physics: Physics = Physics()
     """How it is simulated."""
 
