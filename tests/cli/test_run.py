@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -99,6 +100,33 @@ def test_a_real_twist_that_nothing_holds_unwinds_and_is_no_failure(cli, write_re
     assert left() == [*REPORT, "snake.usdc"]
     (undone,) = json.loads(Path("out/snake.report.json").read_text(encoding="utf-8"))["undone"]
     assert undone["joint"] == "nose.end"
+
+
+def test_a_run_fails_where_a_joint_comes_undone_that_must_hold(cli, write_recipe, left):
+    result = cli(
+        "run",
+        write_recipe(text=f"{LOOSE}must_hold: all\n"),
+        "-o",
+        "out",
+        "--no-preview",
+        "--flat",
+        "--device",
+        "cpu",
+    )
+    assert result.exit_code == 3
+    told = r"snake.yaml: simulation failed at .* hold: nose.end came undone at \d+\.\d s, and must hold: wind locks"
+    assert re.search(told, result.stderr)
+    assert "snake.failed.usdc" in left()
+    assert "snake.usdc" not in left()
+
+
+def test_a_run_does_not_fail_where_another_joint_comes_undone(cli, solver, write_recipe, left):
+    solver.trouble = {"snake": "undone"}
+    recipe = write_recipe()
+    text = Path(recipe).read_text(encoding="utf-8")
+    for wanted, code in (("none", 0), ("[tail.end]", 2), ("[middle.end]", 3)):
+        Path(recipe).write_text(f"{text}must_hold: {wanted}\n", encoding="utf-8")
+        assert cli("run", recipe, "-o", "out", "--no-preview").exit_code == code
 
 
 def test_a_report_says_what_every_bubble_did(cli, solver, write_recipe):

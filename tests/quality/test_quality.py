@@ -176,6 +176,35 @@ def test_an_open_neck_a_parted_joint_and_what_the_simulation_tells_of_are_lost(f
     assert (told["lost"], told["undone"]) == (["left_ear.end"], ["left_ear.end", "neck.end"])
 
 
+def kept(figure, wanted, undone):
+    """What is told of joints that must hold and have not, where some come undone in frame 25, after 1 s."""
+    plan, meshes = figure
+    recipe = Recipe.parse(EARS + (f"must_hold: {wanted}\n" if wanted else ""))
+    watch = QualityWatch(plan_of(recipe), meshes)
+    for code in range(1, plan.frame_count + 1):
+        watch.add(as_planned(plan, meshes, code, undone=undone if code >= 25 else ()))
+    return list(watch.unkept())
+
+
+def test_joints_that_must_hold_are_those_that_are_meant_to_where_a_recipe_names_none(figure):
+    assert kept(figure, "", ()) == []
+    assert kept(figure, "", ("left_ear.end",)) == ["left_ear.end came undone at 1.0 s"]
+    # The twist behind the neck is let go.
+    assert kept(figure, "", ("neck.end",)) == []
+    # A lock that slips as planned is none of these.
+    assert kept(figure, "", ("nose.end = right_ear.end",)) == []
+
+
+def test_a_recipe_says_which_joints_must_hold(figure):
+    both = ("left_ear.end", "neck.end")
+    assert kept(figure, "none", both) == []
+    assert kept(figure, "all", both) == ["left_ear.end came undone at 1.0 s", "neck.end came undone at 1.0 s"]
+    assert kept(figure, "[tail.start]", both) == ["tail.start came undone at 1.0 s"]
+    assert kept(figure, "[neck.start]", both) == []
+    slipped = ("nose.end = right_ear.end",)
+    assert kept(figure, "[left_ear.start]", slipped) == ["left_ear.start came undone at 1.0 s"]
+
+
 def test_necks_in_a_rowhang_together_and_a_gap_parts_them():
     row = np.linspace([0.0, 0.0, 0.0], [0.05, 0.0, 0.0], 6)
     assert hang_together(row[[3, 0, 5, 1, 4, 2]], 0.011)
