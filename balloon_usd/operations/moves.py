@@ -92,6 +92,15 @@ class Pop(Move):
 
 
 @dataclass(frozen=True)
+class StretchTip(Move):
+    """Stretch the end of the flat tail of what is left of a balloon, so that it gives way to the gas."""
+
+    bubble: str = ""
+    length: float = 0.0
+    """Flat rubber that is stretched, m."""
+
+
+@dataclass(frozen=True)
 class Pinch(Move):
     """Close the neck at a ring between two fingers."""
 

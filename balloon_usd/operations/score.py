@@ -94,6 +94,18 @@ class PlacedBubble(Protocol):
     def size(self) -> str:
         """Name of the size of its balloon."""
 
+    @property
+    def flat_radius(self) -> float:
+        """Radius of its balloon before it is blown up, m."""
+
+    @property
+    def flat_tail(self) -> float:
+        """Flat rubber that its gas does not fill, m: of what is left of a tube, its tail."""
+
+    @property
+    def tip_gives_way(self) -> bool:
+        """Whether the tip of its balloon, once stretched, bulges at the pressure of the tube."""
+
     def rest_place(self, at: float) -> float:
         """Return the unstressed distance from the knot (m) of a place in the bubble (m, inflated)."""
 

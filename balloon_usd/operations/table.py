@@ -21,6 +21,7 @@ from balloon_usd.operations.pop import Pop
 from balloon_usd.operations.press import Press
 from balloon_usd.operations.rest import Rest
 from balloon_usd.operations.squeeze import Squeeze
+from balloon_usd.operations.tail_ball import TailBall
 from balloon_usd.operations.wait import Wait
 
 if TYPE_CHECKING:
@@ -38,6 +39,7 @@ OPERATIONS: tuple[type[Operation], ...] = (
     Press,
     Squeeze,
     Pop,
+    TailBall,
     Inflate,
     Wait,
 )

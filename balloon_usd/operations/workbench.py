@@ -179,6 +179,16 @@ class Workbench:
             self.complain(path, f"unknown bubble {quoted(name)}")
         return False
 
+    def find_rest(self, name: str, place: Place, path: Path) -> None:
+        """Complain unless a bubble is what is left of a balloon by now, and has its gas."""
+        known = len(self.complaints)
+        self.find_whole(name, place, path)
+        if len(self.complaints) > known or name in self._rests:
+            return
+        if name in self.piece.bubbles and not self.piece.bubbles[name].last:
+            what = f"bubble {quoted(name)} has no tail, expected what is left of a balloon"
+            self.complain(path, f"{what}, which a step rest names")
+
     def find_whole(self, name: str, place: Place, path: Path) -> None:
         """Complain if a bubble, which may be an unnamed rest, does not exist by now."""
         if name not in self._rests:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from balloon_usd.balloon.tube_theory import inflated_rubber, maxwell_state, pressure_maximum
 from balloon_usd.plan.parking import parked
 
 if TYPE_CHECKING:
@@ -43,6 +44,22 @@ class _Placed:
     @property
     def size(self) -> str:
         return self.strip.size.name
+
+    @property
+    def flat_radius(self) -> float:
+        return self.strip.size.radius
+
+    @property
+    def flat_tail(self) -> float:
+        planned = self.planned
+        return planned.rest_end - self.strip.rest_place(planned, planned.length)
+
+    @property
+    def tip_gives_way(self) -> bool:
+        rubber = self.strip.rubber
+        if rubber.softening is None:
+            return False
+        return pressure_maximum(inflated_rubber(rubber)).p_star < maxwell_state(rubber).p_star
 
     def rest_place(self, at: float) -> float:
         return self.strip.rest_place(self.planned, at)

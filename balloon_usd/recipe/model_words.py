@@ -9,6 +9,7 @@ from balloon_usd.operations.entries import steps_in
 from balloon_usd.operations.inflate import Inflate
 from balloon_usd.operations.pop import Pop
 from balloon_usd.operations.squeeze import Squeeze
+from balloon_usd.operations.tail_ball import TailBall
 
 from .balloons import balloons_in
 
@@ -65,6 +66,9 @@ def _kosaka_steps(data: object) -> Iterator[Complaint]:
         if Pop.word in step.words:
             what = "makes no sense with model kosaka, whose air particles stay in"
             yield Complaint((*step.path, Pop.word), f"{what}, expected no such step")
+        if TailBall.word in step.words:
+            what = "makes no sense with model kosaka, whose springs do not soften"
+            yield Complaint((*step.path, TailBall.word), f"{what}, expected no such step")
         if "burp" in step.entries:
             what = "makes no sense with model kosaka, whose bubbles keep the air particles that are in them"
             yield Complaint((*step.path, "burp"), f"{what}, expected no burp")

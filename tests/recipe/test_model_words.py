@@ -273,3 +273,28 @@ def test_only_what_is_shut_off_for_good_is_popped_and_only_once(steps: str, told
         assert Recipe.parse(text).piece.popped
     else:
         assert any(told in each for each in messages(text))
+
+
+REST = "  - bubbles: {a: 6, b: 6, c: 6}\n  - lock: [b, c]\n  - rest: tail\n"
+
+
+def test_springs_have_no_tail_balls() -> None:
+    found = messages(f"{CAPSULE}{REST}  - tail_ball: {{tail: 2.5}}\n{KOSAKA}")
+    assert any(
+        "tail_ball: makes no sense with model kosaka, whose springs do not soften" in each for each in found
+    )
+
+
+@pytest.mark.parametrize(
+    ("steps", "told"),
+    [
+        (f"{REST}  - tail_ball: {{a: 2.5}}\n", 'bubble "a" has no tail, expected what is left of a balloon'),
+        (f"{REST}  - tail_ball: {{tial: 2.5}}\n", 'unknown bubble "tial", did you mean "tail"?'),
+        (f"{REST}  - tail_ball: {{}}\n", "tail_ball: is empty"),
+        (f"{REST}  - tail_ball: {{tail: -1}}\n", "out of range"),
+        (f"{REST}  - pop: tail\n  - tail_ball: {{tail: 2.5}}\n", 'bubble "tail" was popped at steps[3].pop'),
+        ("  - bubbles: {a: 6}\n  - tail_ball: {main_rest: 2.5}\n  - bubbles: {b: 5}\n", "main_rest"),
+    ],
+)
+def test_only_what_is_left_of_a_balloon_has_a_tail_ball(steps: str, told: str) -> None:
+    assert any(told in each for each in messages(f"{TUBE}{steps}"))

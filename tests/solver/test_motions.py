@@ -121,7 +121,16 @@ def test_every_move_of_a_plan_has_a_motion(motions):
 def test_hands_wait_while_nothing_moves_and_in_model_kosaka_where_nothing_is_blown_up_wound_popped_or_falls():
     assert [kind for kind, motion in LATEX_MOTIONS.items() if motion is Wait] == [moves.Move]
     waits = {kind for kind, motion in KOSAKA_MOTIONS.items() if motion is Wait}
-    unmoved = {moves.Inflate, moves.Spin, moves.TurnFold, moves.Loosen, moves.Hold, moves.Fall, moves.Pop}
+    unmoved = {
+        moves.Inflate,
+        moves.Spin,
+        moves.TurnFold,
+        moves.Loosen,
+        moves.Hold,
+        moves.Fall,
+        moves.Pop,
+        moves.StretchTip,
+    }
     assert waits == {moves.Move, *unmoved}
 
 

@@ -35,9 +35,10 @@ KOSAKA_MOTIONS: Motions = {
     moves.Press: Press,
     moves.Weld: KosakaWeld,
     moves.SetDown: SetDown,
-    # Only latex has a weight, and bursts.
+    # Only latex has a weight, bursts, and softens.
     moves.Fall: Wait,
     moves.Pop: Wait,
+    moves.StretchTip: Wait,
     moves.Loosen: Wait,
     moves.LetGo: LetGo,
     moves.Hold: Wait,

@@ -18,6 +18,7 @@ from balloon_usd.solver.latex.motions.press import LatexPress
 from balloon_usd.solver.latex.motions.set_down import LatexSetDown
 from balloon_usd.solver.latex.motions.set_net import LatexSetNet
 from balloon_usd.solver.latex.motions.spin import Spin
+from balloon_usd.solver.latex.motions.stretch_tip import StretchTip
 from balloon_usd.solver.latex.motions.turn_fold import TurnFold
 from balloon_usd.solver.motions.bring import Bring
 from balloon_usd.solver.motions.gather import Gather
@@ -39,6 +40,7 @@ LATEX_MOTIONS: Motions = {
     moves.Bend: LatexBend,
     moves.Press: LatexPress,
     moves.Pop: Pop,
+    moves.StretchTip: StretchTip,
     moves.Weld: Weld,
     moves.TurnFold: TurnFold,
     moves.SetDown: LatexSetDown,
