@@ -80,7 +80,7 @@ steps:
     def check(cls, value: object, place: Place, bench: Workbench) -> None:
         """Complain of what is not what is left of a balloon."""
         for name in cls.uses(value):
-            bench.find_rest(name, place, (*place.path, cls.word, name))
+            bench.tip(name, place, (*place.path, cls.word, name))
 
     def refusals(self, layout: Layout) -> Iterator[tuple[tuple[str, ...], str]]:
         """Yield tips that are too short to give way, or longer than the flat tail that is left."""

@@ -62,6 +62,7 @@ class Workbench:
         self.piece = Workpiece(self._balloons)
         self._made_at: dict[str, Path] = {}
         self._popped_at: dict[str, Path] = {}
+        self._tipped_at: dict[str, Path] = {}
         self._ended: dict[str, Path] = {}
         self._made_ever, self._rests = made_ever, rests
         self._pumped = pumped
@@ -138,17 +139,47 @@ class Workbench:
 
     def pop(self, name: str, path: Path) -> None:
         """Burst a bubble that is there, whole, and of which each neighbour is shut for good."""
+        if name in self._rests and name not in self._made_at:
+            what = f"bubble {quoted(name)} has no name of its own yet"
+            self.complain(path, f"{what}, expected a step before that gives it one: rest: NAME")
+            return
         if not self.find_firm(name, path) or name not in self.piece.bubbles:
             return
-        for end in (Joint(name, "start"), Joint(name, "end")):
-            joint = self.piece.joint(end)
-            if len(joint) > 1 and not self.piece.is_merged(joint):
-                other = next(each.bubble for each in joint if each != end)
-                what = f"the twist between {quoted(name)} and {quoted(other)} would let the gas of both out"
-                self.complain(path, f"{what}, expected an ear or a lock there first")
-                return
+        if (twist := self._open_twist(name)) is not None:
+            what = f"the twist {twist} would let the gas of both out"
+            self.complain(path, f"{what}, expected an ear or a lock there first")
+            return
+        if self.piece.row(self.piece.bubbles[name].balloon) == [name]:
+            self.complain(
+                path, f"bubble {quoted(name)} is all that there is of its balloon, expected another"
+            )
+            return
         self._popped_at[name] = path
         self.piece.pop(int(path[1]), name)
+
+    def _open_twist(self, name: str) -> str | None:
+        """Return which twist at an end of a bubble only itself holds, in words; None where all hold."""
+        for end in (Joint(name, "start"), Joint(name, "end")):
+            joint = self.piece.joint(end)
+            if self.piece.is_merged(joint):
+                continue
+            others = [each.bubble for each in joint if each != end]
+            if others:
+                return f"between {quoted(name)} and {quoted(others[0])}"
+            if end in self.piece.open_ends.values():
+                return f"behind {quoted(name)}"
+        return None
+
+    def tip(self, name: str, place: Place, path: Path) -> None:
+        """Stretch the tip of what is left of a balloon, once."""
+        known = len(self.complaints)
+        self.find_rest(name, place, path)
+        if len(self.complaints) > known:
+            return
+        if name in self._tipped_at:
+            at = path_text(self._tipped_at[name])
+            self.complain(path, f"the tip of {quoted(name)} was stretched at {at}, expected each tip once")
+        self._tipped_at.setdefault(name, path)
 
     def find_firm(self, name: str, path: Path, rests: Iterable[str] = ()) -> bool:
         """Say whether a bubble exists by now and has its gas, and complain if it does not; as `find`."""

@@ -46,6 +46,7 @@ class RecipeBuilder:
         speed: float | None = None,
         front: Front | None = None,
         mirror: bool = False,
+        must_hold: str | Sequence[str] | None = None,
     ) -> None:
         self._units = units
         head = {"title": title or None, "source": source or None, "units": units, "fps": fps, "tempo": tempo}
@@ -55,6 +56,8 @@ class RecipeBuilder:
         self._steps: list[Entries] = []
         falling = {"height": None if height is None else self._length(height), "speed": speed}
         self._end = _given({"pose": pose, **falling, "front": front, "mirror": mirror or None})
+        held = must_hold if must_hold is None or isinstance(must_hold, str) else list(must_hold)
+        self._end |= _given({"must_hold": held})
         self._physics: Entries = {}
 
     def balloon(

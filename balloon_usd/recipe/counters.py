@@ -22,26 +22,40 @@ EXPECTED = "expected a number of times, {k: 9}, {k: 2 to 9} or {side: [left, rig
 _RANGE = re.compile(r"\s*(.+?)\s+to\s+(.+?)\s*", re.ASCII | re.DOTALL)
 
 
+class CounterError(ValueError):
+    """A counter makes no sense; `keys` leads to it."""
+
+    def __init__(self, text: str, keys: tuple[str, ...] = ()) -> None:
+        super().__init__(text)
+        self.keys = keys
+
+
 def counters_of(value: object, names: Names, units: str | None) -> list[dict[str, Scalar]]:
     """Return the values of all counters in each of the repeats; `names`: those that are known already.
 
     Raises:
-        ValueError: they make no sense.
+        CounterError: they make no sense.
     """
     if not isinstance(value, dict):
-        return [{} for _ in range(_times(value, names, units))]
+        try:
+            return [{} for _ in range(_times(value, names, units))]
+        except ValueError as error:
+            raise CounterError(str(error)) from None
     if not value:
-        raise ValueError(f"is empty, {EXPECTED}")
+        raise CounterError(f"is empty, {EXPECTED}")
     columns: dict[str, Sequence[Scalar]] = {}
     for key, entry in value.items():
-        checked_name(key)
-        if key in names:
-            raise ValueError(f"counter {quoted(key)} has the name of a value or of another counter")
-        columns[key] = _column(entry, names, units)
+        try:
+            checked_name(key)
+            if key in names:
+                raise ValueError(f"counter {quoted(key)} has the name of a value or of another counter")
+            columns[key] = _column(entry, names, units)
+        except ValueError as error:
+            raise CounterError(str(error), (key,)) from None
     lengths = {key: len(column) for key, column in columns.items()}
     if len(set(lengths.values())) > 1:
         told = ", ".join(f"{key} {length}" for key, length in lengths.items())
-        raise ValueError(f"counters differ in how many values they have ({told}), expected equally many")
+        raise CounterError(f"counters differ in how many values they have ({told}), expected equally many")
     return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
 
 
@@ -76,6 +90,8 @@ def _times(value: object, names: Names, units: str | None) -> int:
 
 
 def _whole(number: object, value: object) -> int:
+    if isinstance(number, float) and number.is_integer():
+        return int(number)
     if isinstance(number, bool) or not isinstance(number, int):
         raise ValueError(f"{quoted(value)} does not say how often, {EXPECTED}")
     return number

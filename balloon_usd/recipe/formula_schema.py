@@ -26,11 +26,13 @@ def with_formulas(schema: Schema) -> Schema:
     """Return the schema of a recipe as it is written: values may be formulas, steps and balloons repeated."""
     found: Schema = _filled(schema)
     top = found["properties"]
+    top["name"] = schema["properties"]["name"]
     top |= {key: _or_formula(value) for key, value in top.items() if key not in TEXTS}
     steps = top[STEPS]["items"] = {"oneOf": [*top[STEPS]["items"]["oneOf"], {"$ref": "#/$defs/Repeat"}]}
     top[LET] = {
         "description": "Values by names, which formulas use.",
         "patternProperties": {f"^{NAME_PATTERN}$": _VALUE},
+        "additionalProperties": False,
         **_NAMES,
         "title": "Let",
         "type": "object",
@@ -56,6 +58,7 @@ def _counters() -> Schema:
     """Return the schema of what counts repeats."""
     column = {"anyOf": [_TIMES, {"type": "string"}, {"items": _VALUE, "minItems": 1, "type": "array"}]}
     by_name = {"patternProperties": {f"^{NAME_PATTERN}$": column}, **_NAMES, "minProperties": 1}
+    by_name["additionalProperties"] = False
     return {
         "anyOf": [_TIMES, _FORMULA, {**by_name, "type": "object"}],
         "description": "How often: a number, or counters: {k: 9}, {k: 2 to 9}, {side: [left, right]}.",
@@ -116,6 +119,6 @@ def _or_formula(part: Schema, key: str = "") -> Schema:
 
 
 def _is_scalar(part: Schema) -> bool:
-    choices = part.get("anyOf", ())
+    choices = part.get("anyOf") or part.get("oneOf") or ()
     fixed = part.get("type") == "string" and ("pattern" in part or "enum" in part)
     return fixed or "enum" in part or part.get("type") in SCALARS or any(map(_is_scalar, choices))

@@ -18,7 +18,8 @@ from balloon_usd.language.names import name as checked_name
 from balloon_usd.language.problem import Complaint, RecipeError, quoted
 from balloon_usd.language.quantities import METRES
 
-from .counters import counters_of
+from .counters import CounterError, counters_of
+from .held_words import MUST_HOLD
 
 if TYPE_CHECKING:
     from balloon_usd.language.problem import Path
@@ -33,8 +34,14 @@ NOTE = "note"
 """The key of a step of which the same is true."""
 MOST_STEPS = 2000
 """Steps of a recipe that is written out: the largest figures of the trade have some hundreds."""
+MOST_BALLOONS = 200
+"""Balloons of such a recipe."""
+MOST_ROUNDS = 20_000
+"""Rounds of all repeats."""
 MOST_VALUES = 40_000
 """Values in it."""
+LONGEST_CHAIN = 50
+"""Named values that need each other, one through the other."""
 
 
 def written_out(document: Document) -> Document:
@@ -74,8 +81,15 @@ class _Place(NamedTuple):
     old: Path
     new: Path
     names: ChainMap[str, Scalar]
+    """Counters in front of the named values."""
     fills: bool = False
     """Whether formulas in angle brackets within names are filled in."""
+
+    @property
+    def counters(self) -> str:
+        """In which of its repeats it is: `k = 3`."""
+        counters = [(key, value) for each in self.names.maps[-2::-1] for key, value in each.items()]
+        return ", ".join(f"{key} = {value}" for key, value in counters)
 
     def at(self, old: str | int, new: str | int) -> _Place:
         """Return one of its parts."""
@@ -95,13 +109,15 @@ class _Writing:
         """Whether so much is wrong that what follows from it would be told, too."""
         self._lies: dict[Path, Path] = {}
         """Where the first copy of every part comes to lie."""
-        self._values = 0
+        self._values = self._rounds = 0
         self._full = False
 
     def recipe(self) -> dict[str, object]:
         """Write out the whole recipe."""
         names = ChainMap(self._named_values())
         found: dict[str, object] = {}
+        if self.unreadable:
+            return found
         for key, value in self._data.items():
             if key == LET:
                 continue
@@ -114,6 +130,7 @@ class _Writing:
             elif key == "balloons" and isinstance(value, dict):
                 found[key] = self._balloons(value, place)
             else:
+                place = place._replace(fills=key == MUST_HOLD)
                 found[key] = value if key in TEXTS else self._copy(value, place)
         return found
 
@@ -149,8 +166,8 @@ class _Writing:
                 self._stop(old, f"more than {MOST_STEPS} steps when written out, expected fewer repeats")
                 return
             here = place._replace(old=old, new=(STEPS, len(found)))
-            if told := _told(here.names):
-                self.marks.repeats[here.new] = told
+            if here.counters:
+                self.marks.repeats[here.new] = here.counters
             self._mark(here)
             found.append(self._copy(entry, here))
 
@@ -164,15 +181,19 @@ class _Writing:
             told = f"{quoted(steps)} does not fit" if STEPS in entry else "is missing"
             self._refuse((*place.old, STEPS), f"{told}, expected a list of steps that are repeated")
             return
+        if not isinstance(entry.get(NOTE, ""), str):
+            self._refuse((*place.old, NOTE), f"{quoted(entry[NOTE])} is no text, expected it in quotes")
         for names in self._counted(entry[REPEAT], place):
-            if self._full:
-                return
             self._steps(steps, _Place((*place.old, STEPS), place.new, names, fills=True), found)
 
     def _balloons(self, entries: dict[str, object], place: _Place) -> dict[str, object]:
         """Write out balloons, of which a repeated one stands for several."""
         found: dict[str, object] = {}
         for key, entry in entries.items():
+            if len(found) > MOST_BALLOONS:
+                self._stop(
+                    (*place.old, key), f"more than {MOST_BALLOONS} balloons when written out, expected fewer"
+                )
             here = place._replace(old=(*place.old, key))
             if not isinstance(entry, dict) or REPEAT not in entry:
                 self._put(found, key, entry, here)
@@ -186,10 +207,16 @@ class _Writing:
         """Yield the names known in each of the repeats."""
         try:
             rounds = counters_of(value, place.names, self._units)
-        except ValueError as error:
-            self._refuse((*place.old, REPEAT), str(error))
+        except CounterError as error:
+            self._refuse((*place.old, REPEAT, *error.keys), str(error))
             return
         for counters in rounds:
+            # What is wrong in one round is wrong in all.
+            if self.unreadable:
+                return
+            self._rounds += 1
+            if self._rounds > MOST_ROUNDS:
+                self._stop(place.old, f"more than {MOST_ROUNDS} rounds of repeats, expected fewer")
             yield place.names.new_child(counters)
 
     def _copy(self, value: object, place: _Place) -> object:
@@ -212,11 +239,14 @@ class _Writing:
         try:
             name = filled(key, place.names, self._units) if place.fills else key
         except ValueError as error:
-            self._refuse(place.old, str(error))
+            where = f" (with {place.counters})" if place.counters else ""
+            self._refuse(place.old, f"{error}{where}")
             return
         if name in found:
-            what = f"{quoted(name)} is there already, expected a name with a counter, such as {key}_<k>"
-            self._refuse(place.old, what)
+            hint = (
+                "another one" if place.counters else "one with a counter of its repeat in it, or another one"
+            )
+            self._refuse(place.old, f"the name {quoted(name)} is there already, expected {hint}")
             return
         here = place._replace(new=(*place.new, name))
         self._mark(here)
@@ -235,7 +265,10 @@ class _Writing:
                 return filled(value, place.names, self._units)
         except ValueError as error:
             at = self._document.marks.place(place.old)
-            self.complaints.append(Complaint(place.new, str(error), at))
+            where = f" (with {place.counters})" if place.counters and place.new[0] != STEPS else ""
+            self.complaints.append(Complaint(place.new, f"{error}{where}", at))
+            # What is wrong in one round is wrong in all.
+            self.unreadable = self.unreadable or bool(place.counters)
         return value
 
     def _mark(self, place: _Place) -> None:
@@ -271,6 +304,10 @@ class _NamedValues(Mapping[str, "Scalar"]):
         """Return a value; raises `ValueError` where it makes no sense."""
         if key in self.known:
             return self.known[key]
+        if len(self._asked) > LONGEST_CHAIN:
+            raise ValueError(
+                f"needs a chain of more than {LONGEST_CHAIN} other values, expected a shorter one"
+            )
         if key in self._asked:
             way = " -> ".join([*self._asked[self._asked.index(key) :], key])
             raise ValueError(f"names itself: {way}, expected a value that does not need itself")
@@ -292,9 +329,3 @@ class _NamedValues(Mapping[str, "Scalar"]):
 
     def __len__(self) -> int:
         return len(self._entries)
-
-
-def _told(names: ChainMap[str, Scalar]) -> str:
-    """Say in which of its repeats a part is: `k = 3`; counters stand in front of the named values."""
-    counters = [(key, value) for each in names.maps[-2::-1] for key, value in each.items()]
-    return ", ".join(f"{key} = {value}" for key, value in counters)

@@ -13,6 +13,7 @@ from balloon_usd.operations.modifiers import MODIFIERS
 from balloon_usd.operations.table import BY_WORD, WORDS, words_in
 
 from .balloons import Balloon
+from .held_words import MUST_HOLD
 from .kosaka import Kosaka
 from .physics import Physics
 from .repeats import LET, REPEAT
@@ -42,7 +43,7 @@ def validation_complaints(error: ValidationError, data: object, root: type[BaseM
     unitless = [detail for detail in details if isinstance(_cause(detail), UnitMissingError)]
     repeated = {id(detail) for detail in unitless[1:]}
     shown = [detail for detail in details if id(detail) not in repeated][: PROBLEMS_SHOWN + 1]
-    complaints = [_complaint(detail, data, root) for detail in shown]
+    complaints = [_unfit_held(detail) or _complaint(detail, data, root) for detail in shown]
     if len(unitless) > 1:
         at = shown.index(unitless[0])
         more = f" ({len(unitless) - 1} more lengths have none)"
@@ -53,6 +54,14 @@ def validation_complaints(error: ValidationError, data: object, root: type[BaseM
 def _only_seems_empty(detail: ErrorDetails) -> bool:
     """Pydantic counts valid entries only: a list of wrong ones is too short to it."""
     return detail["type"] == "too_short" and len(detail["input"]) >= detail["ctx"]["min_length"]
+
+
+def _unfit_held(detail: ErrorDetails) -> Complaint | None:
+    """Say what the joints that must hold can be; None of other errors."""
+    if detail["loc"][0] != MUST_HOLD or detail["type"] not in ("union_tag_not_found", "literal_error"):
+        return None
+    told = f"{quoted(detail['input'])} does not fit, expected all, none, or joints such as [nose.end]"
+    return Complaint((MUST_HOLD,), told)
 
 
 def _complaint(detail: ErrorDetails, data: object, root: type[BaseModel]) -> Complaint:

@@ -73,9 +73,10 @@ class SculptureCheck:
         return self._name(strip, mesh, int(np.argmax(self._last.stretch[index])))
 
     def _impossible(self, frame: Frame) -> str | None:
-        """Tell of a bubble that has turned inside out: what follows would be no physics."""
+        """Tell of a bubble that has turned inside out: what follows would be no physics. Limp rubber may."""
+        popped = self._plan.recipe.piece.popped
         for bubble, pressure, volume in zip(self._plan.bubbles, frame.pressure, frame.volume, strict=True):
-            if not (pressure > LOWEST_PRESSURE and volume > 0.0):
+            if bubble.name not in popped and not (pressure > LOWEST_PRESSURE and volume > 0.0):
                 found = f"{pressure / 1e3:.0f} kPa in {volume * 1e6:.1f} cm3"
                 return f"{bubble.name} has turned inside out ({found}): make it longer"
         return None

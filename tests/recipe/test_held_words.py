@@ -36,7 +36,10 @@ def test_all_none_or_some_joints_must_hold(written, meant):
 @pytest.mark.parametrize(
     ("written", "told"),
     [
-        ("most", 'unknown must_hold "most", expected one of all, none'),
+        ("most", '"most" does not fit, expected all, none, or joints such as [nose.end]'),
+        ("nose.end", '"nose.end" does not fit, expected all, none, or joints such as [nose.end]'),
+        ("true", "True does not fit, expected all, none, or joints such as [nose.end]"),
+        ("{joints: [nose.end]}", "does not fit, expected all, none, or joints such as [nose.end]"),
         ("[]", "must_hold: is empty, expected at least one entry"),
         ("[nose]", '"nose" is no joint, expected a bubble and its end'),
         ("[noes.end]", 'must_hold[0]: unknown bubble "noes", did you mean "nose"?'),

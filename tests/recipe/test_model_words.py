@@ -265,6 +265,16 @@ EARS = "  - bubbles: {a: 5}\n  - ear: {one: 3}\n  - bubbles: {gap: 4}\n  - ear: 
             " there first",
         ),
         (f"  - pop: a\n{AB}", 'steps[0].pop: bubble "a" does not exist yet'),
+        (
+            "  - bubbles: {a: 6}\n  - pop: a\n",
+            'steps[1].pop: the twist behind "a" would let the gas of both out',
+        ),
+        (
+            "  - ear: {e: 3}\n  - bubbles: {a: 6}\n  - pop: a\n  - bubbles: {b: 5}\n",
+            'steps[2].pop: the twist behind "a" would let the gas of both out',
+        ),
+        ("  - rest: all\n  - pop: all\n", 'bubble "all" is all that there is of its balloon'),
+        (f"{AB}  - pop: main_rest\n", 'bubble "main_rest" has no name of its own yet'),
     ],
 )
 def test_only_what_is_shut_off_for_good_is_popped_and_only_once(steps: str, told: str | None) -> None:
@@ -293,6 +303,10 @@ def test_springs_have_no_tail_balls() -> None:
         (f"{REST}  - tail_ball: {{}}\n", "tail_ball: is empty"),
         (f"{REST}  - tail_ball: {{tail: -1}}\n", "out of range"),
         (f"{REST}  - pop: tail\n  - tail_ball: {{tail: 2.5}}\n", 'bubble "tail" was popped at steps[3].pop'),
+        (
+            f"{REST}  - tail_ball: {{tail: 2.5}}\n  - tail_ball: {{tail: 3}}\n",
+            'the tip of "tail" was stretched at steps[3]',
+        ),
         ("  - bubbles: {a: 6}\n  - tail_ball: {main_rest: 2.5}\n  - bubbles: {b: 5}\n", "main_rest"),
     ],
 )

@@ -114,13 +114,16 @@ def test_a_named_value_that_makes_no_sense_is_refused_at_its_place(text, told):
             "{repeat: {}, steps: [{bubbles: {x: 3}}]}",
             "5:10: steps[0].repeat: is empty, expected a number of times",
         ),
-        ("{repeat: {k: []}, steps: [{bubbles: {x: 3}}]}", "5:10: steps[0].repeat: 0 values of a counter"),
-        ("{repeat: {k: 3 to 2}, steps: [{bubbles: {x: 3}}]}", '5:10: steps[0].repeat: "3 to 2" is no range'),
+        ("{repeat: {k: []}, steps: [{bubbles: {x: 3}}]}", "5:19: steps[0].repeat.k: 0 values of a counter"),
+        (
+            "{repeat: {k: 3 to 2}, steps: [{bubbles: {x: 3}}]}",
+            '5:22: steps[0].repeat.k: "3 to 2" is no range',
+        ),
         (
             "{repeat: {k: 2, j: [a]}, steps: [{bubbles: {x: 3}}]}",
             "5:10: steps[0].repeat: counters differ in how many",
         ),
-        ("{repeat: {k k: 2}, steps: [{bubbles: {x: 3}}]}", '5:10: steps[0].repeat: "k k" is no name'),
+        ("{repeat: {k k: 2}, steps: [{bubbles: {x: 3}}]}", '5:24: steps[0].repeat["k k"]: "k k" is no name'),
         ("{repeat: = 3 * x, steps: [{bubbles: {x: 3}}]}", '5:18: steps[0].repeat: unknown name "x"'),
         ("{repeat: 3}", "5:9: steps[0].steps: is missing, expected a list of steps that are repeated"),
         ("{repeat: 3, steps: []}", "5:21: steps[0].steps: [] does not fit, expected a list of steps"),
@@ -135,7 +138,7 @@ def test_a_named_value_that_makes_no_sense_is_refused_at_its_place(text, told):
         ),
         (
             "{repeat: {k: 2}, steps: [{bubbles: {x_<k>: 3, x_<k + 0>: 3}}]}",
-            '"x_1" is there already, expected a name',
+            'the name "x_1" is there already, expected another one',
         ),
         ("{bubbles: {x: = 3 / 0}}", "5:23: steps[0].bubbles.x: 3 is divided by 0"),
         (
@@ -177,3 +180,45 @@ def test_a_slip_in_let_or_repeat_gets_the_nearest_word():
     assert any(
         'unknown key "repaet", did you mean "repeat"?' in each for each in problems("steps: [{repaet: 3}]\n")
     )
+
+
+def test_a_long_chain_of_named_values_is_refused_and_a_short_one_is_not():
+    def chain(links):
+        named = ", ".join([*(f"v{k}: = v{k + 1}" for k in range(links)), f"v{links}: 3"])
+        return f"let: {{{named}}}\nsteps: [{{bubbles: {{x: = v0}}}}]\n"
+
+    assert Recipe.parse(HEAD + chain(40)).steps[0].lengths == pytest.approx({"x": 0.03})
+    assert "needs a chain of more than 50 other values" in problems(chain(3000))[0]
+
+
+@pytest.mark.parametrize(
+    "inner",
+    ["{repeat: 0, steps: [wait: 1]}", "{repeat: 3, steps: nothing}", "{repeat: 3, steps: []}", "{wait: = x}"],
+)
+def test_what_is_wrong_in_every_round_is_told_once_and_soon(inner):
+    for counter in "cba":
+        inner = f"{{repeat: {{{counter}: 500}}, steps: [{inner}]}}"
+    begun = time.monotonic()
+    assert len(problems(f"steps: [{inner}]\n")) == 1
+    assert time.monotonic() - begun < 2.0
+
+
+def test_repeats_of_no_steps_and_of_many_balloons_are_stopped():
+    rows = "".join(f"  m{k}_<k>: {{repeat: {{k: 500}}, size: 260, tail: 30}}\n" for k in range(20))
+    text = f"format: 1\nname: d\nunits: cm\nballoons:\n{rows}steps: [wait: 1]\n"
+    with pytest.raises(RecipeError, match="more than 200 balloons when written out"):
+        Recipe.parse(text)
+
+
+def test_a_wrong_named_value_brings_no_second_message_where_it_is_used():
+    assert len(problems("let: {x: [1, 2]}\nsteps: [{bubbles: {a: = x, b: = x}}]\n")) == 1
+
+
+def test_joints_that_must_hold_may_be_told_by_named_values():
+    text = "let: {n: 2}\nsteps:\n- {repeat: {k: = n}, steps: [{bubbles: {b_<k>: 4}}, {ear: {e_<k>: 3}}]}\nmust_hold: [e_<n>.start]\n"
+    assert [str(end) for end in Recipe.parse(HEAD + text).must_hold] == ["e_2.start"]
+
+
+def test_a_whole_number_written_with_a_point_counts():
+    text = "steps:\n- repeat: {k: 2.0}\n  steps: [{bubbles: {b_<k>: 4}}]\n"
+    assert len(Recipe.parse(HEAD + text).steps) == 2

@@ -63,7 +63,13 @@ def accepts(schema: Mapping[str, Any], value: Any) -> bool:
         "properties": lambda rule: accepts_entries(rule, value),
         "patternProperties": lambda rule: accepts_matching(rule, value),
         "additionalProperties": lambda rule: (
-            not isinstance(value, dict) or rule is not False or set(value) <= set(schema["properties"])
+            not isinstance(value, dict)
+            or rule is not False
+            or all(
+                key in schema.get("properties", ())
+                or any(re.search(p, key) for p in schema.get("patternProperties", ()))
+                for key in value
+            )
         ),
     }
     return all(checks[keyword](rule) for keyword, rule in schema.items() if keyword not in REMARKS)
@@ -218,6 +224,9 @@ def test_the_schema_and_the_reader_take_repeats_formulas_and_named_values() -> N
     ("right", "wrong"),
     [
         ("let: {size: 3,", "let: {size: [3],"),
+        ("let: {", "let: {a b: 1, "),
+        ("{k: 2 to count}", "{k k: 2}"),
+        ("name: petals", "name: petals_<size>"),
         ("{k: = count}, size", "{k: 0}, size"),
         ("{k: 2 to count}", "{}"),
         ("    note: each is", "    turns: 3\n    note: each is"),

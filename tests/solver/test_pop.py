@@ -11,6 +11,7 @@ from balloon_usd.plan import plan
 from balloon_usd.quality.crossing_counter import CrossingCounter
 from balloon_usd.quality.walls import walls_of
 from balloon_usd.recipe import Recipe
+from balloon_usd.solver.frame import Frame
 from balloon_usd.solver.simulation import simulate_many
 
 NAMES = ("before", "first", "gap", "second", "beyond")
@@ -93,3 +94,20 @@ def test_the_rest_of_a_balloon_can_be_popped_and_hangs_limp():
     assert last.pressure[4] == 0.0
     assert last.pressure[2] == pytest.approx(7.5e3, rel=0.05)
     assert last.volume[4] < 0.05 * planned.bubbles[4].volume
+
+
+@pytest.mark.parametrize(
+    ("steps", "popped"),
+    [
+        ("[{bubbles: {a: 4}}, {ear: {e: 3}}, {pop: a}]", "a"),
+        ("[{bubbles: {a: 5}}, {loop: {l: 16}}, {pop: l}]", "l"),
+    ],
+)
+def test_limp_rubber_may_turn_inside_out(steps, popped):
+    text = f"format: 1\nname: p\nunits: cm\nballoons: {{main: {{size: 260, length: 17, tail: 6}}}}\nsteps: {steps}\n"
+    planned = plan(Recipe.parse(text + "physics: {hold: 0.5}\n"))
+    for (frame,) in simulate_many([planned], device="cpu").frames():
+        last = frame
+    assert isinstance(last, Frame)
+    assert last.time_code == planned.frame_count
+    assert last.pressure[[bubble.name for bubble in planned.bubbles].index(popped)] == 0.0
