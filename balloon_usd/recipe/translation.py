@@ -58,7 +58,7 @@ def _only_seems_empty(detail: ErrorDetails) -> bool:
 
 def _unfit_held(detail: ErrorDetails) -> Complaint | None:
     """Say what the joints that must hold can be; None of other errors."""
-    if detail["loc"][0] != MUST_HOLD or detail["type"] not in ("union_tag_not_found", "literal_error"):
+    if detail["loc"][:1] != (MUST_HOLD,) or detail["type"] not in ("union_tag_not_found", "literal_error"):
         return None
     told = f"{quoted(detail['input'])} does not fit, expected all, none, or joints such as [nose.end]"
     return Complaint((MUST_HOLD,), told)
