@@ -113,7 +113,7 @@ def test_gas_that_a_hand_pushes_goes_through_a_shut_neck_whatever_the_pressures(
 def test_a_hand_pushes_gas_for_one_frame_only(model):
     model.hands.push_gas(model.scene.end_joint.numpy()[3], 2.0)
     widen(model)
-    names = ("x", "amount", "volume")
+    names = ("x", "amount", "pressure", "volume")
     model.hands.begin_frame({name: model.scene.arrays[name].numpy() for name in names})
     widen(model)
     assert not step(model).any()
