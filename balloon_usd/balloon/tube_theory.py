@@ -147,6 +147,18 @@ def pressure_minimum(law: MembraneLaw) -> TubeState:
     return closed_tube_state(law, limit.stretch)
 
 
+def bulges_once_stretched(rubber: Rubber) -> bool:
+    """Tell whether a flat tube that was stretched as far as the bulged phase bulges at the Maxwell pressure:
+    its softened rubber has a lower maximum of the pressure.
+
+    Raises:
+        ValueError: the rubber has no bulged phase.
+    """
+    if rubber.softening is None:
+        return False
+    return pressure_maximum(inflated_rubber(rubber)).p_star < maxwell_state(rubber).p_star
+
+
 def thin_state(law: MembraneLaw, p_star: float) -> TubeState:
     """Return the thin phase of a closed tube at p_star, Pa.
 

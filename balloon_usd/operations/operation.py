@@ -121,10 +121,26 @@ class Operation(Entries):
         """Write the moves of a step of this index; raises `RecipeError` where no hand can make it."""
 
 
-class TwistsOff(OnBalloon, Burped, Timed, Operation):
-    """An operation that twists bubbles off, one after another."""
+class LengthsByBubble(Operation):
+    """An operation whose value has a length for each of some bubbles."""
 
     by_bubble: ClassVar[bool] = True
+
+    def entry(self, units: str | None) -> object:
+        """Return its value as it stands in a file."""
+        given: dict[str, float] = getattr(self, self.word)
+        return {name: length_entry(length, units) for name, length in given.items()}
+
+    @classmethod
+    def value_of(
+        cls, units: Units, lengths: Mapping[str, LengthLike] | None = None, /, **more: LengthLike
+    ) -> object:
+        """Return its value as it stands in a file."""
+        return {name: written_length(length, units) for name, length in {**(lengths or {}), **more}.items()}
+
+
+class TwistsOff(OnBalloon, Burped, Timed, LengthsByBubble):
+    """An operation that twists bubbles off, one after another."""
 
     @property
     def gas_left(self) -> float:
@@ -136,17 +152,6 @@ class TwistsOff(OnBalloon, Burped, Timed, Operation):
         """Bubbles that it twists off: inflated length (m) by name."""
         found: dict[str, float] = getattr(self, self.word)
         return found
-
-    def entry(self, units: str | None) -> object:
-        """Return its value as it stands in a file."""
-        return {name: length_entry(length, units) for name, length in self.lengths.items()}
-
-    @classmethod
-    def value_of(
-        cls, units: Units, lengths: Mapping[str, LengthLike] | None = None, /, **more: LengthLike
-    ) -> object:
-        """Return its value as it stands in a file."""
-        return {name: written_length(length, units) for name, length in {**(lengths or {}), **more}.items()}
 
     @classmethod
     def makes(cls, value: object) -> tuple[str, ...]:

@@ -5,16 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, ClassVar
 
 from balloon_usd.language.lengths import at_least, at_most, cm
-from balloon_usd.language.quantities import length_entry, written_length
 from balloon_usd.operations.modifiers import OnBalloon
 from balloon_usd.operations.moves import Move, StretchTip
-from balloon_usd.operations.operation import Lengths, Operation
+from balloon_usd.operations.operation import Lengths, LengthsByBubble
 from balloon_usd.operations.score import SETTLE_SECONDS
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterator
 
-    from balloon_usd.language.quantities import LengthLike, Units
     from balloon_usd.operations.score import Layout, Score
     from balloon_usd.operations.workbench import Place, Workbench
 
@@ -28,11 +26,10 @@ BETWEEN = 2.5
 """Flat rubber that keeps the ball off the tube, in R0."""
 
 
-class TailBall(OnBalloon, Operation):
+class TailBall(OnBalloon, LengthsByBubble):
     """Stretch the end of the flat tail, until it gives way to the gas and becomes a ball."""
 
     word: ClassVar[str] = "tail_ball"
-    by_bubble: ClassVar[bool] = True
     example: ClassVar[str] = """\
 format: 1
 name: pompom
@@ -59,17 +56,6 @@ steps:
     def names(self) -> tuple[str, ...]:
         """The rests whose tips become balls."""
         return tuple(self.tail_ball)
-
-    def entry(self, units: str | None) -> object:
-        """Return its value as it stands in a file."""
-        return {name: length_entry(length, units) for name, length in self.tail_ball.items()}
-
-    @classmethod
-    def value_of(
-        cls, units: Units, stretched: Mapping[str, LengthLike] | None = None, /, **more: LengthLike
-    ) -> object:
-        """Return its value as it stands in a file: flat rubber by the name of what is left of a balloon."""
-        return {name: written_length(length, units) for name, length in {**(stretched or {}), **more}.items()}
 
     @classmethod
     def uses(cls, value: object) -> tuple[str, ...]:

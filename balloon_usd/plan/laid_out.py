@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from balloon_usd.balloon.tube_theory import inflated_rubber, maxwell_state, pressure_maximum
+from balloon_usd.balloon.tube_theory import bulges_once_stretched
 from balloon_usd.plan.parking import parked
 
 if TYPE_CHECKING:
@@ -56,10 +56,7 @@ class _Placed:
 
     @property
     def tip_gives_way(self) -> bool:
-        rubber = self.strip.rubber
-        if rubber.softening is None:
-            return False
-        return pressure_maximum(inflated_rubber(rubber)).p_star < maxwell_state(rubber).p_star
+        return bulges_once_stretched(self.strip.rubber)
 
     def rest_place(self, at: float) -> float:
         return self.strip.rest_place(self.planned, at)

@@ -138,10 +138,11 @@ def _gas(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame) -> dict[str, f
         if f"{before.name}.end" in frame.undone
         for bubble in (before, behind)
     }
+    left_out = sharing | plan.recipe.piece.popped
     return {
         bubble.name: float(volume) / (polygon[bubble.balloon] * bubble.volume) - 1.0
         for bubble, volume in zip(plan.bubbles, frame.volume, strict=True)
-        if bubble.volume > 0.0 and bubble.name not in sharing | plan.recipe.piece.popped
+        if bubble.volume > 0.0 and bubble.name not in left_out
     }
 
 

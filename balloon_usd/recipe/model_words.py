@@ -27,6 +27,16 @@ LATEX_ONLY = {
 }
 """Keys of the physics that the model kosaka does not know, and why."""
 
+LATEX_STEPS = {
+    Inflate.word: (", whose balloons start blown up", "no such step"),
+    Squeeze.word: (", whose fingers are forces on patches of a wall", "press, or no such step"),
+    Pop.word: (", whose air particles stay in", "no such step"),
+    TailBall.word: (", whose springs do not soften", "no such step"),
+    "burp": (", whose bubbles keep the air particles that are in them", "no burp"),
+    "turns": (": its joints freeze and are not wound", "no turns"),
+}
+"""Keys of steps that it does not know, why, and what to write instead."""
+
 _MODEL: ModelName = "latex"
 """The model of a recipe that names none."""
 
@@ -57,24 +67,10 @@ def model_complaints(data: object) -> Iterator[Complaint]:
 
 def _kosaka_steps(data: object) -> Iterator[Complaint]:
     for step in steps_in(data):
-        if Inflate.word in step.words:
-            what = "makes no sense with model kosaka, whose balloons start blown up"
-            yield Complaint((*step.path, Inflate.word), f"{what}, expected no such step")
-        if Squeeze.word in step.words:
-            what = "makes no sense with model kosaka, whose fingers are forces on patches of a wall"
-            yield Complaint((*step.path, Squeeze.word), f"{what}, expected press, or no such step")
-        if Pop.word in step.words:
-            what = "makes no sense with model kosaka, whose air particles stay in"
-            yield Complaint((*step.path, Pop.word), f"{what}, expected no such step")
-        if TailBall.word in step.words:
-            what = "makes no sense with model kosaka, whose springs do not soften"
-            yield Complaint((*step.path, TailBall.word), f"{what}, expected no such step")
-        if "burp" in step.entries:
-            what = "makes no sense with model kosaka, whose bubbles keep the air particles that are in them"
-            yield Complaint((*step.path, "burp"), f"{what}, expected no burp")
-        if "turns" in step.entries:
-            what = "makes no sense with model kosaka: its joints freeze and are not wound"
-            yield Complaint((*step.path, "turns"), f"{what}, expected no turns")
+        for key, (why, expected) in LATEX_STEPS.items():
+            if key in step.entries:
+                what = f"makes no sense with model kosaka{why}, expected {expected}"
+                yield Complaint((*step.path, key), what)
 
 
 def _physics_in(data: object) -> dict[str, Any]:

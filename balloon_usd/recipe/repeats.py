@@ -91,6 +91,11 @@ class _Place(NamedTuple):
         counters = [(key, value) for each in self.names.maps[-2::-1] for key, value in each.items()]
         return ", ".join(f"{key} = {value}" for key, value in counters)
 
+    @property
+    def where(self) -> str:
+        """The same behind a message; nothing outside of repeats."""
+        return f" (with {self.counters})" if self.counters else ""
+
     def at(self, old: str | int, new: str | int) -> _Place:
         """Return one of its parts."""
         return self._replace(old=(*self.old, old), new=(*self.new, new))
@@ -239,8 +244,7 @@ class _Writing:
         try:
             name = filled(key, place.names, self._units) if place.fills else key
         except ValueError as error:
-            where = f" (with {place.counters})" if place.counters else ""
-            self._refuse(place.old, f"{error}{where}")
+            self._refuse(place.old, f"{error}{place.where}")
             return
         if name in found:
             hint = (
@@ -265,7 +269,8 @@ class _Writing:
                 return filled(value, place.names, self._units)
         except ValueError as error:
             at = self._document.marks.place(place.old)
-            where = f" (with {place.counters})" if place.counters and place.new[0] != STEPS else ""
+            # Of a step the marks tell it.
+            where = "" if place.new[0] == STEPS else place.where
             self.complaints.append(Complaint(place.new, f"{error}{where}", at))
             # What is wrong in one round is wrong in all.
             self.unreadable = self.unreadable or bool(place.counters)

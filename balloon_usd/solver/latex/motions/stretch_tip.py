@@ -11,7 +11,6 @@ from balloon_usd.solver.motions.motion import Motion
 
 if TYPE_CHECKING:
     from balloon_usd.operations import moves
-    from balloon_usd.plan.strip import Strip
     from balloon_usd.solver.latex.sculpture import LatexSculpture
 
 
@@ -20,7 +19,7 @@ class StretchTip(Motion):
 
     def __init__(self, move: moves.StretchTip, sculpture: LatexSculpture) -> None:
         """Stretch it at once: what its rubber remembers is the highest energy that it has had."""
-        scene, strip = sculpture.scene, _strip_of(move.bubble, sculpture)
+        scene, strip = sculpture.scene, sculpture.strip_of(sculpture.plan.table.ends(move.bubble)[0])
         body = sculpture.body[strip.balloon]
         mesh = scene.bodies[body]
         along = mesh.along[mesh.quads].mean(axis=1)
@@ -29,9 +28,3 @@ class StretchTip(Motion):
         peak = scene.peak_energy.numpy()
         peak[tip] = np.maximum(peak[tip], np.float32(strip.rubber.energy(bulged.a, bulged.b)))
         scene.peak_energy.assign(peak)
-
-
-def _strip_of(bubble: str, sculpture: LatexSculpture) -> Strip:
-    """Return the balloon of which a bubble is the rest."""
-    strips = sculpture.plan.strips.values()
-    return next(strip for strip in strips if strip.bubbles[-1].name == bubble)
