@@ -121,12 +121,16 @@ class Sculpture:
         )
 
     def _came_undone(self) -> str:
-        """Say at the end which joints have not held that must; nothing where all have."""
-        if not (unkept := list(self._quality.unkept())):
+        """Say at the end what has not held that must; nothing where all has."""
+        told = []
+        if unkept := list(self._quality.unkept()):
+            told.append(f"{all_of(unkept)}, and must hold: wind locks with more turns, or change must_hold")
+        if slipped := list(self._quality.slipped()):
+            told.append(f"{all_of(slipped)}: make the ring smaller or the bubble larger, or change must_hold")
+        if not told:
             return ""
-        cause = f"{all_of(unkept)}, and must hold: wind locks with more turns, or change must_hold"
         last = self._plan.frame_count
-        return str(SimulationFailed("hold", (last - 1) / self._plan.recipe.fps, cause, last))
+        return str(SimulationFailed("hold", (last - 1) / self._plan.recipe.fps, "; ".join(told), last))
 
     def _products(self, written: WrittenStage, quality: dict[str, Any] | None) -> dict[str, tuple[Path, ...]]:
         """Write the report; return the files of the stage, the shot and the report."""

@@ -211,6 +211,31 @@ class Press(Move):
 
 
 @dataclass(frozen=True)
+class PassThrough(Move):
+    """Swing a bubble about its held end through a closed ring of others, which fingers spread meanwhile, and
+    turn both back until it points where it shall.
+    """
+
+    bubble: str = ""
+    base: int = 0
+    """Ring of its held end, which lies in the ring of others."""
+    led: tuple[int, ...] = ()
+    """Its other rings, away from the base: the last is, or is next to, its other end."""
+    opening: tuple[int, ...] = ()
+    """Rings of those that it passes, in order round them."""
+    width: float = 0.0
+    """How wide it is, m."""
+    tube: float = 0.0
+    """How wide those are that it passes, m."""
+    beyond: float = 0.0
+    """How far its other end swings beyond the plane of the ring, rad."""
+    dip: float = 0.0
+    """How far its middle is pressed beyond that plane, m, where its other end stays in it."""
+    point: Vector | None = None
+    """Unit direction in which it points in the end; None for where it pointed before."""
+
+
+@dataclass(frozen=True)
 class Weld(Move):
     """Twist joints that lie together into one."""
 

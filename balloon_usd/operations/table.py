@@ -19,7 +19,9 @@ from balloon_usd.operations.modifiers import Burped, OnBalloon, Pointed, Timed, 
 from balloon_usd.operations.operation import Operation
 from balloon_usd.operations.pop import Pop
 from balloon_usd.operations.press import Press
+from balloon_usd.operations.push import Push
 from balloon_usd.operations.rest import Rest
+from balloon_usd.operations.roll import Roll
 from balloon_usd.operations.squeeze import Squeeze
 from balloon_usd.operations.tail_ball import TailBall
 from balloon_usd.operations.wait import Wait
@@ -38,6 +40,8 @@ OPERATIONS: tuple[type[Operation], ...] = (
     Bend,
     Press,
     Squeeze,
+    Push,
+    Roll,
     Pop,
     TailBall,
     Inflate,

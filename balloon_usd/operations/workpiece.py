@@ -14,9 +14,7 @@ from balloon_usd.operations.disjoint_sets import DisjointSets
 if TYPE_CHECKING:
     from collections.abc import Container, Iterable, Mapping, Sequence
 
-ContactKind = Literal["roll", "push", "tuck", "thread"]
-PASSING = ("push", "thread")
-"""Contacts in which one bubble goes through another, or through a ring of others."""
+ContactKind = Literal["roll", "push"]
 
 
 @dataclass(frozen=True)
@@ -51,12 +49,12 @@ class Cut:
 
 @dataclass(frozen=True)
 class Contact:
-    """Two bubbles were brought to hold each other without a common joint."""
+    """A bubble was brought to where others hold it without a common joint."""
 
     step: int
     kind: ContactKind
     bubble: str
-    other: str
+    others: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -112,9 +110,9 @@ class Workpiece:
         """
         self._do(Cut(step, end))
 
-    def touch(self, step: int, kind: ContactKind, bubble: str, other: str) -> None:
-        """Let one bubble hold another without a common joint."""
-        self._do(Contact(step, kind, bubble, other))
+    def touch(self, step: int, kind: ContactKind, bubble: str, others: Iterable[str]) -> None:
+        """Let a ring of others hold a bubble that goes through it."""
+        self._do(Contact(step, kind, bubble, tuple(others)))
 
     def pop(self, step: int, bubble: str) -> None:
         """Burst a bubble."""
@@ -204,7 +202,7 @@ class Workpiece:
 
     @property
     def contacts(self) -> tuple[Contact, ...]:
-        """Bubbles that hold each other without a common joint."""
+        """Bubbles that others hold without a common joint."""
         return tuple(event for event in self.history if isinstance(event, Contact))
 
     @property
@@ -265,9 +263,9 @@ class Workpiece:
         """Return the joints that unwind when they are let go.
 
         That is where just two bubbles meet, not brought together by any step, and neither belongs to a closed
-        ring: within a ring, turning one bubble would have to turn the ring.
+        ring, or lies in one: within a ring, turning one bubble would have to turn the ring.
         """
-        bridges = self.bridges()
+        bridges = self.bridges() - self.gripped()
         return [
             ends
             for ends in self.joints
@@ -282,10 +280,10 @@ class Workpiece:
         """Return what hangs on one end of a bubble: all other bubbles that come along when it is moved."""
         return self._stiff.reached(self._joints.root(end), without=end.bubble)
 
-    def through(self, bubbles: Iterable[str]) -> frozenset[str]:
-        """Return the bubbles that go through a ring of these."""
-        ring = set(bubbles)
-        return frozenset(c.bubble for c in self.contacts if c.kind in PASSING and c.other in ring)
+    def gripped(self) -> frozenset[str]:
+        """Return the bubbles that go through a ring of others which is still closed."""
+        firm = (each for each in self.contacts if self._popped.isdisjoint(each.others))
+        return frozenset(each.bubble for each in firm if self.is_closed(each.others))
 
     @property
     def _connections(self) -> Connections:

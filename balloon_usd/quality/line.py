@@ -32,6 +32,8 @@ def _parts(data: Data) -> Iterator[str]:
     if (lean := data.get("lean", {"value": None}))["value"] is not None:
         yield f"{'fell over' if _off(lean) else 'stands'}, leaning {lean['value']:.1f} degrees"
     yield from _joints(data["joints"])
+    # Nor what lies in rings.
+    yield from _passed(data.get("passed", {"value": None}))
     yield _crossings(data["crossings"], data["depth"])
     yield from _symmetry(data)
 
@@ -63,6 +65,13 @@ def _joints(result: Data) -> Iterator[str]:
         return
     lost = f" ({', '.join(result['lost'])} not)" if result["lost"] else ""
     yield f"{result['held']} of {result['meant']} joints held{lost}"
+
+
+def _passed(result: Data) -> Iterator[str]:
+    if result["value"] is not None:
+        slipped = f" ({', '.join(result['slipped'])} not)" if result["slipped"] else ""
+        count = len(result["through"])
+        yield f"{count - result['value']} of {count} stay in their rings{slipped}"
 
 
 def _crossings(result: Data, depth: Data) -> str:

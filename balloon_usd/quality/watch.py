@@ -10,6 +10,7 @@ from balloon_usd.quality.crossing_counter import CrossingCounter
 from balloon_usd.quality.crossing_history import CrossingHistory
 from balloon_usd.quality.joints import SLIPPED, lost_joints, unkept_joints
 from balloon_usd.quality.measures import MEASURES, Verdict
+from balloon_usd.quality.passed import PassedBubbles
 from balloon_usd.quality.ranking import excess
 from balloon_usd.quality.rest import Rest
 from balloon_usd.quality.standing import Standing
@@ -51,6 +52,7 @@ class QualityWatch:
         self._rest = Rest(plan)
         self._standing = Standing(plan)
         self._tails = TwistTails(plan, meshes)
+        self._passed = PassedBubbles(plan, meshes)
         self._undone: dict[str, int] = {}
         """First time code at which each end of a joint had come undone."""
         self._end: Frame | None = None
@@ -60,6 +62,7 @@ class QualityWatch:
         self._rest.add(frame)
         self._standing.add(frame)
         self._tails.add(frame)
+        self._passed.add(frame)
         for name in (name for told in frame.undone for name in told.split(SLIPPED)):
             self._undone.setdefault(name, frame.time_code)
         if frame.shift is not None and (most := float(frame.shift.max(initial=0.0))) > 0.0:
@@ -78,6 +81,12 @@ class QualityWatch:
             when = "" if code is None else f" at {(code - 1) / self._plan.recipe.fps:.1f} s"
             yield f"{name} came undone{when}"
 
+    def slipped(self) -> Iterator[str]:
+        """Yield the bubbles that must stay in their rings by the recipe and have not, and since when."""
+        # Where a recipe names joints, only these must hold.
+        if self._end is not None and self._plan.recipe.must_hold in (None, "all"):
+            yield from self._passed.slipped()
+
     def data(self) -> dict[str, Any] | None:
         """Return the quality as plain data, by the keys of `MEASURES`; None before the last frame."""
         if self._end is None:
@@ -89,6 +98,7 @@ class QualityWatch:
             **self._rest.results(),
             **self._standing.results(),
             "joints": _joints(plan, meshes, end),
+            "passed": self._passed.result(),
             **self._crossings(end),
             **symmetry_of(plan, meshes, end),
         }

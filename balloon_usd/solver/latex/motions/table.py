@@ -12,6 +12,7 @@ from balloon_usd.solver.latex.motions.inflate import Inflate
 from balloon_usd.solver.latex.motions.lead_in import LatexLeadIn
 from balloon_usd.solver.latex.motions.let_go import LatexLetGo
 from balloon_usd.solver.latex.motions.loosen import Loosen
+from balloon_usd.solver.latex.motions.pass_through import PassThrough
 from balloon_usd.solver.latex.motions.pinch import Pinch
 from balloon_usd.solver.latex.motions.pop import Pop
 from balloon_usd.solver.latex.motions.press import LatexPress
@@ -39,6 +40,7 @@ LATEX_MOTIONS: Motions = {
     moves.SetNet: LatexSetNet,
     moves.Bend: LatexBend,
     moves.Press: LatexPress,
+    moves.PassThrough: PassThrough,
     moves.Pop: Pop,
     moves.StretchTip: StretchTip,
     moves.Weld: Weld,

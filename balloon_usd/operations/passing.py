@@ -1,0 +1,182 @@
+"""What operations share in which a bubble is brought into a closed ring of others, which then holds it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, ClassVar
+
+from balloon_usd.language.choices import all_of
+from balloon_usd.language.joint import Joint
+from balloon_usd.operations.modifiers import OnBalloon, Pointed, Timed
+from balloon_usd.operations.moves import Move, PassThrough, Weld
+from balloon_usd.operations.operation import Operation
+from balloon_usd.operations.score import HAND_SPEED, SETTLE_SECONDS
+from balloon_usd.operations.workpiece import ContactKind
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from balloon_usd.language.quantities import Units
+    from balloon_usd.operations.score import Layout, Score
+    from balloon_usd.operations.workbench import Place, Workbench
+    from balloon_usd.operations.workpiece import Workpiece
+
+LEAST_SECONDS = 2.4
+"""Shortest way through a ring and back, s."""
+WAY = 3.0
+"""Way of the end of a bubble through a ring and back, in its lengths."""
+
+
+class Passing(OnBalloon, Pointed, Timed, Operation):
+    """An operation whose value names a bubble and the ring into which it is brought."""
+
+    word: ClassVar[ContactKind]
+    ring_key: ClassVar[str]
+    """Key of the ring in its value."""
+    beyond: ClassVar[float]
+    """How far the free end of the bubble swings beyond the plane of the ring, rad."""
+    dip: ClassVar[float] = 0.0
+    """How far its middle is pressed beyond that plane, in its widths, where its other end stays in it."""
+
+    @property
+    def bubble(self) -> str:
+        """The bubble that goes through."""
+        named: str = getattr(self, self.word).bubble
+        return named
+
+    @property
+    def ring(self) -> tuple[str, ...]:
+        """The bubbles that form the ring."""
+        named: tuple[str, ...] = getattr(getattr(self, self.word), self.ring_key)
+        return named
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The bubble that goes through, and those of the ring."""
+        return (self.bubble, *self.ring)
+
+    def entry(self, units: str | None) -> object:
+        """Return its value as it stands in a file."""
+        return {"bubble": self.bubble, self.ring_key: list(self.ring)}
+
+    @classmethod
+    def value_of(cls, units: Units, /, bubble: str, *ring: str) -> object:
+        """Return its value as it stands in a file: a bubble, and those of the ring."""
+        return {"bubble": bubble, cls.ring_key: list(ring)}
+
+    @classmethod
+    def uses(cls, value: object) -> tuple[str, ...]:
+        """Return the bubble that goes through, and those of the ring."""
+        return tuple(name for name in cls._names_in(value) if isinstance(name, str))
+
+    @classmethod
+    def _names_in(cls, value: object) -> list[object]:
+        """Return all that stands in its value for names of bubbles."""
+        ring = value.get(cls.ring_key) if isinstance(value, dict) else None
+        return [value.get("bubble"), *ring] if isinstance(value, dict) and isinstance(ring, list) else []
+
+    @classmethod
+    def check(cls, value: object, place: Place, bench: Workbench) -> None:
+        """Bring a bubble that is there, and has its gas, into a closed ring of others."""
+        path = (*place.path, cls.word)
+        names = cls.uses(value)
+        found = [bench.find_firm(name, path) for name in names]
+        read = len(names) > 1 and len(names) == len(cls._names_in(value))
+        if not read or not all(found) or not bench.knows(names):
+            return
+        fault = next(_faults(bench.piece, cls.word, names[0], names[1:]), None)
+        if fault is None:
+            bench.piece.touch(place.index, cls.word, names[0], names[1:])
+        else:
+            bench.complain(path, fault)
+
+    def perform(self, score: Score, index: int) -> None:
+        """Bring it there, wait until the ring has closed on it, and let go."""
+        layout, bubble = score.layout, score.layout.bubble(self.bubble)
+        base, led = _held_and_led(score, self.bubble)
+        text = f"{self.word}: {self.bubble}"
+        move = PassThrough(
+            score.now,
+            max(LEAST_SECONDS, WAY * bubble.length / HAND_SPEED) / score.pace.leading,
+            index,
+            text,
+            bubble=self.bubble,
+            base=base,
+            led=led,
+            opening=_around(score, self.ring),
+            width=bubble.width,
+            tube=max(layout.bubble(name).width for name in self.ring),
+            beyond=self.beyond,
+            dip=self.dip * bubble.width,
+            point=None if self.point is None else score.towards(self.point),
+        )
+        score.add(move)
+        score.add(Move(score.now, SETTLE_SECONDS, index, text))
+        score.let_go(index)
+
+
+def _faults(piece: Workpiece, kind: ContactKind, name: str, ring: Sequence[str]) -> Iterator[str]:
+    """Yield why a bubble cannot be brought into a ring of others."""
+    if len({name, *ring}) <= len(ring):
+        yield "names a bubble twice, expected each once"
+    elif not piece.is_closed(ring):
+        what = f"{all_of(ring)} form no closed ring" if len(ring) > 1 else f"{ring[0]} is no closed ring"
+        yield f"{what}, expected a loop, a fold, or all bubbles that a lock closes to one"
+    elif any(name == contact.bubble for contact in piece.contacts):
+        yield f"{name} is in a ring already, expected each bubble once"
+    else:
+        yield from _faults_of_ends(piece, kind, name, ring)
+
+
+def _faults_of_ends(piece: Workpiece, kind: ContactKind, name: str, ring: Sequence[str]) -> Iterator[str]:
+    """Yield what is wrong at the ends of a bubble that is to be brought into a ring of others."""
+    corners = {
+        end for each in ring for end in piece.joint(Joint(each, "start")) + piece.joint(Joint(each, "end"))
+    }
+    ends = [end for end in (Joint(name, "start"), Joint(name, "end")) if end not in corners]
+    if len(ends) == 2:
+        yield f"{name} does not begin at a joint of {all_of(ring)}, expected a bubble that does"
+        return
+    if not ends:
+        yield f"{name} hangs on {all_of(ring)} with both ends, expected one with a free end"
+        return
+    more = piece.hangs_on(ends[0]) or (ends[0] in piece.open_ends.values())
+    if kind == "push" and more:
+        what = f"what hangs on {ends[0]} does not fit through"
+        yield f"{what}, expected a bubble at the end of a balloon, or roll"
+    if kind == "roll" and not more:
+        yield f"nothing hangs on {ends[0]}, expected push"
+
+
+def _held_and_led(score: Score, bubble: str) -> tuple[int, tuple[int, ...]]:
+    """Return the ring of the end of a bubble that is held, and its others away from it: at a free knot is
+    what is led.
+    """
+    layout: Layout = score.layout
+    start, end = layout.ends(bubble)
+    guides = layout.guides(bubble)
+    joined = any(isinstance(move, Weld) and start in move.rings for move in score.moves)
+    if layout.ring(start).bubble == bubble and not joined and end is not None:
+        return end, (*guides[::-1], start)
+    return start, guides if end is None else (*guides, end)
+
+
+def _around(score: Score, bubbles: Sequence[str]) -> tuple[int, ...]:
+    """Return the rings of bubbles that form a closed ring, in order round it."""
+    layout, left = score.layout, list(bubbles)
+    found: list[int] = []
+    at, _ = layout.ends(left[0])
+    while left:
+        here = score.joints.root(at)
+        for name in left:
+            start, end = layout.ends(name)
+            assert end is not None, "no tip lies in a closed ring"
+            if here == score.joints.root(start):
+                found += [start, *layout.guides(name)]
+                at = end
+                break
+            if here == score.joints.root(end):
+                found += [end, *layout.guides(name)[::-1]]
+                at = start
+                break
+        left.remove(name)
+    return tuple(found)

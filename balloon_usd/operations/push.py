@@ -1,0 +1,54 @@
+"""`push`: an end of a balloon is pushed through a closed ring of bubbles, which holds it."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Annotated, ClassVar
+
+from pydantic import Field
+
+from balloon_usd.language.names import Name
+from balloon_usd.operations.modifiers import Entries
+from balloon_usd.operations.passing import Passing
+
+if TYPE_CHECKING:
+    from balloon_usd.operations.workpiece import ContactKind
+
+
+class PushedBubble(Entries):
+    """What is pushed through what."""
+
+    bubble: Name
+    """The bubble that is pushed: an end of a balloon, beside the ring."""
+    through: Annotated[tuple[Name, ...], Field(min_length=1)]
+    """The bubbles of the ring: one that closes on itself, or those of a lock."""
+
+
+class Push(Passing):
+    """Push a bubble at the end of a balloon through a closed ring of others, which holds it."""
+
+    word: ClassVar[ContactKind] = "push"
+    value_model: ClassVar[type[Entries] | None] = PushedBubble
+    ring_key: ClassVar[str] = "through"
+    beyond: ClassVar[float] = math.radians(40.0)
+    example: ClassVar[str] = """\
+format: 1
+name: face
+units: cm
+balloons:
+  main: {size: 260, color: orange, length: 26, tail: 12}
+steps:
+  - bubbles: {nose: 6, left_ear: 7, right_ear: 7}
+  - lock: [left_ear, right_ear]
+    point: up
+  - push: {bubble: nose, through: [left_ear, right_ear]}
+  - rest: neck
+"""
+    sources: ClassVar[tuple[str, ...]] = (
+        "bpmizuki.hatenablog.jp, 14: bubble roll-through",
+        "balloonotherapy.blogspot.com: teddy bear",
+        "swordfishadvertising.co.uk: giraffe",
+    )
+
+    push: PushedBubble
+    """Push a bubble at the end of a balloon through a closed ring of others, which holds it."""

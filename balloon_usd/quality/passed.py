@@ -1,0 +1,133 @@
+"""Bubbles that were brought into rings of others: do they stay there?"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from balloon_usd.operations.moves import PassThrough
+from balloon_usd.quality.measures import MEASURES
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from numpy.typing import NDArray
+
+    from balloon_usd.balloon.tube_mesh import BalloonMesh
+    from balloon_usd.plan import Plan
+    from balloon_usd.solver.frame import Frame
+
+    Floats = NDArray[np.float64]
+
+WHOLE = 4.0 * math.pi
+"""Solid angle round a point, sr: by so much that of a ring changes for a point that goes all through it."""
+INSIDE = 0.5
+"""Share of that at which the middle of a bubble is in the plane of the ring."""
+
+
+class _Row(NamedTuple):
+    """Vertices of a ring of the plan."""
+
+    balloon: int
+    vertices: slice
+
+
+class PassedBubbles:
+    """Takes the frames of one sculpture; follows the middle of each bubble on its way through its ring."""
+
+    def __init__(self, plan: Plan, meshes: Sequence[BalloonMesh]) -> None:
+        """Find out what to look at; one mesh a balloon, in the order of `Plan.strips`."""
+        self._fps = plan.recipe.fps
+        self._followed = [
+            _Followed(plan, meshes, move) for move in plan.choreography.moves if isinstance(move, PassThrough)
+        ]
+
+    def add(self, frame: Frame) -> None:
+        """Take the next frame."""
+        for each in self._followed:
+            each.add(frame)
+
+    def slipped(self) -> Iterator[str]:
+        """Yield which bubbles have not stayed in their rings, and since when."""
+        for each in self._followed:
+            if each.out is not None:
+                yield f"{each.name} slipped out of its ring at {(each.out - 1) / self._fps:.1f} s"
+
+    def result(self) -> dict[str, Any]:
+        """Return how many have not stayed, once the last frame is taken."""
+        if not self._followed:
+            return MEASURES["passed"].result(None)
+        out = [each.name for each in self._followed if each.out is not None]
+        through = {each.name: round(each.share, 3) for each in self._followed}
+        return MEASURES["passed"].result(len(out), {"slipped": out, "through": through})
+
+
+class _Followed:
+    """The middle of one bubble, and the ring that it passes."""
+
+    def __init__(self, plan: Plan, meshes: Sequence[BalloonMesh], move: PassThrough) -> None:
+        rows = [_row(plan, meshes, ring) for ring in (_middle(move), *move.opening)]
+        self._bubble, self._ring = rows[0], rows[1:]
+        fps = plan.recipe.fps
+        # The time of a frame is (code - 1) / fps.
+        self._first, self._last = 1 + math.floor(move.start * fps), 1 + math.ceil(move.end * fps)
+        self.name = move.bubble
+        self._begun = self._before = 0.0
+        self.out: int | None = None
+        """Time code since which it is not in its ring, once it should be."""
+
+    @property
+    def share(self) -> float:
+        """How far it has gone through: a half is in the plane of the ring."""
+        return abs(self._before - self._begun) / WHOLE
+
+    def add(self, frame: Frame) -> None:
+        """Take the next frame."""
+        code = frame.time_code
+        if code < self._first:
+            return
+        angle = solid_angle(
+            _centre(frame, self._bubble), np.array([_centre(frame, row) for row in self._ring])
+        )
+        if code == self._first:
+            self._begun = self._before = angle
+        # Known but for whole spheres: no bubble goes through half of a ring in one frame.
+        self._before += math.remainder(angle - self._before, WHOLE)
+        if code < self._last:
+            return
+        if self.share > INSIDE:
+            self.out = None
+        elif self.out is None:
+            self.out = code
+
+
+def solid_angle(place: Floats, ring: Floats) -> float:
+    """Return the solid angle (sr), signed by the side, under which a place, (3,) m, sees a ring through places,
+    (N, 3) m: that of the triangles from its centre (Van Oosterom & Strackee 1983).
+    """
+    a = ring.mean(axis=0) - place
+    b, c = ring - place, np.roll(ring, -1, axis=0) - place
+    la, lb, lc = float(np.linalg.norm(a)), np.linalg.norm(b, axis=1), np.linalg.norm(c, axis=1)
+    volume = np.cross(b, c) @ a
+    rest = la * lb * lc + (b @ a) * lc + np.einsum("ni,ni->n", b, c) * la + (c @ a) * lb
+    return float(2.0 * np.arctan2(volume, rest).sum())
+
+
+def _middle(move: PassThrough) -> int:
+    """Return the ring nearest the middle of a bubble that passes."""
+    return move.led[(len(move.led) - 1) // 2]
+
+
+def _row(plan: Plan, meshes: Sequence[BalloonMesh], ring: int) -> _Row:
+    planned = plan.table.rings[ring]
+    balloon = list(plan.strips).index(planned.balloon)
+    mesh = meshes[balloon]
+    first = int(mesh.ring_start[mesh.ring_at(planned.along)])
+    return _Row(balloon, slice(first, first + mesh.around))
+
+
+def _centre(frame: Frame, row: _Row) -> Floats:
+    middle: Floats = frame.points[row.balloon][row.vertices].mean(axis=0, dtype=np.float64)
+    return middle
