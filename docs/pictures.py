@@ -20,6 +20,7 @@ from balloon_usd.cli.failure import Failure
 from balloon_usd.operations.moves import LetGo, Move
 from balloon_usd.operations.table import BY_WORD, WORDS
 from balloon_usd.plan import plan
+from balloon_usd.preview.contact_sheet import GUTTER, HEADER, MARGIN
 from balloon_usd.recipe import Recipe
 
 if TYPE_CHECKING:
@@ -37,10 +38,10 @@ FALLEN = (0.0, 0.9, 1.25, 2.0, 5.0)
 SIZE = ("300", "220")
 """Width and height of one frame, pixels."""
 GALLERY = "gallery"
-VIEWS = ("three-quarter", "front")
+VIEWS = ("three-quarter", "front-quarter")
 """From where every figure of the gallery is seen."""
-MARGIN, GAP, TITLE = 24, 14, 56
-"""Of a contact sheet: round all, between frames, and height of the title, pixels."""
+TITLE = HEADER + MARGIN
+"""Height of what is above the frames of a contact sheet, pixels."""
 COLORS, PASSES = 256, 4
 """In the palette of a picture, and passes that choose them: small files without steps in the shadows."""
 
@@ -60,7 +61,7 @@ def draw(words: Sequence[str], folder: Path) -> None:
         picture = _sheet(stage, frames, "three-quarter")
         if plans[word].graph.rings:
             # What closed rings make shows best from where the knot is.
-            picture = _beside(picture, _sheet(stage, frames[-1:], "front"))
+            picture = _beside(picture, _sheet(stage, frames[-1:], "front-quarter"))
         picture.quantize(COLORS, kmeans=PASSES).save(PICTURES / f"{word}.png", optimize=True)
 
 
@@ -115,7 +116,7 @@ def _sheet(stage: Path, frames: Sequence[int], view: str, device: str = "cpu") -
 
 def _beside(sheet: Image.Image, more: Image.Image) -> Image.Image:
     """Put one frame at the end of a row, without its title."""
-    begin = sheet.width - MARGIN + GAP
+    begin = sheet.width - MARGIN + GUTTER
     frame = more.crop((MARGIN, TITLE, *more.size))
     both = Image.new("RGB", (begin + frame.width, sheet.height), sheet.getpixel((0, 0)))
     both.paste(sheet, (0, 0))

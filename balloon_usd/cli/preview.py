@@ -17,7 +17,7 @@ from balloon_usd.cli.stage_path import stage_file, stage_home, stage_path
 if TYPE_CHECKING:
     from balloon_usd.preview import View
 
-VIEWS = ("side", "three-quarter", "top", "front")
+VIEWS = ("side", "three-quarter", "front-quarter", "front", "top")
 SMALLEST, LARGEST = 16, 4096
 """Sides that a picture may have (pixels)."""
 

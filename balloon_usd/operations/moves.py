@@ -20,7 +20,7 @@ LET_GO: tuple[Pose, ...] = ("drop", "throw")
 """Poses in which hands let go of it above the ground."""
 
 Front = Literal["forward", "back", "left", "right", "up", "down"]
-"""Which side of a figure, as it was made, is its front."""
+"""A side of a figure, as it was made."""
 
 FRONTS: dict[Front, Vector] = {
     "forward": (-1.0, 0.0, 0.0),
@@ -49,7 +49,10 @@ ACROSS: dict[str, Vector] = {
 """Where the first bubble of a chain comes to lie that points somewhere: left of the others, or above them."""
 
 OTHER_SIDE: dict[str, Front] = {"left": "right", "right": "left"}
-"""Sides that a mirror exchanges, as front or where something points."""
+"""Sides that a mirror exchanges, as front, as top or where something points."""
+
+TIPPED: dict[Front, Front] = {"forward": "down", "back": "up"}
+"""Fronts of figures whose top one of these ends is, where a recipe does not say: what then faces -x."""
 
 
 def mirror_image(direction: Vector) -> Vector:
@@ -276,6 +279,8 @@ class SetDown(Move):
     pose: Pose = "stand"
     front: Front = "forward"
     """The side that is turned to face -x."""
+    top: Front | None = None
+    """The side that is turned up; None for as little turned as needed."""
     height: float = 0.0
     """How far above the ground its lowest point comes, m."""
     gravity: float = 0.0

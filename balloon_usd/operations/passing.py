@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from balloon_usd.language.choices import all_of
 from balloon_usd.language.joint import Joint
+from balloon_usd.language.lengths import at_most, cm
 from balloon_usd.operations.modifiers import OnBalloon, Pointed, Timed
 from balloon_usd.operations.moves import Move, PassThrough, Weld
 from balloon_usd.operations.operation import Operation
@@ -22,6 +23,10 @@ if TYPE_CHECKING:
 
 LEAST_SECONDS = 2.4
 """Shortest way through a ring and back, s."""
+LONGEST = 2.0
+"""Length beyond which a bubble is not brought through a ring, in the depth of the ring: half of the way round
+it. What is that long is threaded.
+"""
 WAY = 3.0
 """Way of the end of a bubble through a ring and back, in its lengths."""
 
@@ -89,6 +94,13 @@ class Passing(OnBalloon, Pointed, Timed, Operation):
         else:
             bench.complain(path, fault)
 
+    def refusals(self, layout: Layout) -> Iterator[tuple[tuple[str, ...], str]]:
+        """Yield a bubble that is far too long for its ring."""
+        length, depth = layout.bubble(self.bubble).length, depth_of(layout, self.ring)
+        if length > LONGEST * depth:
+            what = f"{self.bubble} is {cm(length)} long, and {all_of(self.ring)} only {cm(depth)} deep"
+            yield (self.word, "bubble"), f"{what}, expected {at_most(LONGEST * depth)} or less"
+
     def perform(self, score: Score, index: int) -> None:
         """Bring it there, wait until the ring has closed on it, and let go."""
         layout, bubble = score.layout, score.layout.bubble(self.bubble)
@@ -145,6 +157,11 @@ def _faults_of_ends(piece: Workpiece, kind: ContactKind, name: str, ring: Sequen
         yield f"{what}, expected a bubble at the end of a balloon, or roll"
     if kind == "roll" and not more:
         yield f"nothing hangs on {ends[0]}, expected push"
+
+
+def depth_of(layout: Layout, ring: Sequence[str]) -> float:
+    """Return how far a ring of bubbles reaches from a joint of it, m."""
+    return 0.5 * sum(layout.bubble(name).length for name in ring)
 
 
 def _held_and_led(score: Score, bubble: str) -> tuple[int, tuple[int, ...]]:

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from balloon_usd.operations.moves import LET_GO, OTHER_SIDE, Fall, Move, SetDown
+from balloon_usd.operations.moves import LET_GO, OTHER_SIDE, TIPPED, Fall, Move, SetDown
 from balloon_usd.recipe.recipe import EARTH
 
 if TYPE_CHECKING:
-    from balloon_usd.operations.moves import Vector
+    from balloon_usd.operations.moves import Front, Vector
     from balloon_usd.operations.score import Score
     from balloon_usd.recipe import Recipe
 
@@ -50,10 +50,11 @@ def pose(recipe: Recipe, score: Score, *, mirrored: bool) -> None:
     """Add what becomes of the finished figure of a recipe to the moves that make it."""
     last = len(recipe.steps)
     doing, done = POSING[recipe.pose]
-    carried = (recipe.pose, recipe.front) != ("as made", "forward")
+    front, top = _sides(recipe, mirrored=mirrored)
+    turned = front != "forward" or top is not None
+    carried = turned or recipe.pose != "as made"
     if carried:
-        seconds = POSE_SECONDS if recipe.front == "forward" else TURN_SECONDS
-        front = OTHER_SIDE.get(recipe.front, recipe.front) if mirrored else recipe.front
+        seconds = TURN_SECONDS if turned else POSE_SECONDS
         height = _height(recipe)
         seconds = max(seconds, height / LIFT_SPEED)
         score.add(
@@ -64,6 +65,7 @@ def pose(recipe: Recipe, score: Score, *, mirrored: bool) -> None:
                 doing,
                 pose=recipe.pose,
                 front=front,
+                top=top,
                 height=height,
                 gravity=recipe.gravity,
             )
@@ -73,6 +75,16 @@ def pose(recipe: Recipe, score: Score, *, mirrored: bool) -> None:
             score.add(_fall(recipe, score.now, seconds))
     elif carried:
         score.add(Move(score.now, POSED_SECONDS, last, done))
+
+
+def _sides(recipe: Recipe, *, mirrored: bool) -> tuple[Front, Front | None]:
+    """Return which sides of a figure, as hands make it, come to the front and to the top."""
+    front, top = recipe.front, recipe.top
+    if top is not None and front == "forward":
+        front = TIPPED.get(top, front)
+    if mirrored:
+        front, top = OTHER_SIDE.get(front, front), top and OTHER_SIDE.get(top, top)
+    return front, top
 
 
 def _fall(recipe: Recipe, start: float, seconds: float) -> Fall:

@@ -1,4 +1,4 @@
-"""Cameras and lights for the four views of the preview."""
+"""Cameras and lights for the views of the preview."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from balloon_usd.preview.subdivide import Points
 
-View = Literal["side", "three-quarter", "top", "front"]
+View = Literal["side", "three-quarter", "front-quarter", "front", "top"]
 VIEWS: tuple[View, ...] = get_args(View)
 
 FIELD_OF_VIEW = radians(16.0)
@@ -29,6 +29,7 @@ _DIRECTIONS: dict[View, tuple[float, float]] = {
     "side": (0.0, radians(8.0)),
     "three-quarter": (radians(-32.0), radians(20.0)),
     "front": (radians(-90.0), radians(8.0)),
+    "front-quarter": (radians(-62.0), radians(16.0)),
     "top": (0.0, radians(89.9)),
 }
 """Turn of the camera round the vertical from looking along +y, and its height above the horizon."""

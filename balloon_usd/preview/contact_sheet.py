@@ -64,7 +64,7 @@ def draw_contact_sheet(
         frames: time codes; None takes eight, the first and the last among them.
         columns: pictures in a row.
         size: width and height of one picture (pixels).
-        view: side, three-quarter, top or front.
+        view: side, three-quarter, front-quarter, front or top.
         look: a variant of the stage's looks, such as stress or thesis; None takes the stage's own.
         device: cpu, cuda:N, or auto for the first CUDA device and else the CPU.
 

@@ -95,7 +95,7 @@ class Raycaster:
 
         Args:
             points: cage points (V, 3) of each mesh (m, z up).
-            view: side, three-quarter, top or front.
+            view: side, three-quarter, front-quarter, front or top.
             size: width and height (pixels).
             particles: drawn as balls where no wall hides them.
             framing: where the camera stands, for pictures that are compared; None lets all points fill the

@@ -33,7 +33,7 @@ def render_mesh(
         points: (V, 3) m, z up.
         quads: (Q, 4) vertex numbers, counter-clockwise seen from outside.
         colors: linear rgb, (3,) or (Q, 3).
-        view: side, three-quarter, top or front.
+        view: side, three-quarter, front-quarter, front or top.
         size: width and height (pixels).
         device: cpu, cuda:N, or auto for the first CUDA device and else the CPU.
     """

@@ -73,7 +73,7 @@ class Wireframe:
 
         Args:
             points: cage points (V, 3) of each mesh (m, z up).
-            view: side, three-quarter, top or front.
+            view: side, three-quarter, front-quarter, front or top.
             size: width and height (pixels).
             particles: drawn as balls inside the wire.
 

@@ -33,7 +33,7 @@ def _parts(data: Data) -> Iterator[str]:
         yield f"{'fell over' if _off(lean) else 'stands'}, leaning {lean['value']:.1f} degrees"
     yield from _joints(data["joints"])
     # Nor what lies in rings.
-    yield from _passed(data.get("passed", {"value": None}))
+    yield from _passed(data.get("passed", {}))
     yield _crossings(data["crossings"], data["depth"])
     yield from _symmetry(data)
 
@@ -68,7 +68,7 @@ def _joints(result: Data) -> Iterator[str]:
 
 
 def _passed(result: Data) -> Iterator[str]:
-    if result["value"] is not None:
+    if "through" in result:
         slipped = f" ({', '.join(result['slipped'])} not)" if result["slipped"] else ""
         count = len(result["through"])
         yield f"{count - result['value']} of {count} stay in their rings{slipped}"

@@ -104,8 +104,8 @@ class _Followed:
 
 
 def solid_angle(place: Floats, ring: Floats) -> float:
-    """Return the solid angle (sr), signed by the side, under which a place, (3,) m, sees a ring through places,
-    (N, 3) m: that of the triangles from its centre (Van Oosterom & Strackee 1983).
+    """Return the solid angle (sr), signed by the side, under which a place, (3,) m, sees a ring through
+    places, (N, 3) m: of the triangles from its centre (Van Oosterom & Strackee 1983).
     """
     a = ring.mean(axis=0) - place
     b, c = ring - place, np.roll(ring, -1, axis=0) - place

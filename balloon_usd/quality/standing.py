@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from balloon_usd.operations.moves import FRONTS, SetDown
+from balloon_usd.operations.moves import SetDown
 from balloon_usd.quality.measures import MEASURES
-from balloon_usd.solver.placement import turn_about, turn_between
+from balloon_usd.solver.placement import turn_of_sides
 from balloon_usd.solver.rotations import rotation_onto
 
 if TYPE_CHECKING:
@@ -43,7 +43,6 @@ class Standing:
             return {"lean": MEASURES["lean"].result(None)}
         kept = (self._kept[code] for code in (self._before, self._last))
         made, stands = (points - points.mean(axis=0) for points in kept)
-        front = np.array(FRONTS[self._carry.front])
-        facing = turn_about(*turn_between(front, np.array(FRONTS["forward"])))
+        facing = turn_of_sides(self._carry.front, self._carry.top)
         up = rotation_onto(stands, made) @ facing[2]
         return {"lean": MEASURES["lean"].result(float(np.degrees(np.arccos(np.clip(up[2], -1.0, 1.0)))))}

@@ -45,6 +45,7 @@ class RecipeBuilder:
         height: LengthLike | None = None,
         speed: float | None = None,
         front: Front | None = None,
+        top: Front | None = None,
         mirror: bool = False,
         must_hold: str | Sequence[str] | None = None,
     ) -> None:
@@ -55,7 +56,8 @@ class RecipeBuilder:
         self._balloons: dict[str, Entries] = {}
         self._steps: list[Entries] = []
         falling = {"height": None if height is None else self._length(height), "speed": speed}
-        self._end = _given({"pose": pose, **falling, "front": front, "mirror": mirror or None})
+        self._end = _given({"pose": pose, **falling, "front": front, "top": top})
+        self._end |= _given({"mirror": mirror or None})
         held = must_hold if must_hold is None or isinstance(must_hold, str) else list(must_hold)
         self._end |= _given({"must_hold": held})
         self._physics: Entries = {}

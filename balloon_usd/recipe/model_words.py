@@ -8,6 +8,8 @@ from balloon_usd.language.problem import Complaint
 from balloon_usd.operations.entries import steps_in
 from balloon_usd.operations.inflate import Inflate
 from balloon_usd.operations.pop import Pop
+from balloon_usd.operations.push import Push
+from balloon_usd.operations.roll import Roll
 from balloon_usd.operations.squeeze import Squeeze
 from balloon_usd.operations.tail_ball import TailBall
 
@@ -30,6 +32,8 @@ LATEX_ONLY = {
 LATEX_STEPS = {
     Inflate.word: (", whose balloons start blown up", "no such step"),
     Squeeze.word: (", whose fingers are forces on patches of a wall", "press, or no such step"),
+    Push.word: (", whose walls hardly rub", "no such step"),
+    Roll.word: (", whose walls hardly rub", "no such step"),
     Pop.word: (", whose air particles stay in", "no such step"),
     TailBall.word: (", whose springs do not soften", "no such step"),
     "burp": (", whose bubbles keep the air particles that are in them", "no burp"),

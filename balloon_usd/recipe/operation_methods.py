@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import warnings
 from inspect import Parameter, Signature, getdoc, signature
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from balloon_usd.operations.table import BY_WORD, OPERATIONS
-
-from .upgrades import OLDER_WORDS
+from balloon_usd.operations.table import OPERATIONS
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -19,12 +16,9 @@ Builder = TypeVar("Builder")
 
 
 def with_operations(builder: type[Builder]) -> type[Builder]:
-    """Give a class with a method `add` a method for each operation, and for each older word of one."""
+    """Give a class with a method `add` a method for each operation."""
     for operation in OPERATIONS:
         _put(builder, operation.word, signature_of(operation), _method(operation))
-    for older, word in OLDER_WORDS.items():
-        if older not in BY_WORD:
-            _put(builder, older, signature_of(BY_WORD[word]), _older_method(older, word))
     return builder
 
 
@@ -43,15 +37,6 @@ def _method(operation: type[Operation]) -> Callable[..., Any]:
         return self.add(operation.word, *what, **keys)
 
     method.__doc__ = getdoc(operation)
-    return method
-
-
-def _older_method(older: str, word: str) -> Callable[..., Any]:
-    def method(self: Any, /, *what: Any, **keys: Any) -> Any:
-        warnings.warn(f"{older} is called {word} now", DeprecationWarning, stacklevel=2)
-        return self.add(word, *what, **keys)
-
-    method.__doc__ = f"Do what `{word}` does: its older name."
     return method
 
 

@@ -6,10 +6,12 @@ from typing import TYPE_CHECKING, get_args
 
 from balloon_usd.language.choices import one_of
 from balloon_usd.language.problem import Complaint
-from balloon_usd.operations.moves import LET_GO, Pose
+from balloon_usd.operations.moves import FRONTS, LET_GO, Pose
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+
+    from balloon_usd.operations.moves import Vector
 
 USUAL: Pose = "as made"
 """The pose of a recipe that names none."""
@@ -26,11 +28,30 @@ def pose_complaints(data: object) -> Iterator[Complaint]:
     pose, physics = data.get("pose", USUAL), data.get("physics")
     physics = physics if isinstance(physics, dict) else {}
     kosaka = physics.get("model") == "kosaka"
+    yield from _same_axis(data)
     for key, poses in ONLY.items():
         if key in data and pose not in poses:
             expected = "no such line" if kosaka else f"pose: {' or '.join(poses)}"
             yield Complaint((key,), f"goes with a figure that falls, expected {expected}")
     yield from _kosaka(pose, physics) if kosaka else _weightless(pose, physics)
+
+
+def _same_axis(data: dict[object, object]) -> Iterator[Complaint]:
+    ways: dict[str, Vector] = {str(side): way for side, way in FRONTS.items()}
+    front, top = (_way(ways, data.get(key)) for key in ("front", "top"))
+    if front is not None and top is not None and _is_along(front, top):
+        across = [side for side, way in FRONTS.items() if not _is_along(front, way)]
+        what = f"{data['top']} cannot be up where {data['front']} is the front"
+        yield Complaint(("top",), f"{what}, expected {one_of(across)}")
+
+
+def _way(ways: dict[str, Vector], side: object) -> Vector | None:
+    return ways.get(side) if isinstance(side, str) else None
+
+
+def _is_along(one: Vector, other: Vector) -> bool:
+    """Tell whether two sides lie on one line."""
+    return any(a and b for a, b in zip(one, other, strict=True))
 
 
 def _kosaka(pose: Pose, physics: dict[str, object]) -> Iterator[Complaint]:

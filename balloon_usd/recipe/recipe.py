@@ -108,6 +108,8 @@ class Recipe(Entries):
     """How fast it is thrown ahead, 3 m/s when absent."""
     front: Front = "forward"
     """Which side of the figure, as it is made, is its front: in the end it is turned to face -x."""
+    top: Front | None = None
+    """Which side of the figure, as it is made, is its top: in the end it is turned up."""
     mirror: StrictBool = False
     """Whether the finished stage is the mirror image of what the recipe says, left and right exchanged."""
     must_hold: Held | None = None

@@ -16,9 +16,6 @@ if TYPE_CHECKING:
     from balloon_usd.language.problem import Notice, Path
     from balloon_usd.language.yaml_reader import Document
 
-OLDER_WORDS = {"push": Press.word}
-"""Words of operations that have another name today."""
-
 
 @dataclass(frozen=True)
 class Change:
@@ -45,7 +42,7 @@ def upgraded(document: Document) -> tuple[Document, tuple[Notice, ...]]:
 
 
 def _press(data: object) -> Iterator[Change]:
-    """`push: {bubble, depth or force}`, a finger that presses, is called `press`: makers push bubbles."""
+    """`push: {bubble, depth or force}`, a finger that presses, is called `press`: bubbles are pushed, too."""
     for step in steps_in(data):
         value = step.entries.get("push")
         if isinstance(value, dict) and any(key in value for key in PRESSING) and Press.word not in step.words:

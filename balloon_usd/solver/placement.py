@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple, Self
+from typing import TYPE_CHECKING, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
+
+from balloon_usd.operations.moves import FRONTS
+
+if TYPE_CHECKING:
+    from balloon_usd.operations.moves import Front
 
 Floats = NDArray[np.float64]
 
@@ -26,6 +31,17 @@ class Placement(NamedTuple):
     def put(self, points: NDArray[np.float32]) -> None:
         """Move points (N, 3) in place, m."""
         points[:] = points @ self.turn.T + self.shift
+
+
+def turn_of_sides(front: Front, top: Front | None) -> Floats:
+    """Return the turn (3, 3) that brings the front of a figure to -x, and its top up: the smallest if none is
+    said.
+    """
+    ahead = np.array(FRONTS[front])
+    if top is None:
+        return turn_about(*turn_between(ahead, np.array(FRONTS["forward"])))
+    up = np.array(FRONTS[top])
+    return np.stack([-ahead, np.cross(up, -ahead), up])
 
 
 def turn_between(one: Floats, other: Floats) -> tuple[Floats, float]:

@@ -114,14 +114,17 @@ def test_only_a_joint_between_two_bubbles_of_a_balloon_can_be_cut(at):
         chain("a", "b", "c").cut(3, at)
 
 
-def test_what_goes_through_a_ring_is_asked_of_the_ring():
-    piece = chain("a", "b", "c")
-    piece.join(3, (start("a"), end("b")))
-    piece.touch(4, "thread", "c", "a")
-    piece.touch(4, "tuck", "b", "c")
-    assert piece.through(["a", "b"]) == {"c"}
-    assert piece.through(["c"]) == set()
-    assert piece.after(3).contacts == ()
+def test_a_bubble_in_a_ring_is_gripped_while_the_ring_is_closed_and_nothing_unwinds_it():
+    piece = chain("a", "b", "c", "d")
+    piece.join(4, (start("a"), end("b")))
+    assert piece.free_to_spin(end("c"))
+    piece.touch(5, "roll", "c", ["a", "b"])
+    assert piece.gripped() == {"c"}
+    assert not piece.free_to_spin(end("c"))
+    assert piece.after(4).contacts == ()
+    assert piece.after(5, without={4}).gripped() == set()
+    piece.pop(6, "a")
+    assert piece.gripped() == set()
 
 
 def test_joints_of_a_step_that_slips_come_apart(head):

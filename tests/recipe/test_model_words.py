@@ -312,3 +312,61 @@ def test_springs_have_no_tail_balls() -> None:
 )
 def test_only_what_is_left_of_a_balloon_has_a_tail_ball(steps: str, told: str) -> None:
     assert any(told in each for each in messages(f"{TUBE}{steps}"))
+
+
+RING = "  - bubbles: {nose: 6, left: 7, right: 7}\n  - lock: [left, right]\n"
+
+
+@pytest.mark.parametrize(
+    "step", ["push: {bubble: nose, through: [left, right]}", "roll: {bubble: nose, between: [left, right]}"]
+)
+def test_springs_hold_nothing_in_a_ring(step: str) -> None:
+    word = step.split(":", maxsplit=1)[0]
+    found = messages(f"{CAPSULE}{RING}  - {step}\n{KOSAKA}")
+    assert any(f"{word}: makes no sense with model kosaka, whose walls hardly rub" in each for each in found)
+
+
+@pytest.mark.parametrize(
+    ("step", "told"),
+    [
+        ("push: {bubble: nose, through: [left, right]}", None),
+        ("push: {bubble: nose, through: [right, left]}", None),
+        ("push: {bubble: nsoe, through: [left, right]}", 'unknown bubble "nsoe", did you mean "nose"?'),
+        ("push: {bubble: nose, through: [left]}", "left is no closed ring, expected a loop, a fold, or all"),
+        ("push: {bubble: nose, through: [left, left]}", "names a bubble twice"),
+        ("push: {bubble: left, through: [left, right]}", "names a bubble twice"),
+        ("push: {bubble: nose, through: []}", "push.through: is empty"),
+        ("push: {bubble: nose}", "through"),
+        ("push: nose", "push"),
+        ("roll: {bubble: nose, between: [left, right]}", "nothing hangs on nose.start, expected push"),
+        ("roll: {bubble: nose, between: [left]}", "between: 1 entry here, expected at least 2"),
+        (
+            "bubbles: {neck: 5}\n  - push: {bubble: neck, through: [left, right]}",
+            "what hangs on neck.end does not fit through, expected a bubble at the end of a balloon, or roll",
+        ),
+        ("bubbles: {neck: 6}\n  - roll: {bubble: neck, between: [left, right]}", None),
+        (
+            "bubbles: {neck: 5, body: 5}\n  - roll: {bubble: body, between: [left, right]}",
+            "body does not begin at a joint of left and right",
+        ),
+        (
+            "bubbles: {neck: 6}\n  - lock: {joints: [left.end, neck.end]}\n"
+            "  - roll: {bubble: neck, between: [left, right]}",
+            "neck hangs on left and right with both ends",
+        ),
+        (
+            "push: {bubble: nose, through: [left, right]}\n  - push: {bubble: nose, through: [left, right]}",
+            "nose is in a ring already",
+        ),
+        (
+            "rest: neck\n  - pop: neck\n  - roll: {bubble: neck, between: [left, right]}",
+            'bubble "neck" was popped',
+        ),
+    ],
+)
+def test_only_a_bubble_beside_a_closed_ring_goes_into_it(step: str, told: str | None) -> None:
+    text = f"{TUBE}{RING}  - {step}\n"
+    if told is None:
+        assert Recipe.parse(text).piece.gripped()
+    else:
+        assert any(told in each for each in messages(text)), messages(text)

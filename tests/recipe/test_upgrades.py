@@ -7,7 +7,6 @@ import yaml
 
 from balloon_usd.plan import plan
 from balloon_usd.recipe import Recipe, RecipeBuilder, RecipeError, recipe_schema
-from balloon_usd.recipe.upgrades import OLDER_WORDS
 
 OLD = """\
 format: 1
@@ -79,14 +78,14 @@ def test_problems_of_an_older_step_point_at_what_was_written(written: str, probl
     assert found.startswith(problem)
 
 
-def test_an_older_word_beside_the_new_one_is_no_operation() -> None:
+def test_an_older_word_beside_the_new_one_is_no_press() -> None:
     (found,) = problems(OLD.replace("    point: left", "    press: {bubble: a, depth: 1}"))
-    assert found.startswith('old.yaml:10:5: steps[2].push: unknown key "push", ')
+    assert found.startswith("old.yaml:10:5: steps[2].push: stands beside press, expected one operation")
 
 
 def test_a_push_without_depth_and_force_is_none_of_a_finger() -> None:
     found = problems(OLD.replace("depth: 1.5", "at: 2"))
-    assert 'old.yaml:9:5: steps[1].push: unknown key "push", ' in "\n".join(found)
+    assert "old.yaml:9:5: steps[1].push.through: is missing, expected it here" in found
 
 
 @pytest.mark.parametrize(
@@ -96,16 +95,13 @@ def test_steps_of_any_form_are_refused_without_a_crash(steps: str) -> None:
     assert problems(f"format: 1\nname: x\nballoons: {{main: {{size: 260, tail: 10 cm}}}}\nsteps: {steps}\n")
 
 
-def test_the_schema_offers_only_the_new_word() -> None:
-    text = yaml.safe_dump(recipe_schema()["$defs"]["Press"])
-    assert "press" in text
-    assert not any(f"{word}:" in text for word in OLDER_WORDS)
+def test_the_schema_has_no_depth_of_a_push() -> None:
+    push = yaml.safe_dump(recipe_schema()["$defs"]["PushedBubble"])
+    assert "depth" not in push
+    assert "through" in push
 
 
-def test_the_builder_takes_the_older_word_with_a_warning() -> None:
+def test_the_builder_pushes_bubbles_through_rings_only() -> None:
     builder = RecipeBuilder("f").balloon("main", size=260, tail=0.1)
-    with pytest.warns(DeprecationWarning, match="push is called press now"):
+    with pytest.raises(TypeError, match="depth"):
         builder.push("main_rest", depth=0.01)
-    recipe = builder.build()
-    assert recipe.steps[0].word == "press"
-    assert recipe.notices == ()

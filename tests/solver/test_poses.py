@@ -92,6 +92,21 @@ def test_a_figure_is_turned_so_that_its_front_faces_where_others_begin(front, si
         assert after[:, 2] == pytest.approx(before[:, 2], abs=4e-3)
 
 
+@pytest.mark.parametrize(
+    ("top", "sign", "axis"), [("forward", -1, 0), ("back", 1, 0), ("left", -1, 1), ("down", -1, 2)]
+)
+def test_a_figure_is_turned_so_that_its_top_is_up(top, sign, axis):
+    points, doing, _ = made(f"hold\ntop: {top}")
+    assert doing == "held"
+    before, after = (points[k] - points[k].mean(axis=0) for k in (0, -1))
+    assert after[:, 2] == pytest.approx(sign * before[:, axis], abs=4e-3)
+    if axis == 0:
+        # What was below, or above, is the front then.
+        assert after[:, 0] == pytest.approx(-sign * before[:, 2], abs=4e-3)
+    else:
+        assert after[:, 0] == pytest.approx(before[:, 0], abs=4e-3)
+
+
 def test_a_figure_that_stays_where_it_was_made_turns_about_its_middle():
     points, doing, sculpture = made("as made\nfront: back")
     assert doing == "turned"

@@ -39,6 +39,7 @@ KOSAKA_MOTIONS: Motions = {
     moves.Fall: Wait,
     moves.Pop: Wait,
     moves.StretchTip: Wait,
+    moves.PassThrough: Wait,
     moves.Loosen: Wait,
     moves.LetGo: LetGo,
     moves.Hold: Wait,

@@ -38,6 +38,8 @@ ring is led in that plane only, and comes nearer as the sides are spread.
 """
 BENT_WITHIN = math.radians(60.0)
 """Angle to the plane of the ring within which a bubble that is too long for the hole is bent."""
+CLEFT = 0.25
+"""Way from the joint at the far end of a ring to where its sides part, in widths of what passes."""
 IN_PLANE = 0.1
 """Sine of the angle to that plane below which a bubble lies on neither side of it."""
 
@@ -111,7 +113,8 @@ class _Way:
         self._sweep = math.atan2(ahead, float(began[-1] @ self.inward) / self._length) + move.beyond
         far = float((ring @ self.inward).max())
         inside = sum(each @ self.inward > 0.9 * far for each in ring) > 1
-        self._passing = min(self._length, max(far - (0.5 * move.tube if inside else 0.0), move.width))
+        free = far - (0.5 * move.tube if inside else CLEFT * move.width)
+        self._passing = min(self._length, max(free, move.width))
         passed = turn_about(self.aside, -self._sweep) @ began[-1] / self._length
         if move.point is None:
             self._back = self.aside, self._sweep

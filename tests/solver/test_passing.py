@@ -1,0 +1,132 @@
+"""Bubbles pushed and rolled into rings: the walls of the ring hold them, or they slip out."""
+
+from __future__ import annotations
+
+import re
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from balloon_usd.language.joint import Joint
+from balloon_usd.operations.moves import PassThrough
+from balloon_usd.operations.push import Push
+from balloon_usd.operations.roll import Roll
+from balloon_usd.plan import plan
+from balloon_usd.quality.crossing_counter import CrossingCounter
+from balloon_usd.quality.passed import PassedBubbles
+from balloon_usd.quality.walls import walls_of
+from balloon_usd.recipe import Recipe
+from balloon_usd.solver.simulation import simulate_many
+
+HELD = "physics: {hold: 2}\n"
+SMALL = """
+format: 1
+name: small
+units: cm
+balloons:
+  main: {size: 260, length: 22, tail: 8}
+steps:
+  - bubbles: {nose: 3}
+  - loop: {hair: 36}
+    point: up
+  - push: {bubble: nose, through: [hair]}
+"""
+
+
+class Passed:
+    """A recipe that is run: where the rings of its balloon are in every frame from the push on."""
+
+    def __init__(self, text):
+        self.plan = plan(Recipe.parse(text))
+        (self.move,) = (move for move in self.plan.choreography.moves if isinstance(move, PassThrough))
+        simulation = simulate_many([self.plan], device="cpu")
+        (meshes,) = simulation.meshes
+        self.mesh = meshes[0]
+        passed = PassedBubbles(self.plan, meshes)
+        counter = CrossingCounter(walls_of(self.plan, meshes), 1)
+        self.crossings, self.gas, self.middles, self.times = [], [], [], []
+        for (frame,) in simulation.frames():
+            passed.add(frame)
+            time = (frame.time_code - 1) / self.plan.recipe.fps
+            if time >= self.move.start:
+                points = frame.points[0].astype(float)
+                rings = points[self.mesh.ring_start[:, None] + np.arange(self.mesh.around)]
+                self.middles.append(rings.mean(axis=1))
+                self.times.append(time)
+                self.gas.append(simulation.model.scene.amount.numpy().copy())
+                if frame.time_code % 6 == 0:
+                    self.crossings.append(counter.count(frame.points).count)
+        self.rings = rings
+        self.slipped, self.result = list(passed.slipped()), passed.result()
+
+    def middle(self, name, at=-1):
+        """Where the ring of the middle of a bubble is in a frame, (3,), m."""
+        guides = self.plan.table.guides(name)
+        ring = self.plan.table.rings[guides[len(guides) // 2]]
+        return self.middles[at][self.mesh.ring_at(ring.along)]
+
+
+@pytest.fixture(scope="module")
+def pushed():
+    return Passed(Push.example + HELD)
+
+
+@pytest.fixture(scope="module")
+def rolled():
+    return Passed(Roll.example + HELD)
+
+
+def test_a_nose_that_is_pushed_between_ears_is_held_there_when_hands_let_go(pushed):
+    assert pushed.slipped == []
+    assert pushed.result["through"]["nose"] > 0.75
+    assert np.linalg.norm(pushed.middle("nose") - pushed.middle("nose", -24)) < 1e-3
+
+
+def test_it_points_where_it_pointed_and_the_ears_have_gone_over_it(pushed):
+    joint = pushed.mesh.ring_at(pushed.plan.table.rings[pushed.move.base].along)
+    before, after = (pushed.middle("nose", at) - pushed.middles[at][joint] for at in (0, -1))
+    ears = [pushed.middle(ear) - pushed.middles[-1][joint] for ear in ("left_ear", "right_ear")]
+    assert before @ after > 0.8 * np.linalg.norm(before) * np.linalg.norm(after)
+    assert max(ear[2] for ear in ears) < after[2]
+
+
+@pytest.mark.parametrize("made", ["pushed", "rolled"])
+def test_no_wall_goes_through_another_on_the_way(made, request):
+    assert max(request.getfixturevalue(made).crossings) == 0
+
+
+@pytest.mark.parametrize("made", ["pushed", "rolled"])
+def test_every_bubble_keeps_its_gas_on_the_way(made, request):
+    gas = request.getfixturevalue(made).gas
+    if made == "pushed":
+        np.testing.assert_allclose(gas[-1], gas[0], rtol=1e-6)
+    else:
+        assert gas[-1].sum() == pytest.approx(gas[0].sum(), rel=1e-6)
+
+
+def test_the_three_bubbles_of_a_bird_lie_side_by_side_in_a_triangle(rolled):
+    assert rolled.slipped == []
+    middles = [rolled.middle(name) for name in ("left", "right", "belly")]
+    sides = [np.linalg.norm(one - other) for one, other in pairwise([*middles, middles[0]])]
+    # What follows lies between their far ends, and holds them a little apart.
+    assert min(sides) > 0.9 * rolled.move.width
+    assert max(sides) < 1.45 * rolled.move.width
+    assert max(sides) < 1.2 * min(sides)
+
+
+def test_the_twist_behind_a_rolled_bubble_does_not_come_undone(rolled):
+    assert rolled.plan.loose == ()
+    joint = rolled.plan.table.rings[rolled.plan.table.joint(Joint("belly", "end"))]
+    row = rolled.mesh.ring_at(joint.along)
+    neck = rolled.rings[row] - rolled.middles[-1][row]
+    assert np.linalg.norm(neck, axis=1).mean() < 0.15 * rolled.move.width
+
+
+def test_a_nose_that_is_too_small_for_its_ring_slips_out_and_when_is_told():
+    made = Passed(SMALL + HELD)
+    (told,) = made.slipped
+    time = float(re.fullmatch(r"nose slipped out of its ring at ([\d.]+) s", told).group(1))
+    assert made.move.end - 0.1 < time <= made.times[-1]
+    assert made.result["value"] == 1
+    assert made.result["verdict"] == "off"
