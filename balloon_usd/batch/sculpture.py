@@ -125,7 +125,11 @@ class Sculpture:
         told = []
         if unkept := list(self._quality.unkept()):
             told.append(f"{all_of(unkept)}, and must hold: wind locks with more turns, or change must_hold")
-        if slipped := list(self._quality.slipped()):
+        stuck, slipped = self._quality.stuck_and_slipped()
+        if stuck:
+            what = f"{all_of(stuck)} did not come into {'its ring' if len(stuck) == 1 else 'their rings'}"
+            told.append(f"{what}: make the bubble shorter or the ring larger, or change must_hold")
+        if slipped:
             told.append(f"{all_of(slipped)}: make the ring smaller or the bubble larger, or change must_hold")
         if not told:
             return ""

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, ClassVar
 
 from balloon_usd.language.choices import all_of
 from balloon_usd.language.joint import Joint
 from balloon_usd.language.lengths import at_most, cm
+from balloon_usd.operations.caution import Caution
 from balloon_usd.operations.modifiers import OnBalloon, Pointed, Timed
-from balloon_usd.operations.moves import Move, PassThrough, Weld
+from balloon_usd.operations.moves import Move, PassThrough
 from balloon_usd.operations.operation import Operation
 from balloon_usd.operations.score import HAND_SPEED, SETTLE_SECONDS
 from balloon_usd.operations.workpiece import ContactKind
@@ -21,6 +23,15 @@ if TYPE_CHECKING:
     from balloon_usd.operations.workbench import Place, Workbench
     from balloon_usd.operations.workpiece import Workpiece
 
+HASTE = 0.5
+"""Share of the time that a maker takes below which a bubble would be torn past its ring."""
+LEAST_HOLE = 1.5
+"""Length of a bubble that closes on itself below which it is a ball without a hole, in its widths."""
+STUCK = {1: 1.0, 2: 1.4}
+"""Length beyond which a bubble gets stuck in a ring of one bubble, or of more, in its depth: in simulations
+of a 260 one of 8 cm stays in a loop of 20 and slips back out of one of 15, and one of 8 goes between two of 6,
+one of 9 does not.
+"""
 LEAST_SECONDS = 2.4
 """Shortest way through a ring and back, s."""
 LONGEST = 2.0
@@ -95,26 +106,48 @@ class Passing(OnBalloon, Pointed, Timed, Operation):
             bench.complain(path, fault)
 
     def refusals(self, layout: Layout) -> Iterator[tuple[tuple[str, ...], str]]:
-        """Yield a bubble that is far too long for its ring."""
+        """Yield a ring without a hole, and a bubble that is far too long for its ring."""
+        first = layout.bubble(self.ring[0])
+        if len(self.ring) == 1 and first.length < LEAST_HOLE * first.width:
+            what = f"{self.ring[0]} is a ball of {cm(first.length)} and has no hole"
+            yield (self.word, self.ring_key), f"{what}, expected a loop or a fold, or bubbles of a lock"
+            return
         length, depth = layout.bubble(self.bubble).length, depth_of(layout, self.ring)
         if length > LONGEST * depth:
             what = f"{self.bubble} is {cm(length)} long, and {all_of(self.ring)} only {cm(depth)} deep"
             yield (self.word, "bubble"), f"{what}, expected {at_most(LONGEST * depth)} or less"
 
+    def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:
+        """Warn of a bubble that gets stuck in its ring."""
+        length, depth = layout.bubble(self.bubble).length, depth_of(layout, self.ring)
+        if length > STUCK[min(len(self.ring), 2)] * depth:
+            yield Caution(
+                index,
+                f"{self.bubble} ({cm(length)}) may not come through {all_of(self.ring)}",
+                f"the ring is {cm(depth)} deep, and it gets stuck at its far end",
+                f"make it {cm(depth)} long",
+            )
+
     def perform(self, score: Score, index: int) -> None:
         """Bring it there, wait until the ring has closed on it, and let go."""
         layout, bubble = score.layout, score.layout.bubble(self.bubble)
-        base, led = _held_and_led(score, self.bubble)
+        opening = _around(score, self.ring)
+        base, led = _held_and_led(score, self.bubble, opening)
         text = f"{self.word}: {self.bubble}"
+        seconds = max(LEAST_SECONDS, WAY * bubble.length / HAND_SPEED)
+        if self.seconds is not None and self.seconds < HASTE * (seconds + SETTLE_SECONDS):
+            least = math.ceil(10.0 * HASTE * (seconds + SETTLE_SECONDS)) / 10.0
+            told = f"{self.seconds:g} s are too short a time to bring {self.bubble} through its ring"
+            score.refuse(index, {("seconds",): f"{told}, expected at least {least:g} s"})
         move = PassThrough(
             score.now,
-            max(LEAST_SECONDS, WAY * bubble.length / HAND_SPEED) / score.pace.leading,
+            seconds / score.pace.leading,
             index,
             text,
             bubble=self.bubble,
             base=base,
             led=led,
-            opening=_around(score, self.ring),
+            opening=opening,
             width=bubble.width,
             tube=max(layout.bubble(name).width for name in self.ring),
             beyond=self.beyond,
@@ -130,9 +163,13 @@ def _faults(piece: Workpiece, kind: ContactKind, name: str, ring: Sequence[str])
     """Yield why a bubble cannot be brought into a ring of others."""
     if len({name, *ring}) <= len(ring):
         yield "names a bubble twice, expected each once"
+    elif closing := [each for each in ring if len(ring) > 1 and piece.is_closed([each])]:
+        others = [each for each in ring if each not in closing]
+        what = f"{all_of(closing)} closes on itself and is no side of the ring"
+        yield f"{what}, expected {', '.join(others) or 'one ring'}"
     elif not piece.is_closed(ring):
         what = f"{all_of(ring)} form no closed ring" if len(ring) > 1 else f"{ring[0]} is no closed ring"
-        yield f"{what}, expected a loop, a fold, or all bubbles that a lock closes to one"
+        yield f"{what} by now, expected a loop, a fold, or all bubbles that a lock before closes to one"
     elif any(name == contact.bubble for contact in piece.contacts):
         yield f"{name} is in a ring already, expected each bubble once"
     else:
@@ -164,17 +201,19 @@ def depth_of(layout: Layout, ring: Sequence[str]) -> float:
     return 0.5 * sum(layout.bubble(name).length for name in ring)
 
 
-def _held_and_led(score: Score, bubble: str) -> tuple[int, tuple[int, ...]]:
-    """Return the ring of the end of a bubble that is held, and its others away from it: at a free knot is
-    what is led.
+def _held_and_led(score: Score, bubble: str, ring: Sequence[int]) -> tuple[int, tuple[int, ...]]:
+    """Return the ring of the end of a bubble that lies in a ring of others, and its others away from it.
+
+    `ring`: rings of these others.
     """
     layout: Layout = score.layout
     start, end = layout.ends(bubble)
     guides = layout.guides(bubble)
-    joined = any(isinstance(move, Weld) and start in move.rings for move in score.moves)
-    if layout.ring(start).bubble == bubble and not joined and end is not None:
-        return end, (*guides[::-1], start)
-    return start, guides if end is None else (*guides, end)
+    joints = {score.joints.root(each) for each in ring}
+    if score.joints.root(start) in joints:
+        return start, guides if end is None else (*guides, end)
+    assert end is not None, "one end lies in the ring"
+    return end, (*guides[::-1], start)
 
 
 def _around(score: Score, bubbles: Sequence[str]) -> tuple[int, ...]:

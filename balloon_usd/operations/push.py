@@ -20,10 +20,6 @@ if TYPE_CHECKING:
     from balloon_usd.operations.score import Layout
     from balloon_usd.operations.workpiece import ContactKind
 
-STUCK = 1.1
-"""Length beyond which a bubble may get stuck in a ring, in its depth: in simulations of a 260 noses of 6 cm
-pass ears of 6, noses of 7 do not, and those of 12 pass ears of 10 in part.
-"""
 SMALL = 5.5
 """Way round a ring beyond which a ball slips out of it, in lengths of the ball: one of 3 cm stays in a loop
 of 15 cm, and slips out of one of 20.
@@ -69,16 +65,10 @@ steps:
     """Push a bubble at the end of a balloon through a closed ring of others, which holds it."""
 
     def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:
-        """Warn of a bubble that may get stuck in its ring, and of a ball that slips out of it."""
+        """Warn of a bubble that gets stuck in its ring, and of a ball that slips out of it."""
+        yield from super().cautions(index, layout)
         bubble, depth = layout.bubble(self.bubble), depth_of(layout, self.ring)
         ring = all_of(self.ring)
-        if len(self.ring) > 1 and bubble.length > STUCK * depth:
-            yield Caution(
-                index,
-                f"{self.bubble} ({cm(bubble.length)}) may not come through {ring}",
-                f"they are {cm(depth)} deep, and it gets stuck at their far end",
-                f"make it {cm(depth)} long",
-            )
         if bubble.length <= bubble.width and 2.0 * depth > SMALL * bubble.length:
             yield Caution(
                 index,

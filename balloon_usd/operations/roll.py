@@ -19,8 +19,8 @@ class RolledBubble(Entries):
 
     bubble: Name
     """The bubble that is rolled, about as long as the others."""
-    between: Annotated[tuple[Name, ...], Field(min_length=2)]
-    """The bubbles of a lock, at whose joint it begins."""
+    between: Annotated[tuple[Name, ...], Field(min_length=1)]
+    """The bubbles of a lock, at whose joint it begins; or a loop."""
 
 
 class Roll(Passing):

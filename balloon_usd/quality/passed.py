@@ -7,11 +7,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from balloon_usd.language.joint import Joint
 from balloon_usd.operations.moves import PassThrough
+from balloon_usd.quality.joints import SLIPPED
 from balloon_usd.quality.measures import MEASURES
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
@@ -35,13 +37,21 @@ class _Row(NamedTuple):
 
 
 class PassedBubbles:
-    """Takes the frames of one sculpture; follows the middle of each bubble on its way through its ring."""
+    """Takes the frames of one sculpture; follows the middle of each bubble on its way through its ring.
+
+    Left out is what is popped later, and what lies in a ring that is opened as planned.
+    """
 
     def __init__(self, plan: Plan, meshes: Sequence[BalloonMesh]) -> None:
         """Find out what to look at; one mesh a balloon, in the order of `Plan.strips`."""
         self._fps = plan.recipe.fps
+        piece = plan.recipe.piece
+        held = piece.after(len(plan.recipe.steps), without=plan.slipping).gripped() - piece.popped
+        rings = {contact.bubble: contact.others for contact in piece.contacts}
         self._followed = [
-            _Followed(plan, meshes, move) for move in plan.choreography.moves if isinstance(move, PassThrough)
+            _Followed(plan, meshes, move, rings[move.bubble])
+            for move in plan.choreography.moves
+            if isinstance(move, PassThrough) and move.bubble in held
         ]
 
     def add(self, frame: Frame) -> None:
@@ -49,14 +59,20 @@ class PassedBubbles:
         for each in self._followed:
             each.add(frame)
 
-    def slipped(self) -> Iterator[str]:
-        """Yield which bubbles have not stayed in their rings, and since when."""
-        for each in self._followed:
-            if each.out is not None:
-                yield f"{each.name} slipped out of its ring at {(each.out - 1) / self._fps:.1f} s"
+    def stuck(self) -> list[str]:
+        """Return the bubbles that have not come into their rings."""
+        return [each.name for each in self._followed if each.out is not None and not each.inside]
+
+    def slipped(self) -> list[str]:
+        """Return which bubbles have come into their rings and not stayed there, and since when."""
+        return [
+            f"{each.name} slipped out of its ring at {(each.out - 1) / self._fps:.1f} s"
+            for each in self._followed
+            if each.out is not None and each.inside
+        ]
 
     def result(self) -> dict[str, Any]:
-        """Return how many have not stayed, once the last frame is taken."""
+        """Return how many are not in their rings, once the last frame is taken."""
         if not self._followed:
             return MEASURES["passed"].result(None)
         out = [each.name for each in self._followed if each.out is not None]
@@ -67,14 +83,20 @@ class PassedBubbles:
 class _Followed:
     """The middle of one bubble, and the ring that it passes."""
 
-    def __init__(self, plan: Plan, meshes: Sequence[BalloonMesh], move: PassThrough) -> None:
-        rows = [_row(plan, meshes, ring) for ring in (_middle(move), *move.opening)]
+    def __init__(
+        self, plan: Plan, meshes: Sequence[BalloonMesh], move: PassThrough, ring: Sequence[str]
+    ) -> None:
+        rows = [_row(plan, meshes, at) for at in (_middle(move), *move.opening)]
         self._bubble, self._ring = rows[0], rows[1:]
+        self._ends = {str(Joint(name, end)) for name in ring for end in ("start", "end")}
+        """Joints without which the ring is open."""
         fps = plan.recipe.fps
         # The time of a frame is (code - 1) / fps.
         self._first, self._last = 1 + math.floor(move.start * fps), 1 + math.ceil(move.end * fps)
         self.name = move.bubble
         self._begun = self._before = 0.0
+        self.inside = False
+        """Whether it has been in its ring."""
         self.out: int | None = None
         """Time code since which it is not in its ring, once it should be."""
 
@@ -88,16 +110,17 @@ class _Followed:
         code = frame.time_code
         if code < self._first:
             return
-        angle = solid_angle(
-            _centre(frame, self._bubble), np.array([_centre(frame, row) for row in self._ring])
-        )
+        ring = np.array([_centre(frame, row) for row in self._ring])
+        angle = solid_angle(_centre(frame, self._bubble), ring)
         if code == self._first:
             self._begun = self._before = angle
         # Known but for whole spheres: no bubble goes through half of a ring in one frame.
         self._before += math.remainder(angle - self._before, WHOLE)
+        self.inside |= self.share > INSIDE
         if code < self._last:
             return
-        if self.share > INSIDE:
+        undone = {name for told in frame.undone for name in told.split(SLIPPED)}
+        if self.share > INSIDE and self._ends.isdisjoint(undone):
             self.out = None
         elif self.out is None:
             self.out = code

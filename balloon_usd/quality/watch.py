@@ -81,11 +81,14 @@ class QualityWatch:
             when = "" if code is None else f" at {(code - 1) / self._plan.recipe.fps:.1f} s"
             yield f"{name} came undone{when}"
 
-    def slipped(self) -> Iterator[str]:
-        """Yield the bubbles that must stay in their rings by the recipe and have not, and since when."""
+    def stuck_and_slipped(self) -> tuple[list[str], list[str]]:
+        """Return the bubbles that must be in their rings by the recipe and have not come in, and those that
+        have not stayed, and since when; none before the end.
+        """
         # Where a recipe names joints, only these must hold.
-        if self._end is not None and self._plan.recipe.must_hold in (None, "all"):
-            yield from self._passed.slipped()
+        if self._end is None or self._plan.recipe.must_hold not in (None, "all"):
+            return [], []
+        return self._passed.stuck(), self._passed.slipped()
 
     def data(self) -> dict[str, Any] | None:
         """Return the quality as plain data, by the keys of `MEASURES`; None before the last frame."""

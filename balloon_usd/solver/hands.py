@@ -35,6 +35,8 @@ LEAD_FORCE = 6.0
 """Largest force of a hand that leads a bubble, N: a light push."""
 LEAD_STIFFNESS = 800.0
 """Stiffness of that hand, N/m, where the time step allows it."""
+PRESS_STIFFNESS = 2500.0
+"""The same of hands that press a bubble through others: flattened, it yields by some millimetres only."""
 STEP_STIFFNESS = 0.1
 """Largest stiffness on a ring, in ring masses per squared time step."""
 
@@ -54,8 +56,8 @@ class Hands:
         self.free = np.zeros((joints, 3), dtype=np.float32)
         """Unit direction in which a leading hand does not hold; 0 for none."""
         self.force = np.full(joints, LEAD_FORCE, dtype=np.float32)
-        limit = STEP_STIFFNESS * scene.joint_mass.numpy() / scene.settings.dt**2
-        self.stiffness = np.minimum(lead_stiffness, limit).astype(np.float32)
+        self._lead_stiffness = np.minimum(lead_stiffness, _stiffest(scene)).astype(np.float32)
+        self.stiffness = self._lead_stiffness.copy()
         closed = [r.closed for b in scene.bodies for r in b.rings]
         neck = [b.neck_radius for b in scene.bodies for _ in b.rings]
         self.neck = np.array(neck or [1.0], dtype=np.float32)
@@ -134,6 +136,11 @@ class Hands:
     def pull(self, joint: int) -> None:
         """Pull a ring as hard as hands can, once it is led."""
 
+    def press(self, joints: NDArray[np.int64], force: float) -> None:
+        """Lead rings with a firm grip and a force of up to so much (N), until they are let go."""
+        self.force[joints] = force
+        self.stiffness[joints] = np.minimum(PRESS_STIFFNESS, _stiffest(self.scene)[joints])
+
     def close(self, joint: int, radius: float) -> None:
         """Set the radius (m) that a neck has at the end of the frame."""
         self.radius_goal[joint] = radius
@@ -186,6 +193,7 @@ class Hands:
     def let_go(self, joints: NDArray[np.int64]) -> None:
         """Take the hands from these rings."""
         self.mode[joints] = 0
+        self.stiffness[joints] = self._lead_stiffness[joints]
 
     def bring(self, pose: Pose) -> None:
         """Bring the rings of a chain somewhere in the coming frame, with those of other chains."""
@@ -299,6 +307,12 @@ class Hands:
             gap = 2.0 * float(self.neck[list(group)].mean())
             self._weld_sizes[group] = gap, gap / float(np.sin(np.pi / max(len(group), 2)))
         return self._weld_sizes[group]
+
+
+def _stiffest(scene: Scene) -> NDArray[Any]:
+    """Return the stiffness that the time step allows on every ring, (J,), N/m."""
+    found: NDArray[Any] = STEP_STIFFNESS * scene.joint_mass.numpy() / scene.settings.dt**2
+    return found
 
 
 def fill_row(rows: NDArray[Any], at: int, fields: Mapping[str, Any]) -> None:

@@ -33,6 +33,46 @@ steps:
   - push: {bubble: nose, through: [hair]}
 """
 
+LONG = """
+format: 1
+name: long
+units: cm
+balloons:
+  main: {size: 260, length: 24, tail: 10}
+steps:
+  - bubbles: {nose: 14}
+  - loop: {hair: 15}
+    point: up
+  - push: {bubble: nose, through: [hair]}
+"""
+BEFORE = """
+format: 1
+name: before
+units: cm
+balloons:
+  main: {size: 260, length: 16, tail: 8}
+steps:
+  - bubbles: {first: 3, nose: 6, left_ear: 7, right_ear: 7}
+  - lock: [left_ear, right_ear]
+  - roll: {bubble: nose, between: [left_ear, right_ear]}
+"""
+OTHER = """
+format: 1
+name: other
+units: cm
+balloons:
+  main: {size: 260, length: 16, tail: 9}
+  more: {size: 260, length: 5, inflated: 6}
+steps:
+  - bubbles: {nose: 3, left: 7, right: 7}
+    balloon: main
+  - lock: [left, right]
+  - rest: arm
+    balloon: more
+  - lock: {joints: [arm.start, left.start]}
+  - push: {bubble: arm, through: [left, right]}
+"""
+
 
 class Passed:
     """A recipe that is run: where the rings of its balloon are in every frame from the push on."""
@@ -58,7 +98,7 @@ class Passed:
                 if frame.time_code % 6 == 0:
                     self.crossings.append(counter.count(frame.points).count)
         self.rings = rings
-        self.slipped, self.result = list(passed.slipped()), passed.result()
+        self.stuck, self.slipped, self.result = passed.stuck(), passed.slipped(), passed.result()
 
     def middle(self, name, at=-1):
         """Where the ring of the middle of a bubble is in a frame, (3,), m."""
@@ -121,6 +161,33 @@ def test_the_twist_behind_a_rolled_bubble_does_not_come_undone(rolled):
     row = rolled.mesh.ring_at(joint.along)
     neck = rolled.rings[row] - rolled.middles[-1][row]
     assert np.linalg.norm(neck, axis=1).mean() < 0.15 * rolled.move.width
+
+
+def test_a_nose_that_is_longer_than_its_ring_is_deep_gets_stuck_as_the_plan_warns():
+    made = Passed(LONG + HELD)
+    assert made.stuck == ["nose"]
+    assert made.slipped == []
+    assert made.result["slipped"] == ["nose"]
+    (caution,) = made.plan.cautions
+    assert "nose (14 cm) may not come through hair" in caution.text
+
+
+def test_a_bubble_before_its_ring_is_rolled_with_what_hangs_on_it():
+    made = Passed(BEFORE + HELD)
+    assert made.move.base == made.plan.table.joint(Joint("nose", "end"))
+    assert made.stuck == made.slipped == []
+    assert made.result["through"]["nose"] > 0.7
+
+
+def test_a_bubble_of_another_balloon_that_was_led_in_from_the_side_goes_through():
+    made = Passed(OTHER + HELD)
+    assert made.stuck == made.slipped == []
+    assert made.result["through"]["arm"] > 0.6
+
+
+def test_where_the_ring_comes_undone_as_planned_nothing_is_expected_to_stay():
+    made = Passed(Push.example.replace("    point: up\n", "    point: up\n    turns: 1\n") + HELD)
+    assert made.result["verdict"] == "none"
 
 
 def test_a_nose_that_is_too_small_for_its_ring_slips_out_and_when_is_told():

@@ -26,12 +26,16 @@ PASSED = 0.6
 """Share at which it has passed, and both begin to turn back."""
 RELEASED = 0.55
 """Share from which on the ring is let close."""
-WIDENED = 0.5
-"""How far each side of a ring is spread, in widths of the bubble that passes."""
-PUSHING, SPREADING = 20.0, 15.0
-"""Largest force of a hand on a ring of the bubble, and on one of the ring that it passes, N: a bubble that is
-pressed flat bears 4 N on the section of a 260, and three lie on each other.
+WIDENED = 0.35
+"""How far each side of a ring is spread, in widths of the bubble that passes: spread by a half, its far end
+came so near that the free end of the bubble went over it, and not through.
 """
+PUSHING, SPREADING = 30.0, 25.0
+"""Largest force of a hand on a ring of the bubble, and on one of the ring that it passes, N: half of what a
+thumb and a finger press. With 20 and 15 one roll of three got stuck.
+"""
+ALIGNED = 0.35
+"""Share of its swing at which a bubble that hung aside has come into the plane of the swing."""
 ON_AXIS = 0.3
 """Distance from the plane in which the bubble swings, in that of the farthest, within which a place of the
 ring is led in that plane only, and comes nearer as the sides are spread.
@@ -62,7 +66,8 @@ class PassThrough(Motion):
         self._carried = sculpture.carry((*opening, move.led[-1], move.base))
         for joint in (*self._led, *self._opening):
             hands.lead(int(joint), middle)
-        hands.force[self._led], hands.force[self._opening] = PUSHING, SPREADING
+        hands.press(self._led, PUSHING)
+        hands.press(self._opening, SPREADING)
 
         self._base: Floats = middle[base].astype(np.float64)
         self._began: Floats = middle[self._led] - self._base
@@ -70,7 +75,7 @@ class PassThrough(Motion):
         whole = middle[[joints[ring] for ring in move.opening]] - self._base
         self._way = _Way(self._began, whole, move)
         aside = self._ring @ self._way.aside
-        widest = float(np.abs(aside).max())
+        widest = max(float(np.abs(aside).max()), 1e-6)
         self._spread = WIDENED * move.width * (aside / widest)[:, None] * self._way.aside
         self._on_axis = self._opening[np.abs(aside) < ON_AXIS * widest]
 
@@ -103,23 +108,37 @@ class _Way:
         normal -= self.inward * float(normal @ self.inward)
         normal /= max(float(np.linalg.norm(normal)), 1e-9)
         self._length = float(np.linalg.norm(began[-1]))
-        ahead = float(began[-1] @ normal) / self._length
-        if ahead < -IN_PLANE:
-            normal, ahead = -normal, -ahead
+        self._points = began[-1] / self._length
+        if float(self._points @ normal) < -IN_PLANE:
+            normal = -normal
         self.aside: Floats = np.cross(self.inward, normal)
         """Unit axis about which it swings back."""
         self._began, self._move = began, move
         self._shares = np.linalg.norm(began, axis=1)[:, None] / self._length
-        self._sweep = math.atan2(ahead, float(began[-1] @ self.inward) / self._length) + move.beyond
+        within = self._points - self.aside * float(self._points @ self.aside)
+        flat = float(np.linalg.norm(within))
+        # What hangs straight aside comes up to the ring first.
+        self._within = within / flat if flat > IN_PLANE else normal
+        self._aligning = turn_between(self._points, self._within)
+        self._sweep = (
+            math.atan2(float(self._within @ normal), float(self._within @ self.inward)) + move.beyond
+        )
+        self._passing = self._free_depth(ring)
+        self._back = self._way_back()
+
+    def _free_depth(self, ring: Floats) -> float:
+        """Return how far from its held end its other end passes the ring, m."""
         far = float((ring @ self.inward).max())
         inside = sum(each @ self.inward > 0.9 * far for each in ring) > 1
-        free = far - (0.5 * move.tube if inside else CLEFT * move.width)
-        self._passing = min(self._length, max(free, move.width))
-        passed = turn_about(self.aside, -self._sweep) @ began[-1] / self._length
-        if move.point is None:
-            self._back = self.aside, self._sweep
-        else:
-            self._back = turn_between(passed, np.array(move.point))
+        free = far - (0.5 * self._move.tube if inside else CLEFT * self._move.width)
+        return min(self._length, max(free, self._move.width))
+
+    def _way_back(self) -> tuple[Floats, float]:
+        """Return the axis and the angle (rad) of the turn after which it points where it shall."""
+        if self._move.point is None and float(self._points @ self._within) > 1.0 - IN_PLANE:
+            return self.aside, self._sweep
+        target = self._points if self._move.point is None else np.array(self._move.point)
+        return turn_between(turn_about(self.aside, -self._sweep) @ self._within, target)
 
     def back(self, progress: float) -> Floats:
         """Return the turn of all, (3, 3), until the bubble points where it shall; `progress`: 0 to 1."""
@@ -141,8 +160,10 @@ class _Way:
             chord = self._length + bent * (self._passing - self._length)
             # Of a flat arc: its length is chord + 8/3 bow^2 / chord.
             bow = math.sqrt(0.375 * chord * (self._length - chord))
-        ahead = -np.cross(self.aside, self._began[-1] / self._length)
-        straight = self._began * (chord / self._length)
+        axis, most = self._aligning
+        aligned = turn_about(axis, most * smooth(progress / ALIGNED))
+        ahead = -np.cross(self.aside, self._within)
+        straight = (self._began * (chord / self._length)) @ aligned.T
         bowed = straight + 4.0 * bow * self._shares * (1.0 - self._shares) * ahead
         turned: Floats = bowed @ turn_about(self.aside, -self._sweep * progress).T
         return turned
