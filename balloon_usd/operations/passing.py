@@ -29,8 +29,8 @@ LEAST_HOLE = 1.5
 """Length of a bubble that closes on itself below which it is a ball without a hole, in its widths."""
 STUCK = {1: 1.0, 2: 1.4}
 """Length beyond which a bubble gets stuck in a ring of one bubble, or of more, in its depth: in simulations
-of a 260 one of 8 cm stays in a loop of 20 and slips back out of one of 15, and one of 8 goes between two of 6,
-one of 9 does not.
+of a 260 one of 8 cm stays in a loop of 20 and slips back out of one of 15, and one of 8 goes between two of
+6, one of 9 does not.
 """
 LEAST_SECONDS = 2.4
 """Shortest way through a ring and back, s."""

@@ -169,7 +169,7 @@ def test_a_nose_that_is_longer_than_its_ring_is_deep_gets_stuck_as_the_plan_warn
     assert made.slipped == []
     assert made.result["slipped"] == ["nose"]
     (caution,) = made.plan.cautions
-    assert "nose (14 cm) may not come through hair" in caution.text
+    assert "nose (14 cm) may not come through hair" in caution.what
 
 
 def test_a_bubble_before_its_ring_is_rolled_with_what_hangs_on_it():
