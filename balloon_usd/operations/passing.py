@@ -18,6 +18,7 @@ from balloon_usd.operations.workpiece import ContactKind
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
+    from balloon_usd.language.problem import Path
     from balloon_usd.language.quantities import Units
     from balloon_usd.operations.score import Layout, Score
     from balloon_usd.operations.workbench import Place, Workbench
@@ -32,6 +33,8 @@ STUCK = {1: 1.0, 2: 1.4}
 of a 260 one of 8 cm stays in a loop of 20 and slips back out of one of 15, and one of 8 goes between two of
 6, one of 9 does not.
 """
+MOST_SIDES = 64
+"""Names of a ring that are looked at."""
 LEAST_SECONDS = 2.4
 """Shortest way through a ring and back, s."""
 LONGEST = 2.0
@@ -82,22 +85,24 @@ class Passing(OnBalloon, Pointed, Timed, Operation):
     @classmethod
     def uses(cls, value: object) -> tuple[str, ...]:
         """Return the bubble that goes through, and those of the ring."""
-        return tuple(name for name in cls._names_in(value) if isinstance(name, str))
+        return tuple(name for _, name in cls._names_in(value) if isinstance(name, str))
 
     @classmethod
-    def _names_in(cls, value: object) -> list[object]:
-        """Return all that stands in its value for names of bubbles."""
+    def _names_in(cls, value: object) -> list[tuple[Path, object]]:
+        """Return all that stands in its value for names of bubbles, with their places in it."""
         ring = value.get(cls.ring_key) if isinstance(value, dict) else None
-        return [value.get("bubble"), *ring] if isinstance(value, dict) and isinstance(ring, list) else []
+        if not isinstance(value, dict) or not isinstance(ring, list):
+            return []
+        sides = [((cls.ring_key, at), name) for at, name in enumerate(ring[:MOST_SIDES])]
+        return [(("bubble",), value.get("bubble")), *sides]
 
     @classmethod
     def check(cls, value: object, place: Place, bench: Workbench) -> None:
         """Bring a bubble that is there, and has its gas, into a closed ring of others."""
-        path = (*place.path, cls.word)
+        path, written = (*place.path, cls.word), cls._names_in(value)
+        found = [isinstance(name, str) and bench.find_firm(name, (*path, *at)) for at, name in written]
         names = cls.uses(value)
-        found = [bench.find_firm(name, path) for name in names]
-        read = len(names) > 1 and len(names) == len(cls._names_in(value))
-        if not read or not all(found) or not bench.knows(names):
+        if len(names) < 2 or not all(found) or not bench.knows(names):
             return
         fault = next(_faults(bench.piece, cls.word, names[0], names[1:]), None)
         if fault is None:

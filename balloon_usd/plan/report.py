@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from balloon_usd.language.lengths import at_least, at_most, cm
 from balloon_usd.operations.moves import LeadIn
-from balloon_usd.operations.workpiece import Joined, Popped
+from balloon_usd.operations.workpiece import Contact, Joined, Popped
 from balloon_usd.plan.parking import parked
 
 if TYPE_CHECKING:
@@ -124,6 +124,9 @@ def _graph_lines(plan: Plan) -> Iterator[str]:
     yield f"{ring_line(graph)}; {strokes} could make it"
     led_in = _led_in(plan)
     for event in plan.recipe.piece.history:
+        if isinstance(event, Contact):
+            done = {"push": "pushes {} through", "roll": "rolls {} between"}[event.kind].format(event.bubble)
+            yield f"  step {event.step + 1} {done} {', '.join(event.others)}, which hold it"
         if isinstance(event, Popped):
             yield f"  step {event.step + 1} pops {event.bubble}"
         if isinstance(event, Joined):
