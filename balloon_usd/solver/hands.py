@@ -193,7 +193,8 @@ class Hands:
     def let_go(self, joints: NDArray[np.int64]) -> None:
         """Take the hands from these rings."""
         self.mode[joints] = 0
-        self.stiffness[joints] = self._lead_stiffness[joints]
+        # The soft hand on a tail stays soft.
+        self.stiffness[joints] = np.minimum(self.stiffness[joints], self._lead_stiffness[joints])
 
     def bring(self, pose: Pose) -> None:
         """Bring the rings of a chain somewhere in the coming frame, with those of other chains."""
