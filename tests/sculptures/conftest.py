@@ -55,7 +55,7 @@ def make(path: Path, folder: Path) -> Made:
     """Make a recipe, keep what its tests look at, and write its stage into a folder."""
     planned = plan(Recipe.load(path))
     simulation = simulate_many([planned], detail="draft", device="cpu")
-    let_go = round(planned.choreography.moves[-1].start * simulation.fps)
+    let_go = round(planned.choreography.let_go * simulation.fps)
     summary, joints = RunSummary(planned, simulation.meshes[0]), []
     quality = QualityWatch(planned, simulation.meshes[0])
     frame = None
