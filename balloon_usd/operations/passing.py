@@ -28,7 +28,7 @@ HASTE = 0.5
 """Share of the time that a maker takes below which a bubble would be torn past its ring."""
 LEAST_HOLE = 1.5
 """Length of a bubble that closes on itself below which it is a ball without a hole, in its widths."""
-STUCK = {1: 1.0, 2: 1.4}
+STUCK_IN_LOOP, STUCK_IN_RING = 1.0, 1.4
 """Length beyond which a bubble gets stuck in a ring of one bubble, or of more, in its depth: in simulations
 of a 260 one of 8 cm stays in a loop of 20 and slips back out of one of 15, and one of 8 goes between two of
 6, one of 9 does not.
@@ -125,7 +125,7 @@ class Passing(OnBalloon, Pointed, Timed, Operation):
     def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:
         """Warn of a bubble that gets stuck in its ring."""
         length, depth = layout.bubble(self.bubble).length, depth_of(layout, self.ring)
-        if length > STUCK[min(len(self.ring), 2)] * depth:
+        if length > (STUCK_IN_LOOP if len(self.ring) == 1 else STUCK_IN_RING) * depth:
             yield Caution(
                 index,
                 f"{self.bubble} ({cm(length)}) may not come through {all_of(self.ring)}",

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from balloon_usd.quality.ring_corners import RingCorners
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -105,13 +107,10 @@ def _lost(
 
 
 def _together(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame, joint: PlannedJoint) -> bool:
-    names = list(plan.strips)
     middles, wide = [], []
-    for ring in (plan.table.rings[index] for index in joint.rings):
-        balloon = names.index(ring.balloon)
-        mesh, radius = meshes[balloon], plan.strips[ring.balloon].inflated_radius
-        first = int(mesh.ring_start[mesh.ring_at(ring.along)])
-        corners = frame.points[balloon][first : first + mesh.around].astype(np.float64)
+    for index in joint.rings:
+        radius = plan.strips[plan.table.rings[index].balloon].inflated_radius
+        corners = RingCorners.of(plan, meshes, index).places(frame)
         middles.append(corners.mean(axis=0))
         if np.linalg.norm(corners - middles[-1], axis=1).mean() > OPEN_NECK * radius:
             return False

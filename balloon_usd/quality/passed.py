@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from balloon_usd.language.joint import Joint
 from balloon_usd.operations.moves import PassThrough
 from balloon_usd.quality.joints import SLIPPED
 from balloon_usd.quality.measures import MEASURES
+from balloon_usd.quality.ring_corners import RingCorners
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -27,13 +28,6 @@ WHOLE = 4.0 * math.pi
 """Solid angle round a point, sr: by so much that of a ring changes for a point that goes all through it."""
 INSIDE = 0.5
 """Share of that at which the middle of a bubble is in the plane of the ring."""
-
-
-class _Row(NamedTuple):
-    """Vertices of a ring of the plan."""
-
-    balloon: int
-    vertices: slice
 
 
 class PassedBubbles:
@@ -56,8 +50,9 @@ class PassedBubbles:
 
     def add(self, frame: Frame) -> None:
         """Take the next frame."""
+        undone = {name for told in frame.undone for name in told.split(SLIPPED)}
         for each in self._followed:
-            each.add(frame)
+            each.add(frame, undone)
 
     def stuck(self) -> list[str]:
         """Return the bubbles that have not come into their rings."""
@@ -86,8 +81,8 @@ class _Followed:
     def __init__(
         self, plan: Plan, meshes: Sequence[BalloonMesh], move: PassThrough, ring: Sequence[str]
     ) -> None:
-        rows = [_row(plan, meshes, at) for at in (_middle(move), *move.opening)]
-        self._bubble, self._ring = rows[0], rows[1:]
+        self._rings = [RingCorners.of(plan, meshes, at) for at in (_middle(move), *move.opening)]
+        """That of the middle of the bubble, and those of the ring that it passes."""
         self._ends = {str(Joint(name, end)) for name in ring for end in ("start", "end")}
         """Joints without which the ring is open."""
         fps = plan.recipe.fps
@@ -105,13 +100,13 @@ class _Followed:
         """How far it has gone through: a half is in the plane of the ring."""
         return abs(self._before - self._begun) / WHOLE
 
-    def add(self, frame: Frame) -> None:
-        """Take the next frame."""
+    def add(self, frame: Frame, undone: set[str]) -> None:
+        """Take the next frame; `undone`: all joints that have come undone by then."""
         code = frame.time_code
         if code < self._first:
             return
-        ring = np.array([_centre(frame, row) for row in self._ring])
-        angle = solid_angle(_centre(frame, self._bubble), ring)
+        middle, *ring = (each.places(frame).mean(axis=0) for each in self._rings)
+        angle = solid_angle(middle, np.array(ring))
         if code == self._first:
             self._begun = self._before = angle
         # Known but for whole spheres: no bubble goes through half of a ring in one frame.
@@ -119,7 +114,6 @@ class _Followed:
         self.inside |= self.share > INSIDE
         if code < self._last:
             return
-        undone = {name for told in frame.undone for name in told.split(SLIPPED)}
         if self.share > INSIDE and self._ends.isdisjoint(undone):
             self.out = None
         elif self.out is None:
@@ -141,16 +135,3 @@ def solid_angle(place: Floats, ring: Floats) -> float:
 def _middle(move: PassThrough) -> int:
     """Return the ring nearest the middle of a bubble that passes."""
     return move.led[(len(move.led) - 1) // 2]
-
-
-def _row(plan: Plan, meshes: Sequence[BalloonMesh], ring: int) -> _Row:
-    planned = plan.table.rings[ring]
-    balloon = list(plan.strips).index(planned.balloon)
-    mesh = meshes[balloon]
-    first = int(mesh.ring_start[mesh.ring_at(planned.along)])
-    return _Row(balloon, slice(first, first + mesh.around))
-
-
-def _centre(frame: Frame, row: _Row) -> Floats:
-    middle: Floats = frame.points[row.balloon][row.vertices].mean(axis=0, dtype=np.float64)
-    return middle

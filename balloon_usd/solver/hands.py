@@ -35,7 +35,7 @@ LEAD_FORCE = 6.0
 """Largest force of a hand that leads a bubble, N: a light push."""
 LEAD_STIFFNESS = 800.0
 """Stiffness of that hand, N/m, where the time step allows it."""
-PRESS_STIFFNESS = 2500.0
+FIRM_STIFFNESS = 2500.0
 """The same of hands that press a bubble through others: flattened, it yields by some millimetres only."""
 STEP_STIFFNESS = 0.1
 """Largest stiffness on a ring, in ring masses per squared time step."""
@@ -136,10 +136,10 @@ class Hands:
     def pull(self, joint: int) -> None:
         """Pull a ring as hard as hands can, once it is led."""
 
-    def press(self, joints: NDArray[np.int64], force: float) -> None:
-        """Lead rings with a firm grip and a force of up to so much (N), until they are let go."""
+    def lead_firmly(self, joints: NDArray[np.int64], force: float) -> None:
+        """Let led rings yield little, with a force of up to so much (N), until they are let go."""
         self.force[joints] = force
-        self.stiffness[joints] = np.minimum(PRESS_STIFFNESS, _stiffest(self.scene)[joints])
+        self.stiffness[joints] = np.minimum(FIRM_STIFFNESS, _stiffest(self.scene)[joints])
 
     def close(self, joint: int, radius: float) -> None:
         """Set the radius (m) that a neck has at the end of the frame."""

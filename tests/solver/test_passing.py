@@ -20,30 +20,17 @@ from balloon_usd.recipe import Recipe
 from balloon_usd.solver.simulation import simulate_many
 
 HELD = "physics: {hold: 2}\n"
-SMALL = """
+LOOP = """
 format: 1
-name: small
+name: looped
 units: cm
 balloons:
-  main: {size: 260, length: 22, tail: 8}
+  main: {{size: 260, length: 24, tail: 9}}
 steps:
-  - bubbles: {nose: 3}
-  - loop: {hair: 36}
+  - bubbles: {{nose: {nose}}}
+  - loop: {{hair: {hair}}}
     point: up
-  - push: {bubble: nose, through: [hair]}
-"""
-
-LONG = """
-format: 1
-name: long
-units: cm
-balloons:
-  main: {size: 260, length: 24, tail: 10}
-steps:
-  - bubbles: {nose: 14}
-  - loop: {hair: 15}
-    point: up
-  - push: {bubble: nose, through: [hair]}
+  - push: {{bubble: nose, through: [hair]}}
 """
 BEFORE = """
 format: 1
@@ -164,7 +151,7 @@ def test_the_twist_behind_a_rolled_bubble_does_not_come_undone(rolled):
 
 
 def test_a_nose_that_is_longer_than_its_ring_is_deep_gets_stuck_as_the_plan_warns():
-    made = Passed(LONG + HELD)
+    made = Passed(LOOP.format(nose=14, hair=15) + HELD)
     assert made.stuck == ["nose"]
     assert made.slipped == []
     assert made.result["slipped"] == ["nose"]
@@ -191,7 +178,7 @@ def test_where_the_ring_comes_undone_as_planned_nothing_is_expected_to_stay():
 
 
 def test_a_nose_that_is_too_small_for_its_ring_slips_out_and_when_is_told():
-    made = Passed(SMALL + HELD)
+    made = Passed(LOOP.format(nose=3, hair=36) + HELD)
     (told,) = made.slipped
     time = float(re.fullmatch(r"nose slipped out of its ring at ([\d.]+) s", told).group(1))
     assert made.move.end - 0.1 < time <= made.times[-1]

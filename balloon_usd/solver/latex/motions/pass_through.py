@@ -54,7 +54,7 @@ class PassThrough(Motion):
     def __init__(self, move: moves.PassThrough, sculpture: LatexSculpture) -> None:
         """Take hold of both and of all that hangs on them."""
         hands, joints, middle = sculpture.hands, sculpture.joints, sculpture.frame.middle
-        self._hands, self._move = hands, move
+        self._hands = hands
         hands.touch(sculpture.bodies)
         base = joints[move.base]
         merged = {base, *(joint for weld in hands.welds_of([base]) for joint in weld)}
@@ -66,8 +66,8 @@ class PassThrough(Motion):
         self._carried = sculpture.carry((*opening, move.led[-1], move.base))
         for joint in (*self._led, *self._opening):
             hands.lead(int(joint), middle)
-        hands.press(self._led, PUSHING)
-        hands.press(self._opening, SPREADING)
+        hands.lead_firmly(self._led, PUSHING)
+        hands.lead_firmly(self._opening, SPREADING)
 
         self._base: Floats = middle[base].astype(np.float64)
         self._began: Floats = middle[self._led] - self._base
