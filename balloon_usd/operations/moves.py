@@ -239,6 +239,16 @@ class PassThrough(Move):
 
 
 @dataclass(frozen=True)
+class Invert(Move):
+    """Press the knot of a balloon through its first bubble, whose wall is turned inside, to its other end."""
+
+    knot: int = 0
+    """Ring of the knot."""
+    to: int = 0
+    """Ring at the other end, which is held."""
+
+
+@dataclass(frozen=True)
 class Weld(Move):
     """Twist joints that lie together into one."""
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from balloon_usd.operations.score import Layout, Score
     from balloon_usd.operations.workbench import Place, Workbench
 
-BubbleKind = Literal["bubble", "loop", "fold", "ear", "rest", "shape"]
+BubbleKind = Literal["bubble", "loop", "fold", "ear", "tulip", "rest", "shape"]
 Lengths = Annotated[dict[Name, Length], Field(min_length=1)]
 
 

@@ -24,6 +24,7 @@ from balloon_usd.operations.rest import Rest
 from balloon_usd.operations.roll import Roll
 from balloon_usd.operations.squeeze import Squeeze
 from balloon_usd.operations.tail_ball import TailBall
+from balloon_usd.operations.tulip import Tulip
 from balloon_usd.operations.wait import Wait
 
 if TYPE_CHECKING:
@@ -36,6 +37,7 @@ OPERATIONS: tuple[type[Operation], ...] = (
     Loop,
     Fold,
     Ear,
+    Tulip,
     Rest,
     Bend,
     Press,

@@ -113,6 +113,11 @@ class Strip:
         return not self.capsule and self.shape is None
 
     @property
+    def inverted(self) -> bool:
+        """Whether its knot is pressed through its first bubble, the wall of which it turns inside."""
+        return self.bubbles[0].kind == "tulip"
+
+    @property
     def inflated_radius(self) -> float:
         """Radius of the blown-up tube or capsule, m."""
         return self.size.radius * maxwell_state(self.rubber).bulged.a

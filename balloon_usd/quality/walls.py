@@ -52,7 +52,7 @@ def walls_of(plan: Plan, meshes: Sequence[BalloonMesh]) -> Walls:
         neck = np.full(len(mesh.points), NO_NECK, dtype=np.int64)
         for ring, joint in rings:
             place = plan.table.rings[ring]
-            if place.balloon == strip.balloon:
+            if place.balloon == strip.balloon and not (strip.inverted and place.along <= 0.0):
                 near = np.abs(mesh.along - place.along) <= _reach(strip)
                 # Knot and lip lie behind their ring.
                 neck[near | (mesh.along < 0.0) if place.along <= 0.0 else near] = joint

@@ -314,6 +314,12 @@ def test_only_what_is_left_of_a_balloon_has_a_tail_ball(steps: str, told: str) -
     assert any(told in each for each in messages(f"{TUBE}{steps}"))
 
 
+def test_no_net_of_springs_is_turned_inside_out() -> None:
+    found = messages(f"{CAPSULE}  - tulip: {{flower: 6}}\n{KOSAKA}")
+    told = "tulip: makes no sense with model kosaka, whose net is not turned inside out"
+    assert any(told in each for each in found)
+
+
 RING = "  - bubbles: {nose: 6, left: 7, right: 7}\n  - lock: [left, right]\n"
 
 

@@ -92,6 +92,8 @@ def tube_body(
     knot_pressure: float,
     short: Mapping[int, float] | None = None,
     drawn: tuple[float, ...] | None = None,
+    *,
+    inverted: bool = False,
 ) -> LatexBody:
     """Return the body of a twisting balloon: lip, knot bead, and a chamber between every two joints.
 
@@ -100,6 +102,8 @@ def tube_body(
     `knot_pressure`: gauge pressure sealed into the knot bead, Pa.
     `short`: inflated lengths of bubbles too short to tell by their rubber, m, by their number.
     `drawn`: unstressed rubber that turns draw into the neck of every joint, m.
+    `inverted`: whether the wall of the first bubble is turned inside: then its outside meets itself, and
+    knot and lip lie in it instead of being folded up in a neck.
     """
     n = mesh.around
     bead = int(np.searchsorted(mesh.ring_along, -1e-9))
@@ -108,7 +112,10 @@ def tube_body(
     marks += [(mesh.ring_at(s), True, False) for s in joints]
     marks += [(mesh.ring_at(s), False, False) for s in guides]
     marks.sort()
-    rings = tuple(RingSpec(int(mesh.ring_start[r]), n, parts, closed) for r, parts, closed in marks)
+    rings = tuple(
+        RingSpec(int(mesh.ring_start[r]), n, parts, closed, folds=not (closed and inverted))
+        for r, parts, closed in marks
+    )
     m = (n // 4) ** 2
     borders = [m + r * n for r, parts, _ in marks if parts]
     ends = np.array([*borders, len(mesh.quads)], dtype=np.int32)
@@ -138,7 +145,7 @@ def tube_body(
         contact_offset=CONTACT_OFFSET * radius,
         contact_arc=ARC_OFFSET / (8.0 * bulged.b * radius),
         along=mesh.along,
-        outward=_outward(mesh),
+        outward=_outward(mesh, joints[0] if inverted else 0.0),
         mesh_rings=tuple((int(f), n) for f in mesh.ring_start),
         vertex_ring=ring_of,
         rings=rings,
@@ -152,10 +159,13 @@ def tube_body(
     )
 
 
-def _outward(mesh: BalloonMesh) -> NDArray[np.float32]:
-    """Direction from the axis of the tube to every vertex, (V, 3)."""
+def _outward(mesh: BalloonMesh, inverted: float) -> NDArray[np.float32]:
+    """Direction from the axis of the tube to every vertex, (V, 3); 0 up to a distance from the knot (m) to
+    which the wall is turned inside.
+    """
     away = mesh.points.copy()
     away[:, 0] = 0.0
+    away[(mesh.along > 0.0) & (mesh.along <= inverted)] = 0.0
     radius = np.maximum(np.linalg.norm(away, axis=1), 1e-9)
     return np.asarray(away / radius[:, None], dtype=np.float32)
 

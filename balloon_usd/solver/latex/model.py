@@ -231,4 +231,5 @@ def _body(plan: Plan, strip: Strip, mesh: BalloonMesh) -> LatexBody:
         pressure,
         strip.balls(),
         tuple(bubble.drawn[1] for bubble in strip.bubbles[:-1]),
+        inverted=strip.inverted,
     )

@@ -9,6 +9,7 @@ from balloon_usd.solver.latex.motions.bend import LatexBend
 from balloon_usd.solver.latex.motions.fall import Fall
 from balloon_usd.solver.latex.motions.hold import Hold
 from balloon_usd.solver.latex.motions.inflate import Inflate
+from balloon_usd.solver.latex.motions.invert import Invert
 from balloon_usd.solver.latex.motions.lead_in import LatexLeadIn
 from balloon_usd.solver.latex.motions.let_go import LatexLetGo
 from balloon_usd.solver.latex.motions.loosen import Loosen
@@ -43,6 +44,7 @@ LATEX_MOTIONS: Motions = {
     moves.PassThrough: PassThrough,
     moves.Pop: Pop,
     moves.StretchTip: StretchTip,
+    moves.Invert: Invert,
     moves.Weld: Weld,
     moves.TurnFold: TurnFold,
     moves.SetDown: LatexSetDown,
