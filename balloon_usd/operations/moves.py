@@ -239,6 +239,14 @@ class PassThrough(Move):
 
 
 @dataclass(frozen=True)
+class Thread(PassThrough):
+    """Bend what is left of a balloon round, and pull it through a closed ring of others."""
+
+    flat: int = 0
+    """How many of the last rings lie on the flat tail."""
+
+
+@dataclass(frozen=True)
 class Invert(Move):
     """Press the knot of a balloon through its first bubble, whose wall is turned inside, to its other end."""
 

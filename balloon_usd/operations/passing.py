@@ -100,15 +100,24 @@ class Passing(OnBalloon, Pointed, Timed, Operation):
     def check(cls, value: object, place: Place, bench: Workbench) -> None:
         """Bring a bubble that is there, and has its gas, into a closed ring of others."""
         path, written = (*place.path, cls.word), cls._names_in(value)
-        found = [isinstance(name, str) and bench.find_firm(name, (*path, *at)) for at, name in written]
+        places = [((*path, *at), name) for at, name in written]
+        found = [
+            isinstance(name, str) and bench.has_name(name, at) and bench.find_firm(name, at)
+            for at, name in places
+        ]
         names = cls.uses(value)
         if len(names) < 2 or not all(found) or not bench.knows(names):
             return
         fault = next(_faults(bench.piece, cls.word, names[0], names[1:]), None)
-        if fault is None:
+        if fault is None and cls.fits(names[0], (*path, "bubble"), bench):
             bench.piece.touch(place.index, cls.word, names[0], names[1:])
-        else:
+        elif fault is not None:
             bench.complain(path, fault)
+
+    @classmethod
+    def fits(cls, name: str, path: Path, bench: Workbench) -> bool:
+        """Say whether it can be done with a bubble, and complain if it cannot."""
+        return True
 
     def refusals(self, layout: Layout) -> Iterator[tuple[tuple[str, ...], str]]:
         """Yield a ring without a hole, and a bubble that is far too long for its ring."""
@@ -116,7 +125,11 @@ class Passing(OnBalloon, Pointed, Timed, Operation):
         if len(self.ring) == 1 and first.length < LEAST_HOLE * first.width:
             what = f"{self.ring[0]} is a ball of {cm(first.length)} and has no hole"
             yield (self.word, self.ring_key), f"{what}, expected a loop or a fold, or bubbles of a lock"
-            return
+        else:
+            yield from self.misfits(layout)
+
+    def misfits(self, layout: Layout) -> Iterator[tuple[tuple[str, ...], str]]:
+        """Yield a bubble that is far too long for its ring."""
         length, depth = layout.bubble(self.bubble).length, depth_of(layout, self.ring)
         if length > LONGEST * depth:
             what = f"{self.bubble} is {cm(length)} long, and {all_of(self.ring)} only {cm(depth)} deep"
@@ -133,13 +146,21 @@ class Passing(OnBalloon, Pointed, Timed, Operation):
                 f"make it {cm(depth)} long",
             )
 
+    def hand_seconds(self, length: float) -> float:
+        """Return how long a calm maker takes to bring a bubble of a length (m) there, s."""
+        return max(LEAST_SECONDS, WAY * length / HAND_SPEED)
+
+    def as_moved(self, move: PassThrough, layout: Layout) -> PassThrough:
+        """Return the move that brings it there, given what all such moves have."""
+        return move
+
     def perform(self, score: Score, index: int) -> None:
         """Bring it there, wait until the ring has closed on it, and let go."""
         layout, bubble = score.layout, score.layout.bubble(self.bubble)
         opening = _around(score, self.ring)
         base, led = _held_and_led(score, self.bubble, opening)
         text = f"{self.word}: {self.bubble}"
-        seconds = max(LEAST_SECONDS, WAY * bubble.length / HAND_SPEED)
+        seconds = self.hand_seconds(bubble.length)
         if self.seconds is not None and self.seconds < HASTE * (seconds + SETTLE_SECONDS):
             least = math.ceil(10.0 * HASTE * (seconds + SETTLE_SECONDS)) / 10.0
             told = f"{self.seconds:g} s are too short a time to bring {self.bubble} through its ring"
@@ -159,7 +180,7 @@ class Passing(OnBalloon, Pointed, Timed, Operation):
             dip=self.dip * bubble.width,
             point=None if self.point is None else score.towards(self.point),
         )
-        score.add(move)
+        score.add(self.as_moved(move, layout))
         score.add(Move(score.now, SETTLE_SECONDS, index, text))
         score.let_go(index)
 

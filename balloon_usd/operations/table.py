@@ -24,6 +24,7 @@ from balloon_usd.operations.rest import Rest
 from balloon_usd.operations.roll import Roll
 from balloon_usd.operations.squeeze import Squeeze
 from balloon_usd.operations.tail_ball import TailBall
+from balloon_usd.operations.thread import Thread
 from balloon_usd.operations.tulip import Tulip
 from balloon_usd.operations.wait import Wait
 
@@ -44,6 +45,7 @@ OPERATIONS: tuple[type[Operation], ...] = (
     Squeeze,
     Push,
     Roll,
+    Thread,
     Pop,
     TailBall,
     Inflate,

@@ -139,11 +139,7 @@ class Workbench:
 
     def pop(self, name: str, path: Path) -> None:
         """Burst a bubble that is there, whole, and of which each neighbour is shut for good."""
-        if name in self._rests and name not in self._made_at:
-            what = f"bubble {quoted(name)} has no name of its own yet"
-            self.complain(path, f"{what}, expected a step before that gives it one: rest: NAME")
-            return
-        if not self.find_firm(name, path) or name not in self.piece.bubbles:
+        if not self.has_name(name, path) or not self.find_firm(name, path) or name not in self.piece.bubbles:
             return
         if (twist := self._open_twist(name)) is not None:
             what = f"the twist {twist} would let the gas of both out"
@@ -156,6 +152,14 @@ class Workbench:
             return
         self._popped_at[name] = path
         self.piece.pop(int(path[1]), name)
+
+    def has_name(self, name: str, path: Path) -> bool:
+        """Say whether what a step names got its name before, and complain if that is yet to come."""
+        if name in self._rests and name not in self._made_at:
+            what = f"bubble {quoted(name)} has no name of its own yet"
+            self.complain(path, f"{what}, expected a step before that gives it one: rest: NAME")
+            return False
+        return True
 
     def _open_twist(self, name: str) -> str | None:
         """Return which twist at an end of a bubble only itself holds, in words; None where all hold."""
@@ -214,11 +218,16 @@ class Workbench:
         """Complain unless a bubble is what is left of a balloon by now, and has its gas."""
         known = len(self.complaints)
         self.find_whole(name, place, path)
-        if len(self.complaints) > known or name in self._rests:
-            return
+        if len(self.complaints) == known and name not in self._rests:
+            self.has_tail(name, path)
+
+    def has_tail(self, name: str, path: Path) -> bool:
+        """Say whether a bubble that is there is what is left of a balloon, and complain if it is not."""
         if name in self.piece.bubbles and not self.piece.bubbles[name].last:
             what = f"bubble {quoted(name)} has no tail, expected what is left of a balloon"
             self.complain(path, f"{what}, which a step rest names")
+            return False
+        return True
 
     def find_whole(self, name: str, place: Place, path: Path) -> None:
         """Complain if a bubble, which may be an unnamed rest, does not exist by now."""

@@ -14,7 +14,12 @@ from balloon_usd.operations.disjoint_sets import DisjointSets
 if TYPE_CHECKING:
     from collections.abc import Container, Iterable, Mapping, Sequence
 
-ContactKind = Literal["roll", "push"]
+ContactKind = Literal["roll", "push", "thread"]
+_BROUGHT: dict[ContactKind, str] = {
+    "roll": "rolls {} between",
+    "push": "pushes {} through",
+    "thread": "threads {} through",
+}
 
 
 @dataclass(frozen=True)
@@ -55,6 +60,11 @@ class Contact:
     kind: ContactKind
     bubble: str
     others: tuple[str, ...]
+
+    @property
+    def text(self) -> str:
+        """What was done, in words: `pushes nose through left_ear, right_ear`."""
+        return f"{_BROUGHT[self.kind].format(self.bubble)} {', '.join(self.others)}"
 
 
 @dataclass(frozen=True)

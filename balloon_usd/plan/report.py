@@ -125,8 +125,7 @@ def _graph_lines(plan: Plan) -> Iterator[str]:
     led_in = _led_in(plan)
     for event in plan.recipe.piece.history:
         if isinstance(event, Contact):
-            done = {"push": "pushes {} through", "roll": "rolls {} between"}[event.kind].format(event.bubble)
-            yield f"  step {event.step + 1} {done} {', '.join(event.others)}, which hold it"
+            yield f"  step {event.step + 1} {event.text}, which hold it"
         if isinstance(event, Popped):
             yield f"  step {event.step + 1} pops {event.bubble}"
         if isinstance(event, Joined):

@@ -12,6 +12,7 @@ from balloon_usd.operations.push import Push
 from balloon_usd.operations.roll import Roll
 from balloon_usd.operations.squeeze import Squeeze
 from balloon_usd.operations.tail_ball import TailBall
+from balloon_usd.operations.thread import Thread
 from balloon_usd.operations.tulip import Tulip
 
 from .balloons import balloons_in
@@ -35,6 +36,7 @@ LATEX_STEPS = {
     Squeeze.word: (", whose fingers are forces on patches of a wall", "press, or no such step"),
     Push.word: (", whose walls hardly rub", "no such step"),
     Roll.word: (", whose walls hardly rub", "no such step"),
+    Thread.word: (", whose walls hardly rub", "no such step"),
     Pop.word: (", whose air particles stay in", "no such step"),
     Tulip.word: (", whose net is not turned inside out", "no such step"),
     TailBall.word: (", whose springs do not soften", "no such step"),

@@ -324,7 +324,12 @@ RING = "  - bubbles: {nose: 6, left: 7, right: 7}\n  - lock: [left, right]\n"
 
 
 @pytest.mark.parametrize(
-    "step", ["push: {bubble: nose, through: [left, right]}", "roll: {bubble: nose, between: [left, right]}"]
+    "step",
+    [
+        "push: {bubble: nose, through: [left, right]}",
+        "roll: {bubble: nose, between: [left, right]}",
+        "thread: {bubble: nose, through: [left, right]}",
+    ],
 )
 def test_springs_hold_nothing_in_a_ring(step: str) -> None:
     word = step.split(":", maxsplit=1)[0]

@@ -131,6 +131,7 @@ def test_hands_wait_while_nothing_moves_and_in_model_kosaka_where_nothing_is_blo
         moves.Pop,
         moves.StretchTip,
         moves.PassThrough,
+        moves.Thread,
         moves.Invert,
     }
     assert waits == {moves.Move, *unmoved}

@@ -40,6 +40,7 @@ KOSAKA_MOTIONS: Motions = {
     moves.Pop: Wait,
     moves.StretchTip: Wait,
     moves.PassThrough: Wait,
+    moves.Thread: Wait,
     moves.Invert: Wait,
     moves.Loosen: Wait,
     moves.LetGo: LetGo,

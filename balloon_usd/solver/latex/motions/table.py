@@ -21,6 +21,7 @@ from balloon_usd.solver.latex.motions.set_down import LatexSetDown
 from balloon_usd.solver.latex.motions.set_net import LatexSetNet
 from balloon_usd.solver.latex.motions.spin import Spin
 from balloon_usd.solver.latex.motions.stretch_tip import StretchTip
+from balloon_usd.solver.latex.motions.thread import Thread
 from balloon_usd.solver.latex.motions.turn_fold import TurnFold
 from balloon_usd.solver.motions.bring import Bring
 from balloon_usd.solver.motions.gather import Gather
@@ -44,6 +45,7 @@ LATEX_MOTIONS: Motions = {
     moves.PassThrough: PassThrough,
     moves.Pop: Pop,
     moves.StretchTip: StretchTip,
+    moves.Thread: Thread,
     moves.Invert: Invert,
     moves.Weld: Weld,
     moves.TurnFold: TurnFold,

@@ -1,0 +1,125 @@
+"""Pulling a long bubble through a closed ring of others."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from balloon_usd.solver.latex.motions.into_ring import IntoRing, RingPlane
+from balloon_usd.solver.motions.smooth import smooth
+from balloon_usd.solver.placement import turn_about, turn_between
+
+if TYPE_CHECKING:
+    from balloon_usd.operations import moves
+    from balloon_usd.solver.latex.sculpture import LatexSculpture
+
+Floats = NDArray[np.float64]
+
+SPREAD = 0.15
+"""Share of the time after which the ring is spread."""
+ALIGNED = 0.18
+"""Share after which the bubble bends in the plane that stands across the ring."""
+BENT = 0.3
+"""Share after which its end is before the hole."""
+PULLED = 0.75
+"""Share after which all but the bend is through."""
+TAUT = 0.85
+"""Share after which the bend is out, the ring begins to close, and both to turn back."""
+RAISED = 0.35
+"""How far the far end of the ring is spread, in widths of the bubble that passes."""
+DIPPED = math.radians(40.0)
+"""Angle by which the bubble leaves its held end away from the hole: its bend is wider than the hole is high.
+"""
+RISING = math.radians(25.0)
+"""Angle by which what is through is led on away from what hangs before the held end."""
+RISE = 3.0
+"""Radius of that curve, in widths of the bubble."""
+TIGHTEST = 0.75
+"""Radius of the tightest bend, in widths of the bubble: a loop of 24 cm of a 260 is as tight."""
+BEFORE = 0.6
+"""Distance of the tip from the hole as it is led there, in the same."""
+PLACES = 2000
+"""Places along the bubble at which its curve is found."""
+
+
+class Thread(IntoRing):
+    """A long bubble that is bent round, its end first pulled through a ring of others, and drawn taut."""
+
+    def __init__(self, move: moves.Thread, sculpture: LatexSculpture) -> None:
+        """Take hold of both; the flat tail is led lightly, for held firmly it fills with gas."""
+        firm = len(move.led) - move.flat
+        super().__init__(move, sculpture, firm)
+        steps = np.diff(self._began, axis=0, prepend=np.zeros((1, 3)))
+        self._along: Floats = np.cumsum(np.linalg.norm(steps, axis=1))
+        points = self._began[0] / self._along[0]
+        self._plane = plane = RingPlane.of(self._whole, points)
+        aside, _ = self._spread_aside(plane, move.width)
+        far = self._ring @ plane.inward
+        self._spread = aside + RAISED * move.width * (far / far.max())[:, None] * plane.inward
+        self._bow = _Bow(float((self._whole @ plane.inward).mean()), move.width, self._along)
+        self._aligning = turn_between(points, plane.normal)
+        self._end: Floats = math.cos(move.beyond) * plane.inward - math.sin(move.beyond) * plane.normal
+        """Unit direction of the bubble once it is taut."""
+        self._back = turn_between(self._end, points if move.point is None else np.array(move.point))
+
+    def advance(self, share: float) -> None:
+        """Spread the ring, bend the bubble round, pull it through until it is taut, and turn both back."""
+        left = self._bow.left(smooth((share - BENT) / (PULLED - BENT)))
+        flat = self._bow.places(left, smooth(share / BENT))
+        axis, angle = self._aligning
+        aligned = turn_about(axis, -angle * (1.0 - smooth(share / ALIGNED)))
+        places = (flat[:, :1] * self._plane.normal + flat[:, 1:] * self._plane.inward) @ aligned.T
+        if share > PULLED:
+            # What is still before the ring follows by itself.
+            self._hands.mode[self._led[self._along < left]] = 0
+            taut = smooth((share - PULLED) / (TAUT - PULLED))
+            places = places + taut * (self._along[:, None] * self._end - places)
+        axis, angle = self._back
+        turned = smooth((share - TAUT) / (1.0 - TAUT))
+        back = turn_about(axis, angle * turned)
+        spread = smooth(share / SPREAD) * (1.0 - turned)
+        self._lead((self._ring + spread * self._spread) @ back.T, places @ back.T)
+
+
+class _Bow:
+    """The curve of a bubble from its held end to a hole and on, in a plane that stands across the hole.
+
+    It leaves its held end away from the hole, straight, goes round on an arc, and straight on into the hole.
+    """
+
+    def __init__(self, height: float, width: float, along: Floats) -> None:
+        """Take the height of the middle of the hole above the held end and the width of the bubble, m.
+
+        `along`: distances of its rings from its held end, (N,), m.
+        """
+        self._height, self._width, self._along = height, width, along
+        rise = (1.0 + math.cos(DIPPED)) / math.sin(DIPPED)
+        """Length of the first side for each height that is to be won."""
+        self._lost = rise * height
+        """Length that the height of the hole spares."""
+        self._per_radius = rise * (1.0 + math.cos(DIPPED)) + math.sin(DIPPED) + math.pi + DIPPED
+        """Length of the curve for each radius of its arc, from a hole as high as the held end."""
+        self._most = float(along[-1]) + BEFORE * width
+        self._least = min(self._per_radius * TIGHTEST * width - self._lost, self._most)
+
+    def left(self, progress: float) -> float:
+        """Return how much of it is before the hole, m; `progress`: 0 all, 1 as little as bends."""
+        return self._most + progress * (self._least - self._most)
+
+    def places(self, left: float, progress: float) -> Floats:
+        """Return where its rings are, across the hole and into it, (N, 2), m.
+
+        `left`: how much of it is before the hole, m; `progress`: 0 straight, 1 bent.
+        """
+        radius = (left + self._lost) / self._per_radius
+        straight = (radius * (1.0 + math.cos(DIPPED)) - self._height) / math.sin(DIPPED)
+        fine = np.linspace(0.0, self._along[-1], PLACES)
+        heading = -DIPPED + np.clip((fine - straight) / radius, 0.0, math.pi + DIPPED)
+        heading -= np.clip((fine - left) / (RISE * self._width), 0.0, RISING)
+        steps = np.exp(1j * progress * heading) * (fine[1] - fine[0])
+        curve = np.cumsum(steps) - steps
+        found = np.interp(self._along, fine, curve)
+        return np.stack([found.real, found.imag], axis=1)

@@ -1,0 +1,157 @@
+"""What is left of a balloon is bent round and pulled through a ring: by contact, from its tip on."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from balloon_usd.operations.moves import Thread as ThreadMove
+from balloon_usd.operations.thread import Thread
+from balloon_usd.plan import plan
+from balloon_usd.quality.crossing_counter import CrossingCounter
+from balloon_usd.quality.passed import PassedBubbles
+from balloon_usd.quality.walls import walls_of
+from balloon_usd.recipe import Recipe, RecipeError
+from balloon_usd.solver.simulation import simulate_many
+
+EVERY = 6
+"""Frames from one count of crossings to the next."""
+PAIR = """
+format: 1
+name: pair
+units: cm
+balloons:
+  main: {size: 260, length: 24, tail: 8}
+steps:
+  - bubbles: {head: 5, left: 8, right: 8}
+  - lock: [left, right]
+    point: down
+  - rest: body
+  - thread: {bubble: body, through: [left, right]}
+"""
+
+
+class Threaded:
+    """A recipe that is run: where the middles of rings of its balloon are from the step on, and more."""
+
+    def __init__(self, text):
+        self.plan = plan(Recipe.parse(text))
+        (self.move,) = (move for move in self.plan.choreography.moves if isinstance(move, ThreadMove))
+        simulation = simulate_many([self.plan], device="cpu")
+        (meshes,) = simulation.meshes
+        self.mesh = meshes[0]
+        passed = PassedBubbles(self.plan, meshes)
+        counter = CrossingCounter(walls_of(self.plan, meshes), 1)
+        self.crossings, self.gas, self.middles, self.times = [], [], [], []
+        for (frame,) in simulation.frames():
+            passed.add(frame)
+            time = (frame.time_code - 1) / self.plan.recipe.fps
+            if time >= self.move.start:
+                rings = self.mesh.ring_start[:, None] + np.arange(self.mesh.around)
+                self.middles.append(frame.points[0].astype(float)[rings].mean(axis=1))
+                self.times.append(time)
+                self.gas.append(simulation.model.scene.amount.numpy().copy())
+                if frame.time_code % EVERY == 0:
+                    self.crossings.append(counter.count(frame.points).count)
+        self.stuck, self.slipped, self.result = passed.stuck(), passed.slipped(), passed.result()
+
+    def middle(self, ring, at=-1):
+        """Where a ring of the plan is in a frame, (3,), m."""
+        return self.middles[at][self.mesh.ring_at(self.plan.table.rings[ring].along)]
+
+    def points(self, at=-1):
+        """Where what was threaded points in a frame: unit direction, (3,)."""
+        firm = self.move.led[len(self.move.led) - self.move.flat - 1]
+        way = self.middle(firm, at) - self.middle(self.move.base, at)
+        return way / np.linalg.norm(way)
+
+
+@pytest.fixture(scope="module")
+def sword():
+    return Threaded(Thread.example + "physics: {hold: 2}\n")
+
+
+@pytest.fixture(scope="module")
+def pair():
+    return Threaded(PAIR)
+
+
+def test_all_of_it_has_gone_through_the_ring_in_the_end(sword, pair):
+    for each in (sword, pair):
+        assert (each.stuck, each.slipped) == ([], [])
+        assert next(iter(each.result["through"].values())) > 0.9
+
+
+def test_its_tip_goes_first_and_is_bent_round_to_its_other_end(sword):
+    tip = sword.move.led[-1]
+    away = [
+        float(np.linalg.norm(sword.middle(tip, at) - sword.middle(sword.move.base, at)))
+        for at in range(len(sword.times))
+    ]
+    assert min(away) < 0.15
+    assert min(away[0], away[-1]) > 0.5
+
+
+def test_it_points_where_it_did_and_the_ring_lies_on_its_other_side(sword):
+    assert sword.points() @ sword.points(0) > 0.95
+    middle = sword.plan.table.guides("guard")[3]
+    before, after = (sword.middle(middle, at) - sword.middle(sword.move.base, at) for at in (0, -1))
+    assert before[2] > 0.05
+    assert after[2] < 0.0
+
+
+def test_no_wall_goes_through_another_and_no_gas_is_lost(sword, pair):
+    for each in (sword, pair):
+        assert sum(each.crossings) == 0
+        assert each.gas[-1].sum() == pytest.approx(each.gas[0].sum(), rel=1e-6)
+
+
+def test_it_stays_where_it_is_when_hands_let_go(sword):
+    second = round(sword.plan.recipe.fps)
+    for ring in sword.move.led:
+        assert np.linalg.norm(sword.middle(ring) - sword.middle(ring, -second)) < 1e-3
+
+
+def test_it_goes_where_the_recipe_says():
+    up = Threaded(Thread.example.replace("[guard]}", "[guard]}\n    point: up"))
+    assert up.stuck == []
+    assert up.points()[2] > 0.9
+
+
+BLADE = "  - rest: blade\n"
+
+
+@pytest.mark.parametrize(
+    ("steps", "told"),
+    [
+        (f"{BLADE}  - thread: {{bubble: blade, through: [guard]}}", None),
+        ("  - thread: {bubble: main_rest, through: [guard]}", '"main_rest" has no name of its own yet'),
+        ("  - thread: {bubble: grip, through: [guard]}", '"grip" has no tail, expected what is left'),
+        (f"{BLADE}  - thread: {{bubble: blade, through: [grip]}}", "grip is no closed ring"),
+        (f"{BLADE}  - thread: {{bubble: blade, through: []}}", "is empty"),
+        (
+            f"  - bubbles: {{more: 5}}\n{BLADE}  - thread: {{bubble: blade, through: [guard]}}",
+            "blade does not begin at a joint of guard, expected a bubble that does",
+        ),
+        (
+            f"  - bubbles: {{more: 43}}\n  - lock: {{joints: [guard.end, more.end]}}\n{BLADE}"
+            "  - thread: {bubble: blade, through: [guard]}",
+            "are too short to be bent round into a ring, expected at least 29.",
+        ),
+        (f"{BLADE}  - thread: {{bubble: blade, through: [guard]}}\n    seconds: 2", "too short a time"),
+        (f"{BLADE}  - pop: guard\n  - thread: {{bubble: blade, through: [guard]}}", "was popped"),
+    ],
+)
+def test_what_cannot_be_threaded_is_refused_with_the_reason(steps, told):
+    text = Thread.example[: Thread.example.index("  - rest: blade")] + steps + "\n"
+    if told is None:
+        assert plan(Recipe.parse(text)).cautions == ()
+        return
+    with pytest.raises(RecipeError) as caught:
+        plan(Recipe.parse(text))
+    assert told in str(caught.value)
+
+
+def test_a_narrow_ring_is_cautioned():
+    found = plan(Recipe.parse(PAIR.replace("left: 8, right: 8", "left: 5, right: 5"))).cautions
+    assert any("body may get stuck in left and right" in caution.what for caution in found)
