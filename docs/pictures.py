@@ -2,7 +2,7 @@
 
 `python docs/pictures.py` draws all but the gallery on the CPU, `python docs/pictures.py press drop` some.
 `python docs/pictures.py gallery` draws the last frames of all recipes, on a GPU if there is one: a CPU takes
-a quarter of an hour.
+a quarter of an hour. `python docs/pictures.py gallery tulip_bt` draws that of one.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from balloon_usd.preview.contact_sheet import GUTTER, HEADER, MARGIN
 from balloon_usd.recipe import Recipe
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Collection, Sequence
 
     from balloon_usd.plan import Plan
 
@@ -77,13 +77,15 @@ def draw_drop(folder: Path) -> None:
     picture.quantize(COLORS, kmeans=PASSES).save(PICTURES.parent / f"{DROP}.png", optimize=True)
 
 
-def draw_gallery(folder: Path) -> None:
-    """Simulate all recipes of latex, and draw each figure as it is in the end, from two sides."""
-    plans = [plan(Recipe.load(file)) for file in gallery_recipes()]
-    files = [made.recipe.file for made in plans]
+def draw_gallery(folder: Path, names: Collection[str]) -> None:
+    """Simulate some recipes of latex, or all if none is named, and draw each figure as it is in the end, from
+    two sides.
+    """
+    files = [file for file in gallery_recipes() if not names or file.stem in names]
+    plans = [plan(Recipe.load(file)) for file in files]
     # One of them jams.
     with suppress(Failure):
-        _call("run", *files, "-o", str(folder), "--no-report", "--no-preview")
+        _call("run", *map(str, files), "-o", str(folder), "--no-report", "--no-preview")
     target = PICTURES.parent / GALLERY
     target.mkdir(exist_ok=True)
     for made in plans:
@@ -147,9 +149,9 @@ def _call(*words: str) -> None:
 if __name__ == "__main__":
     with TemporaryDirectory() as scratch:
         wanted = sys.argv[1:] or [*WORDS, DROP]
-        if words := [word for word in wanted if word not in (DROP, GALLERY)]:
+        if words := [word for word in wanted if word in BY_WORD]:
             draw(words, Path(scratch))
         if GALLERY in wanted:
-            draw_gallery(Path(scratch))
+            draw_gallery(Path(scratch), {*wanted} - {DROP, GALLERY, *words})
         if DROP in wanted:
             draw_drop(Path(scratch))
