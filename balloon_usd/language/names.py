@@ -18,6 +18,11 @@ _CONTROLS = frozenset({"Cc", "Cs", "Zl", "Zp"})
 """Unicode categories that no title needs and that could steer a terminal."""
 
 
+def is_name(value: str) -> bool:
+    """Tell whether a text can be a name."""
+    return len(value) <= NAME_LIMIT and _NAME.fullmatch(value) is not None
+
+
 def name(value: object) -> str:
     """Check a name: an identifier, since it becomes a prim name in the stage.
 

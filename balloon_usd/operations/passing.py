@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Annotated, ClassVar
+
+from pydantic import Field
 
 from balloon_usd.language.choices import all_of
 from balloon_usd.language.joint import Joint
 from balloon_usd.language.lengths import at_most, cm
+from balloon_usd.language.names import Name
 from balloon_usd.operations.caution import Caution
 from balloon_usd.operations.modifiers import OnBalloon, Pointed, Timed
 from balloon_usd.operations.moves import Move, PassThrough
@@ -34,7 +37,7 @@ of a 260 one of 8 cm stays in a loop of 20 and slips back out of one of 15, and 
 6, one of 9 does not.
 """
 MOST_SIDES = 64
-"""Names of a ring that are looked at."""
+"""Largest number of bubbles of a ring."""
 LEAST_SECONDS = 2.4
 """Shortest way through a ring and back, s."""
 LONGEST = 2.0
@@ -43,6 +46,10 @@ it. What is that long is threaded.
 """
 WAY = 3.0
 """Way of the end of a bubble through a ring and back, in its lengths."""
+
+
+Ring = Annotated[tuple[Name, ...], Field(min_length=1, max_length=MOST_SIDES)]
+"""The bubbles of a ring: one that closes on itself, or those of a lock."""
 
 
 class Passing(OnBalloon, Pointed, Timed, Operation):

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated, ClassVar
-
-from pydantic import Field
+from typing import TYPE_CHECKING, ClassVar
 
 from balloon_usd.language.choices import all_of
 from balloon_usd.language.lengths import cm
 from balloon_usd.language.names import Name
 from balloon_usd.operations.caution import Caution
 from balloon_usd.operations.modifiers import Entries
-from balloon_usd.operations.passing import Passing, depth_of
+from balloon_usd.operations.passing import Passing, Ring, depth_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -31,7 +29,7 @@ class PushedBubble(Entries):
 
     bubble: Name
     """The bubble that is pushed: an end of a balloon, beside the ring."""
-    through: Annotated[tuple[Name, ...], Field(min_length=1)]
+    through: Ring
     """The bubbles of the ring: one that closes on itself, or those of a lock."""
 
 

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, ClassVar
-
-from pydantic import Field
+from typing import TYPE_CHECKING, ClassVar
 
 from balloon_usd.language.names import Name
 from balloon_usd.operations.modifiers import Entries
-from balloon_usd.operations.passing import Passing
+from balloon_usd.operations.passing import Passing, Ring
 
 if TYPE_CHECKING:
     from balloon_usd.operations.workpiece import ContactKind
@@ -19,7 +17,7 @@ class RolledBubble(Entries):
 
     bubble: Name
     """The bubble that is rolled, about as long as the others."""
-    between: Annotated[tuple[Name, ...], Field(min_length=1)]
+    between: Ring
     """The bubbles of a lock, at whose joint it begins; or a loop."""
 
 

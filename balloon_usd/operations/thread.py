@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated, ClassVar
-
-from pydantic import Field
+from typing import TYPE_CHECKING, ClassVar
 
 from balloon_usd.language.choices import all_of
 from balloon_usd.language.lengths import at_least, cm
@@ -13,7 +11,7 @@ from balloon_usd.language.names import Name
 from balloon_usd.operations import moves
 from balloon_usd.operations.caution import Caution
 from balloon_usd.operations.modifiers import Entries
-from balloon_usd.operations.passing import Passing, depth_of
+from balloon_usd.operations.passing import Passing, Ring, depth_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -42,7 +40,7 @@ class ThreadedBubble(Entries):
 
     bubble: Name
     """What is left of a balloon, beside the ring."""
-    through: Annotated[tuple[Name, ...], Field(min_length=1)]
+    through: Ring
     """The bubbles of the ring: one that closes on itself, or those of a lock."""
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from balloon_usd.language.choices import one_of, unknown
 from balloon_usd.language.joint import Joint
-from balloon_usd.language.names import NAME_LIMIT
+from balloon_usd.language.names import is_name
 from balloon_usd.language.problem import PROBLEMS_SHOWN, Complaint, Path, path_text, quoted
 from balloon_usd.operations.workpiece import Workpiece
 
@@ -208,10 +208,9 @@ class Workbench:
         if later is not None:
             what = f"bubble {quoted(name)} does not exist yet, it is made at {path_text(later)}"
             self.complain(path, f"{what}: expected this step after that one")
-        elif len(name) <= NAME_LIMIT and not self.full:
+        elif is_name(name) and not self.full:
+            # Of what is no name is told where it stands.
             self.complain(path, unknown("bubble", name, [*self._made_at, *rests]))
-        elif not self.full:
-            self.complain(path, f"unknown bubble {quoted(name)}")
         return False
 
     def find_rest(self, name: str, place: Place, path: Path) -> None:
