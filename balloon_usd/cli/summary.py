@@ -9,6 +9,7 @@ from rich.console import Console
 from rich.table import Table
 
 from balloon_usd.batch.record import Status
+from balloon_usd.quality.joints import SLIPPED
 from balloon_usd.quality.line import quality_line
 from balloon_usd.quality.ranking import worst_first
 
@@ -89,7 +90,9 @@ def _warnings(records: Sequence[Record]) -> Iterator[str]:
             listed = ", ".join(f"{bubble} {share:.0%}" for bubble, share in off.items())
             yield f"{record.name}: not the gas of the plan: {listed}: make them longer, or leave more tail"
         if undone := told.get("undone"):
-            yield f"{record.name}: came undone: {', '.join(undone)}: lock them, with 2 turns or more"
+            slipped = any(SLIPPED in each for each in undone)
+            remedy = "more turns, or more friction" if slipped else "lock them, with 2 turns or more"
+            yield f"{record.name}: came undone: {', '.join(undone)}: {remedy}"
 
 
 def _qualities(records: Sequence[Record]) -> Iterator[str]:

@@ -13,6 +13,7 @@ class Fold(TwistsClosed):
 
     word: ClassVar[str] = "fold"
     bubble_kind: ClassVar[BubbleKind | None] = "fold"
+    hollow: ClassVar[bool] = True
     folds: ClassVar[bool] = True
     guides: ClassVar[tuple[float, ...]] = (0.25, 0.5, 0.75)
     example: ClassVar[str] = """\

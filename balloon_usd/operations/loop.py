@@ -23,6 +23,7 @@ class Loop(TwistsClosed):
 
     word: ClassVar[str] = "loop"
     bubble_kind: ClassVar[BubbleKind | None] = "loop"
+    hollow: ClassVar[bool] = True
     guides: ClassVar[tuple[float, ...]] = tuple(k / 8 for k in range(1, 8))
     example: ClassVar[str] = """\
 format: 1

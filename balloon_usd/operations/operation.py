@@ -37,6 +37,8 @@ class Operation(Entries):
     """Whether it twists the two ends of each of them together."""
     folds: ClassVar[bool] = False
     """Whether it lays the two halves of each of them side by side."""
+    hollow: ClassVar[bool] = False
+    """Whether each of them has a hole then, if it is long enough."""
     gas: ClassVar[float] = 1.0
     """Share of the gas of its length that hands leave in each of them, if not told to press any out."""
     slack: ClassVar[float] = 1.0

@@ -129,8 +129,8 @@ class Passing(OnBalloon, Pointed, Timed, Operation):
     def refusals(self, layout: Layout) -> Iterator[tuple[tuple[str, ...], str]]:
         """Yield a ring without a hole, and a bubble that is far too long for its ring."""
         first = layout.bubble(self.ring[0])
-        if len(self.ring) == 1 and first.length < LEAST_HOLE * first.width:
-            what = f"{self.ring[0]} is a ball of {cm(first.length)} and has no hole"
+        if len(self.ring) == 1 and not (first.hollow and first.length >= LEAST_HOLE * first.width):
+            what = f"{self.ring[0]} ({cm(first.length)}) has no hole"
             yield (self.word, self.ring_key), f"{what}, expected a loop or a fold, or bubbles of a lock"
         else:
             yield from self.misfits(layout)
@@ -198,8 +198,10 @@ def _faults(piece: Workpiece, kind: ContactKind, name: str, ring: Sequence[str])
         yield "names a bubble twice, expected each once"
     elif closing := [each for each in ring if len(ring) > 1 and piece.is_closed([each])]:
         others = [each for each in ring if each not in closing]
-        what = f"{all_of(closing)} closes on itself and is no side of the ring"
-        yield f"{what}, expected {', '.join(others) or 'one ring'}"
+        word = (
+            "closes on itself and is no side" if len(closing) == 1 else "close on themselves and are no sides"
+        )
+        yield f"{all_of(closing)} {word} of the ring, expected {', '.join(others) or 'one ring'}"
     elif not piece.is_closed(ring):
         what = f"{all_of(ring)} form no closed ring" if len(ring) > 1 else f"{ring[0]} is no closed ring"
         yield f"{what} by now, expected a loop, a fold, or all bubbles that a lock before closes to one"

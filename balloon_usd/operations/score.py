@@ -83,6 +83,10 @@ class PlacedBubble(Protocol):
         """Its balloon."""
 
     @property
+    def hollow(self) -> bool:
+        """Whether it has a hole once its two ends are one, if it is long enough: no ear and no tulip has."""
+
+    @property
     def length(self) -> float:
         """Inflated length, m."""
 

@@ -11,7 +11,7 @@ from balloon_usd.language.names import Name
 from balloon_usd.operations import moves
 from balloon_usd.operations.caution import Caution
 from balloon_usd.operations.modifiers import Entries
-from balloon_usd.operations.passing import Passing, Ring, depth_of
+from balloon_usd.operations.passing import LONGEST, Passing, Ring, depth_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -83,7 +83,8 @@ steps:
         bubble = layout.bubble(self.bubble)
         if bubble.length < (least := SHORTEST * bubble.width):
             what = f"{cm(bubble.length)} of a {bubble.size} are too short to be bent round into a ring"
-            yield (self.word, "bubble"), f"{what}, expected at least {at_least(least)}, or push"
+            other = ", or push" if bubble.length <= LONGEST * depth_of(layout, self.ring) else ""
+            yield (self.word, "bubble"), f"{what}, expected at least {at_least(least)}{other}"
 
     def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:
         """Warn of a ring in which the tube gets stuck."""

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, ClassVar
 
-from balloon_usd.language.lengths import at_most, cm
+from balloon_usd.language.lengths import at_least, at_most, cm
 from balloon_usd.language.problem import quoted
 from balloon_usd.operations.modifiers import Turned
 from balloon_usd.operations.moves import Invert
@@ -20,8 +21,12 @@ LONGEST = 1.5
 """Length of the longest tulip, in diameters of its tube: in simulations of a 260 the wall that is turned
 inside one of 7.5 cm stays taut; in one of 9 it is slack, and the bubble flutters about it.
 """
+SHORTEST = 0.7
+"""The same of the shortest one: the wall of one of 3 cm folds aside, its knot stays before it."""
 INVERT_SECONDS = 2.0
 """Time in which a finger presses the knot through, s."""
+HASTE = 0.5
+"""Share of the time that a maker takes below which the knot would go through walls."""
 
 
 class Tulip(Turned, TwistsOff):
@@ -65,16 +70,22 @@ steps:
             bench.complain(path, f"{what}: expected the bubble at the knot, which is pressed through it")
 
     def refusals(self, layout: Layout) -> Iterator[tuple[tuple[str, ...], str]]:
-        """Yield bubbles that are too long to be held taut by what is turned inside."""
+        """Yield bubbles that are too short for the knot, or too long to be held taut by what is inside."""
         for name, length in self.tulip.items():
             bubble = layout.bubble(name)
-            if length > (most := LONGEST * bubble.width):
-                what = f"{cm(length)} of a {bubble.size} are too long for a tulip"
-                text = f"{what}, what is turned inside is slack, expected {at_most(most)} or less"
-                yield (self.word, name), text
+            what, fault = f"{cm(length)} of a {bubble.size}", None
+            if length < (least := SHORTEST * bubble.width):
+                fault = f"{what} are too short for a tulip, the knot has no room in it"
+                fault += f", expected {at_least(least)} or more, or ear"
+            elif length > (most := LONGEST * bubble.width):
+                fault = f"{what} are too long for a tulip, what is turned inside is slack"
+                fault += f", expected {at_most(most)} or less"
+            if fault is not None:
+                yield (self.word, name), fault
 
     def perform(self, score: Score, index: int) -> None:
         """Twist the bubble off, press the knot through it and twist both ends into one."""
+        begin = score.now
         for name in self.lengths:
             score.twist(name, self.turns, index)
             start, end = score.layout.ends(name)
@@ -82,3 +93,7 @@ steps:
             text, seconds = f"tulip: {name}", INVERT_SECONDS / score.pace.leading
             score.add(Invert(score.now, seconds, index, text, knot=start, to=end))
             score.weld((start, end), self.turns, text, index)
+        if self.seconds is not None and self.seconds < (shortest := HASTE * (score.now - begin)):
+            least = math.ceil(10.0 * shortest) / 10.0
+            told = f"{self.seconds:g} s are too short a time to press a knot through"
+            score.refuse(index, {("seconds",): f"{told}, expected at least {least:g} s"})

@@ -13,6 +13,7 @@ from balloon_usd.operations.caution import Caution
 from balloon_usd.operations.closing import TwistsClosed
 from balloon_usd.operations.lock import Lock
 from balloon_usd.operations.modifiers import HOLDING_TURNS, Turned
+from balloon_usd.operations.tulip import Tulip
 from balloon_usd.plan.bent_chains import bends_onto_others
 from balloon_usd.plan.holding import too_slippery
 from balloon_usd.plan.long_sides import long_sides
@@ -96,7 +97,7 @@ def _turns(recipe: Recipe) -> Iterator[Caution]:
 
 def _slippery(recipe: Recipe) -> Iterator[Caution]:
     friction = recipe.physics.friction
-    locks = [step for step in recipe.steps if isinstance(step, (Lock, TwistsClosed))]
+    locks = [step for step in recipe.steps if isinstance(step, (Lock, TwistsClosed, Tulip))]
     slipping = [step for step in locks if step.holds and too_slippery(step, friction)]
     if slipping:
         turns = min(step.turns for step in slipping)

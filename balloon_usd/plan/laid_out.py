@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from balloon_usd.balloon.tube_theory import bulges_once_stretched
+from balloon_usd.operations.table import BY_KIND
 from balloon_usd.plan.parking import parked
 
 if TYPE_CHECKING:
@@ -32,6 +33,10 @@ class _Placed:
     @property
     def balloon(self) -> str:
         return self.strip.balloon
+
+    @property
+    def hollow(self) -> bool:
+        return self.planned.kind in BY_KIND and BY_KIND[self.planned.kind].hollow
 
     @property
     def length(self) -> float:

@@ -112,6 +112,15 @@ def test_it_stays_where_it_is_when_hands_let_go(sword):
         assert np.linalg.norm(sword.middle(ring) - sword.middle(ring, -second)) < 1e-3
 
 
+def test_one_that_was_bent_before_is_led_on_from_where_it_is():
+    bent = Threaded(
+        Thread.example.replace("  - thread", "  - bend: {blade: 70}\n    point: left\n  - thread")
+    )
+    steps = np.linalg.norm(np.diff(np.array(bent.middles), axis=0), axis=2).max(axis=1)
+    assert bent.stuck == []
+    assert steps[:6].max() * bent.plan.recipe.fps < 1.0
+
+
 def test_it_goes_where_the_recipe_says():
     up = Threaded(Thread.example.replace("[guard]}", "[guard]}\n    point: up"))
     assert up.stuck == []
@@ -139,6 +148,14 @@ BLADE = "  - rest: blade\n"
             "are too short to be bent round into a ring, expected at least 29.",
         ),
         (f"{BLADE}  - thread: {{bubble: blade, through: [guard]}}\n    seconds: 2", "too short a time"),
+        (
+            f"  - ear: {{wide: 10}}\n{BLADE}  - thread: {{bubble: blade, through: [wide]}}",
+            "wide (10 cm) has no hole, expected a loop or a fold, or bubbles of a lock",
+        ),
+        (
+            f"  - loop: {{other: 20}}\n{BLADE}  - thread: {{bubble: blade, through: [guard, other]}}",
+            "guard and other close on themselves and are no sides of the ring",
+        ),
         (f"{BLADE}  - pop: guard\n  - thread: {{bubble: blade, through: [guard]}}", "was popped"),
     ],
 )
@@ -150,6 +167,14 @@ def test_what_cannot_be_threaded_is_refused_with_the_reason(steps, told):
     with pytest.raises(RecipeError) as caught:
         plan(Recipe.parse(text))
     assert told in str(caught.value)
+
+
+def test_push_is_proposed_where_it_would_be_accepted():
+    short = Thread.example.replace("length: 29", "length: 18.5")
+    with pytest.raises(RecipeError, match=r"expected at least [0-9.]+ cm, or push$"):
+        plan(Recipe.parse(short))
+    with pytest.raises(RecipeError, match=r"expected at least [0-9.]+ cm$"):
+        plan(Recipe.parse(short.replace("guard: 28", "guard: 14").replace("18.5", "14.9")))
 
 
 def test_a_narrow_ring_is_cautioned():

@@ -107,14 +107,16 @@ def test_with_one_turn_the_gas_pushes_the_knot_out_and_head_and_stem_are_one_tub
     ("steps", "told"),
     [
         ("tulip: {flower: 7.5}", None),
-        ("tulip: {flower: 1}", None),
+        ("tulip: {flower: 3.6}", None),
+        ("tulip: {flower: 3}", "3 cm of a 260 are too short for a tulip, the knot has no room in it"),
+        ("tulip: {flower: 5}\n    seconds: 1", "1 s are too short a time to press a knot through"),
         ("tulip: {flower: 8}", "8 cm of a 260 are too long for a tulip, what is turned inside is slack"),
         ("bubbles: {a: 5}\n  - tulip: {flower: 5}", '"flower" is not the first bubble of "main", "a" is'),
         ("tulip: {flower: 5, more: 5}", '"more" is not the first bubble of "main", "flower" is'),
         ("tulip: {flower: 5}\n    point: up", "makes no sense with tulip"),
         (
             "tulip: {flower: 5}\n  - rest: b\n  - push: {bubble: b, through: [flower]}",
-            "flower is a ball of 5 cm and has no hole",
+            "flower (5 cm) has no hole, expected a loop or a fold, or bubbles of a lock",
         ),
     ],
 )

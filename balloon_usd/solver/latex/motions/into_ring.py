@@ -54,8 +54,13 @@ class RingPlane(NamedTuple):
 class IntoRing(Motion):
     """A bubble that is led about its held end through a ring of others, which is spread meanwhile."""
 
-    def __init__(self, move: moves.PassThrough, sculpture: LatexSculpture, firm: int) -> None:
-        """Take hold of both and of all that hangs on them; `firm`: how many rings of it are held firmly."""
+    def __init__(
+        self, move: moves.PassThrough, sculpture: LatexSculpture, firm: int, strength: float = 1.0
+    ) -> None:
+        """Take hold of both and of all that hangs on them.
+
+        `firm`: how many rings of the bubble are held firmly; `strength`: share of the full forces of hands.
+        """
         hands, joints, middle = sculpture.hands, sculpture.joints, sculpture.frame.middle
         self._hands = hands
         hands.touch(sculpture.bodies)
@@ -69,8 +74,8 @@ class IntoRing(Motion):
         self._carried = sculpture.carry((*opening, move.led[-1], move.base))
         for joint in (*self._led, *self._opening):
             hands.lead(int(joint), middle)
-        hands.lead_firmly(self._led[:firm], PUSHING)
-        hands.lead_firmly(self._opening, SPREADING)
+        hands.lead_firmly(self._led[:firm], strength * PUSHING)
+        hands.lead_firmly(self._opening, strength * SPREADING)
 
         self._base: Floats = middle[base].astype(np.float64)
         self._began: Floats = middle[self._led] - self._base

@@ -39,6 +39,8 @@ RISE = 3.0
 """Radius of that curve, in widths of the bubble."""
 TIGHTEST = 0.75
 """Radius of the tightest bend, in widths of the bubble: a loop of 24 cm of a 260 is as tight."""
+FULL_FORCE = 0.05
+"""Width of a tube from which on hands pull with all their force, m: with it they tore a 160."""
 BEFORE = 0.6
 """Distance of the tip from the hole as it is led there, in the same."""
 PLACES = 2000
@@ -51,10 +53,10 @@ class Thread(IntoRing):
     def __init__(self, move: moves.Thread, sculpture: LatexSculpture) -> None:
         """Take hold of both; the flat tail is led lightly, for held firmly it fills with gas."""
         firm = len(move.led) - move.flat
-        super().__init__(move, sculpture, firm)
+        super().__init__(move, sculpture, firm, min(move.width / FULL_FORCE, 1.0))
         steps = np.diff(self._began, axis=0, prepend=np.zeros((1, 3)))
         self._along: Floats = np.cumsum(np.linalg.norm(steps, axis=1))
-        points = self._began[0] / self._along[0]
+        points = self._began[firm - 1] / max(float(np.linalg.norm(self._began[firm - 1])), 1e-9)
         self._plane = plane = RingPlane.of(self._whole, points)
         aside, _ = self._spread_aside(plane, move.width)
         far = self._ring @ plane.inward
@@ -64,17 +66,16 @@ class Thread(IntoRing):
         self._end: Floats = math.cos(move.beyond) * plane.inward - math.sin(move.beyond) * plane.normal
         """Unit direction of the bubble once it is taut."""
         self._back = turn_between(self._end, points if move.point is None else np.array(move.point))
+        self._off: Floats = np.zeros(3)
+        self._off = self._began - self._bent(0.0)
+        """How far the bubble is from straight at first, (N, 3), m."""
 
     def advance(self, share: float) -> None:
         """Spread the ring, bend the bubble round, pull it through until it is taut, and turn both back."""
-        left = self._bow.left(smooth((share - BENT) / (PULLED - BENT)))
-        flat = self._bow.places(left, smooth(share / BENT))
-        axis, angle = self._aligning
-        aligned = turn_about(axis, -angle * (1.0 - smooth(share / ALIGNED)))
-        places = (flat[:, :1] * self._plane.normal + flat[:, 1:] * self._plane.inward) @ aligned.T
+        places = self._bent(share)
         if share > PULLED:
             # What is still before the ring follows by itself.
-            self._hands.mode[self._led[self._along < left]] = 0
+            self._hands.mode[self._led[self._along < self._left(share)]] = 0
             taut = smooth((share - PULLED) / (TAUT - PULLED))
             places = places + taut * (self._along[:, None] * self._end - places)
         axis, angle = self._back
@@ -82,6 +83,19 @@ class Thread(IntoRing):
         back = turn_about(axis, angle * turned)
         spread = smooth(share / SPREAD) * (1.0 - turned)
         self._lead((self._ring + spread * self._spread) @ back.T, places @ back.T)
+
+    def _left(self, share: float) -> float:
+        """Return how much of it is before the hole, m."""
+        return self._bow.left(smooth((share - BENT) / (PULLED - BENT)))
+
+    def _bent(self, share: float) -> Floats:
+        """Return where its rings are until it is taut, (N, 3), m."""
+        flat = self._bow.places(self._left(share), smooth(share / BENT))
+        fading = 1.0 - smooth(share / ALIGNED)
+        axis, angle = self._aligning
+        aligned = turn_about(axis, -angle * fading)
+        places: Floats = (flat[:, :1] * self._plane.normal + flat[:, 1:] * self._plane.inward) @ aligned.T
+        return places + fading * self._off
 
 
 class _Bow:
