@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from pydantic import Field
@@ -27,8 +26,6 @@ if TYPE_CHECKING:
     from balloon_usd.operations.workbench import Place, Workbench
     from balloon_usd.operations.workpiece import Workpiece
 
-HASTE = 0.5
-"""Share of the time that a maker takes below which a bubble would be torn past its ring."""
 LEAST_HOLE = 1.5
 """Length of a bubble that closes on itself below which it is a ball without a hole, in its widths."""
 STUCK_IN_LOOP, STUCK_IN_RING = 1.0, 1.4
@@ -168,10 +165,8 @@ class Passing(OnBalloon, Pointed, Timed, Operation):
         base, led = _held_and_led(score, self.bubble, opening)
         text = f"{self.word}: {self.bubble}"
         seconds = self.hand_seconds(bubble.length)
-        if self.seconds is not None and self.seconds < HASTE * (seconds + SETTLE_SECONDS):
-            least = math.ceil(10.0 * HASTE * (seconds + SETTLE_SECONDS)) / 10.0
-            told = f"{self.seconds:g} s are too short a time to bring {self.bubble} through its ring"
-            score.refuse(index, {("seconds",): f"{told}, expected at least {least:g} s"})
+        doing = f"bring {self.bubble} through its ring"
+        score.refuse_haste(index, self.seconds, seconds + SETTLE_SECONDS, doing)
         move = PassThrough(
             score.now,
             seconds / score.pace.leading,

@@ -49,6 +49,8 @@ LEAST_TURNED = 0.8
 """Length of the shortest bubble of a fold that hands turn, in widths of its tube; of a fold of one, twice."""
 BRING_SECONDS = 1.5
 """Bringing a joint to one of another balloon, s."""
+HASTE = 0.5
+"""Share of the time that a maker takes below which walls would be torn past others."""
 LEADING_IN_SPEED = 0.3
 """Mean speed of a hand that leads a balloon in, m/s: nothing is bent on the way."""
 LEAD_IN_LEAST = 1.0
@@ -173,6 +175,16 @@ class Score:
     def refuse(self, index: int, told: Mapping[tuple[str, ...], str]) -> NoReturn:
         """Refuse a step for what is wrong at some of its keys; raises `RecipeError`."""
         raise RecipeError([self.problem(("steps", index, *keys), text) for keys, text in told.items()])
+
+    def refuse_haste(self, index: int, given: float | None, calm: float, doing: str) -> None:
+        """Refuse a step with too short a time (s) in the recipe; raises `RecipeError`.
+
+        `calm`: time that a calm maker takes, s; `doing`: what for, in words.
+        """
+        if given is not None and given < HASTE * calm:
+            least = math.ceil(10.0 * HASTE * calm) / 10.0
+            told = f"{given:g} s are too short a time to {doing}, expected at least {least:g} s"
+            self.refuse(index, {("seconds",): told})
 
     def inflate(self, balloons: Iterable[str], index: int, seconds: float | None = None) -> None:
         """Blow balloons up at the same time, each in so long, or as long as a maker takes."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, ClassVar
 
 from balloon_usd.language.lengths import at_least, at_most, cm
@@ -25,8 +24,6 @@ SHORTEST = 0.7
 """The same of the shortest one: the wall of one of 3 cm folds aside, its knot stays before it."""
 INVERT_SECONDS = 2.0
 """Time in which a finger presses the knot through, s."""
-HASTE = 0.5
-"""Share of the time that a maker takes below which the knot would go through walls."""
 
 
 class Tulip(Turned, TwistsOff):
@@ -93,7 +90,4 @@ steps:
             text, seconds = f"tulip: {name}", INVERT_SECONDS / score.pace.leading
             score.add(Invert(score.now, seconds, index, text, knot=start, to=end))
             score.weld((start, end), self.turns, text, index)
-        if self.seconds is not None and self.seconds < (shortest := HASTE * (score.now - begin)):
-            least = math.ceil(10.0 * shortest) / 10.0
-            told = f"{self.seconds:g} s are too short a time to press a knot through"
-            score.refuse(index, {("seconds",): f"{told}, expected at least {least:g} s"})
+        score.refuse_haste(index, self.seconds, score.now - begin, "press a knot through")

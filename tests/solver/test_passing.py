@@ -9,15 +9,9 @@ import numpy as np
 import pytest
 
 from balloon_usd.language.joint import Joint
-from balloon_usd.operations.moves import PassThrough
 from balloon_usd.operations.push import Push
 from balloon_usd.operations.roll import Roll
-from balloon_usd.plan import plan
-from balloon_usd.quality.crossing_counter import CrossingCounter
-from balloon_usd.quality.passed import PassedBubbles
-from balloon_usd.quality.walls import walls_of
-from balloon_usd.recipe import Recipe
-from balloon_usd.solver.simulation import simulate_many
+from tests.solver.into_ring import IntoRing
 
 HELD = "physics: {hold: 2}\n"
 LOOP = """
@@ -61,47 +55,14 @@ steps:
 """
 
 
-class Passed:
-    """A recipe that is run: where the rings of its balloon are in every frame from the push on."""
-
-    def __init__(self, text):
-        self.plan = plan(Recipe.parse(text))
-        (self.move,) = (move for move in self.plan.choreography.moves if isinstance(move, PassThrough))
-        simulation = simulate_many([self.plan], device="cpu")
-        (meshes,) = simulation.meshes
-        self.mesh = meshes[0]
-        passed = PassedBubbles(self.plan, meshes)
-        counter = CrossingCounter(walls_of(self.plan, meshes), 1)
-        self.crossings, self.gas, self.middles, self.times = [], [], [], []
-        for (frame,) in simulation.frames():
-            passed.add(frame)
-            time = (frame.time_code - 1) / self.plan.recipe.fps
-            if time >= self.move.start:
-                points = frame.points[0].astype(float)
-                rings = points[self.mesh.ring_start[:, None] + np.arange(self.mesh.around)]
-                self.middles.append(rings.mean(axis=1))
-                self.times.append(time)
-                self.gas.append(simulation.model.scene.amount.numpy().copy())
-                if frame.time_code % 6 == 0:
-                    self.crossings.append(counter.count(frame.points).count)
-        self.rings = rings
-        self.stuck, self.slipped, self.result = passed.stuck(), passed.slipped(), passed.result()
-
-    def middle(self, name, at=-1):
-        """Where the ring of the middle of a bubble is in a frame, (3,), m."""
-        guides = self.plan.table.guides(name)
-        ring = self.plan.table.rings[guides[len(guides) // 2]]
-        return self.middles[at][self.mesh.ring_at(ring.along)]
-
-
 @pytest.fixture(scope="module")
 def pushed():
-    return Passed(Push.example + HELD)
+    return IntoRing(Push.example + HELD)
 
 
 @pytest.fixture(scope="module")
 def rolled():
-    return Passed(Roll.example + HELD)
+    return IntoRing(Roll.example + HELD)
 
 
 def test_a_nose_that_is_pushed_between_ears_is_held_there_when_hands_let_go(pushed):
@@ -151,7 +112,7 @@ def test_the_twist_behind_a_rolled_bubble_does_not_come_undone(rolled):
 
 
 def test_a_nose_that_is_longer_than_its_ring_is_deep_gets_stuck_as_the_plan_warns():
-    made = Passed(LOOP.format(nose=14, hair=15) + HELD)
+    made = IntoRing(LOOP.format(nose=14, hair=15) + HELD)
     assert made.stuck == ["nose"]
     assert made.slipped == []
     assert made.result["slipped"] == ["nose"]
@@ -160,25 +121,25 @@ def test_a_nose_that_is_longer_than_its_ring_is_deep_gets_stuck_as_the_plan_warn
 
 
 def test_a_bubble_before_its_ring_is_rolled_with_what_hangs_on_it():
-    made = Passed(BEFORE + HELD)
+    made = IntoRing(BEFORE + HELD)
     assert made.move.base == made.plan.table.joint(Joint("nose", "end"))
     assert made.stuck == made.slipped == []
     assert made.result["through"]["nose"] > 0.7
 
 
 def test_a_bubble_of_another_balloon_that_was_led_in_from_the_side_goes_through():
-    made = Passed(OTHER + HELD)
+    made = IntoRing(OTHER + HELD)
     assert made.stuck == made.slipped == []
     assert made.result["through"]["arm"] > 0.6
 
 
 def test_where_the_ring_comes_undone_as_planned_nothing_is_expected_to_stay():
-    made = Passed(Push.example.replace("    point: up\n", "    point: up\n    turns: 1\n") + HELD)
+    made = IntoRing(Push.example.replace("    point: up\n", "    point: up\n    turns: 1\n") + HELD)
     assert made.result["verdict"] == "none"
 
 
 def test_a_nose_that_is_too_small_for_its_ring_slips_out_and_when_is_told():
-    made = Passed(LOOP.format(nose=3, hair=36) + HELD)
+    made = IntoRing(LOOP.format(nose=3, hair=36) + HELD)
     (told,) = made.slipped
     time = float(re.fullmatch(r"nose slipped out of its ring at ([\d.]+) s", told).group(1))
     assert made.move.end - 0.1 < time <= made.times[-1]

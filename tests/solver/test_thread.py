@@ -5,17 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from balloon_usd.operations.moves import Thread as ThreadMove
 from balloon_usd.operations.thread import Thread
 from balloon_usd.plan import plan
-from balloon_usd.quality.crossing_counter import CrossingCounter
-from balloon_usd.quality.passed import PassedBubbles
-from balloon_usd.quality.walls import walls_of
 from balloon_usd.recipe import Recipe, RecipeError
-from balloon_usd.solver.simulation import simulate_many
+from tests.solver.into_ring import IntoRing
 
-EVERY = 6
-"""Frames from one count of crossings to the next."""
 PAIR = """
 format: 1
 name: pair
@@ -31,38 +25,13 @@ steps:
 """
 
 
-class Threaded:
-    """A recipe that is run: where the middles of rings of its balloon are from the step on, and more."""
-
-    def __init__(self, text):
-        self.plan = plan(Recipe.parse(text))
-        (self.move,) = (move for move in self.plan.choreography.moves if isinstance(move, ThreadMove))
-        simulation = simulate_many([self.plan], device="cpu")
-        (meshes,) = simulation.meshes
-        self.mesh = meshes[0]
-        passed = PassedBubbles(self.plan, meshes)
-        counter = CrossingCounter(walls_of(self.plan, meshes), 1)
-        self.crossings, self.gas, self.middles, self.times = [], [], [], []
-        for (frame,) in simulation.frames():
-            passed.add(frame)
-            time = (frame.time_code - 1) / self.plan.recipe.fps
-            if time >= self.move.start:
-                rings = self.mesh.ring_start[:, None] + np.arange(self.mesh.around)
-                self.middles.append(frame.points[0].astype(float)[rings].mean(axis=1))
-                self.times.append(time)
-                self.gas.append(simulation.model.scene.amount.numpy().copy())
-                if frame.time_code % EVERY == 0:
-                    self.crossings.append(counter.count(frame.points).count)
-        self.stuck, self.slipped, self.result = passed.stuck(), passed.slipped(), passed.result()
-
-    def middle(self, ring, at=-1):
-        """Where a ring of the plan is in a frame, (3,), m."""
-        return self.middles[at][self.mesh.ring_at(self.plan.table.rings[ring].along)]
+class Threaded(IntoRing):
+    """A bubble that is threaded."""
 
     def points(self, at=-1):
         """Where what was threaded points in a frame: unit direction, (3,)."""
         firm = self.move.led[len(self.move.led) - self.move.flat - 1]
-        way = self.middle(firm, at) - self.middle(self.move.base, at)
+        way = self.place(firm, at) - self.place(self.move.base, at)
         return way / np.linalg.norm(way)
 
 
@@ -85,7 +54,7 @@ def test_all_of_it_has_gone_through_the_ring_in_the_end(sword, pair):
 def test_its_tip_goes_first_and_is_bent_round_to_its_other_end(sword):
     tip = sword.move.led[-1]
     away = [
-        float(np.linalg.norm(sword.middle(tip, at) - sword.middle(sword.move.base, at)))
+        float(np.linalg.norm(sword.place(tip, at) - sword.place(sword.move.base, at)))
         for at in range(len(sword.times))
     ]
     assert min(away) < 0.15
@@ -94,8 +63,7 @@ def test_its_tip_goes_first_and_is_bent_round_to_its_other_end(sword):
 
 def test_it_points_where_it_did_and_the_ring_lies_on_its_other_side(sword):
     assert sword.points() @ sword.points(0) > 0.95
-    middle = sword.plan.table.guides("guard")[3]
-    before, after = (sword.middle(middle, at) - sword.middle(sword.move.base, at) for at in (0, -1))
+    before, after = (sword.middle("guard", at) - sword.place(sword.move.base, at) for at in (0, -1))
     assert before[2] > 0.05
     assert after[2] < 0.0
 
@@ -109,7 +77,7 @@ def test_no_wall_goes_through_another_and_no_gas_is_lost(sword, pair):
 def test_it_stays_where_it_is_when_hands_let_go(sword):
     second = round(sword.plan.recipe.fps)
     for ring in sword.move.led:
-        assert np.linalg.norm(sword.middle(ring) - sword.middle(ring, -second)) < 1e-3
+        assert np.linalg.norm(sword.place(ring) - sword.place(ring, -second)) < 1e-3
 
 
 def test_one_that_was_bent_before_is_led_on_from_where_it_is():
