@@ -25,9 +25,9 @@ SHORTEST = 5.8
 """Length below which a bubble cannot be bent round into its ring, in its widths: in simulations of a 260 one
 of 30 cm comes into every ring, one of 27 not into a loop of 20.
 """
-NARROW = 1.15
-"""Depth of a ring below which a tube gets stuck in it, in its widths: a 260 goes through two bubbles of 6 cm,
-and gets stuck between two of 5.
+NARROW = 1.3
+"""Depth of a ring below which a tube may get stuck in it, in its widths: a 260 goes through two bubbles of
+6 cm and gets stuck between two of 5; two of 3.2 cm of a 160 let one through, and may be torn.
 """
 BENDING_SECONDS = 4.0
 """Time in which the tube is bent round before its ring, and straightened behind it, s."""
