@@ -149,9 +149,10 @@ def _call(*words: str) -> None:
 if __name__ == "__main__":
     with TemporaryDirectory() as scratch:
         wanted = sys.argv[1:] or [*WORDS, DROP]
-        if words := [word for word in wanted if word in BY_WORD]:
+        figures = {file.stem for file in gallery_recipes()} & {*wanted} if GALLERY in wanted else set()
+        if words := [word for word in wanted if word not in (DROP, GALLERY, *figures)]:
             draw(words, Path(scratch))
         if GALLERY in wanted:
-            draw_gallery(Path(scratch), {*wanted} - {DROP, GALLERY, *words})
+            draw_gallery(Path(scratch), figures)
         if DROP in wanted:
             draw_drop(Path(scratch))

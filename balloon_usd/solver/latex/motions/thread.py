@@ -39,10 +39,10 @@ RISE = 3.0
 """Radius of that curve, in widths of the bubble."""
 TIGHTEST = 0.75
 """Radius of the tightest bend, in widths of the bubble: a loop of 24 cm of a 260 is as tight."""
+BEFORE = 0.6
+"""Distance of the tip from the hole as it is led there, in widths of the bubble."""
 FULL_FORCE = 0.05
 """Width of a tube from which on hands pull with all their force, m: with it they tore a 160."""
-BEFORE = 0.6
-"""Distance of the tip from the hole as it is led there, in the same."""
 PLACES = 2000
 """Places along the bubble at which its curve is found."""
 
