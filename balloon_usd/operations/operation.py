@@ -37,8 +37,10 @@ class Operation(Entries):
     """Whether it twists the two ends of each of them together."""
     folds: ClassVar[bool] = False
     """Whether it lays the two halves of each of them side by side."""
+    inverts: ClassVar[bool] = False
+    """Whether it turns the wall of each of them inside: then that wall's outside meets itself."""
     hollow: ClassVar[bool] = False
-    """Whether each of them has a hole then, if it is long enough."""
+    """Whether each of them has a hole once its ends are one, if it is long enough."""
     gas: ClassVar[float] = 1.0
     """Share of the gas of its length that hands leave in each of them, if not told to press any out."""
     slack: ClassVar[float] = 1.0

@@ -32,6 +32,7 @@ class Tulip(Turned, TwistsOff):
     word: ClassVar[str] = "tulip"
     bubble_kind: ClassVar[BubbleKind | None] = "tulip"
     closes: ClassVar[bool] = True
+    inverts: ClassVar[bool] = True
     gas: ClassVar[float] = 0.8
     slack: ClassVar[float] = 1.2
     example: ClassVar[str] = """\

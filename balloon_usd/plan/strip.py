@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from balloon_usd.balloon.bubble_shape import pinch_length, shortest_stable_bubble
 from balloon_usd.balloon.tube_theory import maxwell_state
+from balloon_usd.operations.table import BY_KIND
 from balloon_usd.plan.necks import wall_place
 from balloon_usd.plan.open_tube import Twisted, softened
 
@@ -115,7 +116,8 @@ class Strip:
     @property
     def inverted(self) -> bool:
         """Whether its knot is pressed through its first bubble, the wall of which it turns inside."""
-        return self.bubbles[0].kind == "tulip"
+        operation = BY_KIND.get(self.bubbles[0].kind)
+        return operation is not None and operation.inverts
 
     @property
     def inflated_radius(self) -> float:
