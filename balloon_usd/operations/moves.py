@@ -224,6 +224,8 @@ class PassThrough(Move):
     """Ring of its held end, which lies in the ring of others."""
     led: tuple[int, ...] = ()
     """Its other rings, away from the base: the last is, or is next to, its other end."""
+    row: int = 0
+    """How many of these, the first ones, are of a row of bubbles between the base and it."""
     opening: tuple[int, ...] = ()
     """Rings of those that it passes, in order round them."""
     width: float = 0.0
@@ -236,6 +238,11 @@ class PassThrough(Move):
     """How far its middle is pressed beyond that plane, m, where its other end stays in it."""
     point: Vector | None = None
     """Unit direction in which it points in the end; None for where it pointed before."""
+
+    @property
+    def middle(self) -> int:
+        """Ring nearest the middle of the bubble."""
+        return self.led[self.row + (len(self.led) - self.row - 1) // 2]
 
 
 @dataclass(frozen=True)

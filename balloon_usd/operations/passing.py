@@ -18,7 +18,7 @@ from balloon_usd.operations.score import HAND_SPEED, SETTLE_SECONDS
 from balloon_usd.operations.workpiece import ContactKind
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Container, Iterator, Sequence
 
     from balloon_usd.language.problem import Path
     from balloon_usd.language.quantities import Units
@@ -57,6 +57,8 @@ class Passing(OnBalloon, Pointed, Timed, Operation):
     """Key of the ring in its value."""
     beyond: ClassVar[float]
     """How far the free end of the bubble swings beyond the plane of the ring, rad."""
+    by_row: ClassVar[bool] = False
+    """Whether a row of bubbles may lie between the ring and the bubble that goes through."""
     dip: ClassVar[float] = 0.0
     """How far its middle is pressed beyond that plane, in its widths, where its other end stays in it."""
 
@@ -112,11 +114,54 @@ class Passing(OnBalloon, Pointed, Timed, Operation):
         names = cls.uses(value)
         if len(names) < 2 or not all(found) or not bench.knows(names):
             return
-        fault = next(_faults(bench.piece, cls.word, names[0], names[1:]), None)
+        fault = next(cls._faults(bench.piece, names[0], names[1:]), None)
         if fault is None and cls.fits(names[0], (*path, "bubble"), bench):
             bench.piece.touch(place.index, cls.word, names[0], names[1:])
         elif fault is not None:
             bench.complain(path, fault)
+
+    @classmethod
+    def _faults(cls, piece: Workpiece, name: str, ring: Sequence[str]) -> Iterator[str]:
+        """Yield why a bubble cannot be brought into a ring of others."""
+        if len({name, *ring}) <= len(ring):
+            yield "names a bubble twice, expected each once"
+        elif closing := [each for each in ring if len(ring) > 1 and piece.is_closed([each])]:
+            others = [each for each in ring if each not in closing]
+            one = len(closing) == 1
+            what = "closes on itself and is no side" if one else "close on themselves and are no sides"
+            yield f"{all_of(closing)} {what} of the ring, expected {', '.join(others) or 'one ring'}"
+        elif not piece.is_closed(ring):
+            what = f"{all_of(ring)} form no closed ring" if len(ring) > 1 else f"{ring[0]} is no closed ring"
+            yield f"{what} by now, expected a loop, a fold, or all bubbles that a lock before closes to one"
+        elif any(name == contact.bubble for contact in piece.contacts):
+            yield f"{name} is in a ring already, expected each bubble once"
+        else:
+            yield from cls._faults_of_ends(piece, name, ring)
+
+    @classmethod
+    def _faults_of_ends(cls, piece: Workpiece, name: str, ring: Sequence[str]) -> Iterator[str]:
+        """Yield what is wrong at the ends of a bubble that is to be brought into a ring of others."""
+        corners = {
+            end
+            for each in ring
+            for end in piece.joint(Joint(each, "start")) + piece.joint(Joint(each, "end"))
+        }
+        ends = [end for end in (Joint(name, "start"), Joint(name, "end")) if end not in corners]
+        if len(ends) == 2:
+            if not (cls.by_row and piece.row_from(ring, name)):
+                expected = "a bubble that does" + " or hangs on one by a row of bubbles" * cls.by_row
+                yield f"{name} does not begin at a joint of {all_of(ring)}, expected {expected}"
+                return
+            ends = ends[1:]
+        if not ends:
+            yield f"{name} hangs on {all_of(ring)} with both ends, expected one with a free end"
+            return
+        more = piece.hangs_on(ends[0]) or (ends[0] in piece.open_ends.values())
+        if cls.word == "push" and more:
+            what = f"what hangs on {ends[0]} does not fit through"
+            yield f"{what}, expected a bubble at the end of a balloon, or roll"
+        if cls.word == "roll" and not more:
+            yield f"nothing hangs on {ends[0]}, expected push"
 
     @classmethod
     def fits(cls, name: str, path: Path, bench: Workbench) -> bool:
@@ -162,7 +207,7 @@ class Passing(OnBalloon, Pointed, Timed, Operation):
         """Bring it there, wait until the ring has closed on it, and let go."""
         layout, bubble = score.layout, score.layout.bubble(self.bubble)
         opening = _around(score, self.ring)
-        base, led = _held_and_led(score, self.bubble, opening)
+        base, row, led = _held_and_led(score, self.bubble, opening)
         text = f"{self.word}: {self.bubble}"
         seconds = self.hand_seconds(bubble.length)
         doing = f"bring {self.bubble} through its ring"
@@ -174,7 +219,8 @@ class Passing(OnBalloon, Pointed, Timed, Operation):
             text,
             bubble=self.bubble,
             base=base,
-            led=led,
+            led=(*row, *led),
+            row=len(row),
             opening=opening,
             width=bubble.width,
             tube=max(layout.bubble(name).width for name in self.ring),
@@ -187,63 +233,41 @@ class Passing(OnBalloon, Pointed, Timed, Operation):
         score.let_go(index)
 
 
-def _faults(piece: Workpiece, kind: ContactKind, name: str, ring: Sequence[str]) -> Iterator[str]:
-    """Yield why a bubble cannot be brought into a ring of others."""
-    if len({name, *ring}) <= len(ring):
-        yield "names a bubble twice, expected each once"
-    elif closing := [each for each in ring if len(ring) > 1 and piece.is_closed([each])]:
-        others = [each for each in ring if each not in closing]
-        word = (
-            "closes on itself and is no side" if len(closing) == 1 else "close on themselves and are no sides"
-        )
-        yield f"{all_of(closing)} {word} of the ring, expected {', '.join(others) or 'one ring'}"
-    elif not piece.is_closed(ring):
-        what = f"{all_of(ring)} form no closed ring" if len(ring) > 1 else f"{ring[0]} is no closed ring"
-        yield f"{what} by now, expected a loop, a fold, or all bubbles that a lock before closes to one"
-    elif any(name == contact.bubble for contact in piece.contacts):
-        yield f"{name} is in a ring already, expected each bubble once"
-    else:
-        yield from _faults_of_ends(piece, kind, name, ring)
-
-
-def _faults_of_ends(piece: Workpiece, kind: ContactKind, name: str, ring: Sequence[str]) -> Iterator[str]:
-    """Yield what is wrong at the ends of a bubble that is to be brought into a ring of others."""
-    corners = {
-        end for each in ring for end in piece.joint(Joint(each, "start")) + piece.joint(Joint(each, "end"))
-    }
-    ends = [end for end in (Joint(name, "start"), Joint(name, "end")) if end not in corners]
-    if len(ends) == 2:
-        yield f"{name} does not begin at a joint of {all_of(ring)}, expected a bubble that does"
-        return
-    if not ends:
-        yield f"{name} hangs on {all_of(ring)} with both ends, expected one with a free end"
-        return
-    more = piece.hangs_on(ends[0]) or (ends[0] in piece.open_ends.values())
-    if kind == "push" and more:
-        what = f"what hangs on {ends[0]} does not fit through"
-        yield f"{what}, expected a bubble at the end of a balloon, or roll"
-    if kind == "roll" and not more:
-        yield f"nothing hangs on {ends[0]}, expected push"
-
-
 def depth_of(layout: Layout, ring: Sequence[str]) -> float:
     """Return how far a ring of bubbles reaches from a joint of it, m."""
     return 0.5 * sum(layout.bubble(name).length for name in ring)
 
 
-def _held_and_led(score: Score, bubble: str, ring: Sequence[int]) -> tuple[int, tuple[int, ...]]:
-    """Return the ring of the end of a bubble that lies in a ring of others, and its others away from it.
+def _held_and_led(
+    score: Score, bubble: str, ring: Sequence[int]
+) -> tuple[int, tuple[int, ...], tuple[int, ...]]:
+    """Return the ring of the end of a bubble that lies in a ring of others, those of a row of bubbles that
+    hangs there before it, and its own away from it.
 
     `ring`: rings of these others.
     """
     layout: Layout = score.layout
     start, end = layout.ends(bubble)
     guides = layout.guides(bubble)
-    joints = {score.joints.root(each) for each in ring}
-    if score.joints.root(start) in joints:
-        return start, guides if end is None else (*guides, end)
-    assert end is not None, "one end lies in the ring"
-    return end, (*guides[::-1], start)
+    corners = {score.joints.root(each) for each in ring}
+    if end is not None and score.joints.root(end) in corners:
+        return end, (), (*guides[::-1], start)
+    base, row = _row(score, start, corners)
+    return base, row, guides if end is None else (*guides, end)
+
+
+def _row(score: Score, start: int, corners: Container[int]) -> tuple[int, tuple[int, ...]]:
+    """Return the last ring before another of its balloon that is one of some joints, and those from there to
+    the other; none of what closes on itself, such as ears.
+    """
+    row: list[int] = []
+    for ring in range(start, -1, -1):
+        joint = score.joints.root(ring)
+        if joint in corners:
+            return ring, tuple(row[::-1])
+        known = next((k for k, each in enumerate(row) if score.joints.root(each) == joint), None)
+        row = [*row, ring] if known is None else row[: known + 1]
+    raise AssertionError("a bubble that is brought into a ring hangs on it")
 
 
 def _around(score: Score, bubbles: Sequence[str]) -> tuple[int, ...]:

@@ -51,6 +51,7 @@ class Thread(Passing):
     value_model: ClassVar[type[Entries] | None] = ThreadedBubble
     ring_key: ClassVar[str] = "through"
     beyond: ClassVar[float] = math.radians(35.0)
+    by_row: ClassVar[bool] = True
     example: ClassVar[str] = """\
 format: 1
 name: sword

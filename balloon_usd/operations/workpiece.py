@@ -273,9 +273,10 @@ class Workpiece:
         """Return the joints that unwind when they are let go.
 
         That is where just two bubbles meet, not brought together by any step, and neither belongs to a closed
-        ring, or lies in one: within a ring, turning one bubble would have to turn the ring.
+        ring, lies in one, or in a row that leads back into one: there, turning one bubble would have to turn
+        the ring.
         """
-        bridges = self.bridges() - self.gripped()
+        bridges = self.bridges() - self.gripped() - self._in_rows()
         return [
             ends
             for ends in self.joints
@@ -290,10 +291,41 @@ class Workpiece:
         """Return what hangs on one end of a bubble: all other bubbles that come along when it is moved."""
         return self._stiff.reached(self._joints.root(end), without=end.bubble)
 
+    def row_from(self, ring: Iterable[str], bubble: str) -> tuple[str, ...] | None:
+        """Return the bubbles of its balloon between a joint of a ring and the start of a bubble, without ears
+        and loops; None where more than these hangs there.
+        """
+        corners = {joint for each in ring for joint in self._ends(each)}
+        trail = next(trail for trail in self.trails if bubble in trail)
+        found: list[str] = []
+        beside = {self._ends(bubble)[0]: {bubble}}
+        """Bubbles of the row at each of its joints."""
+        at = self._ends(bubble)[0]
+        for name in reversed(trail[: trail.index(bubble)]):
+            start, end = self._ends(name)
+            if at in corners:
+                break
+            beside[at].add(name)
+            if start != end:
+                if start in beside:
+                    return None
+                found.insert(0, name)
+                beside[start] = {name}
+                at = start
+        beside.pop(at)
+        alone = all({each.bubble for each in self.joint(joint)} == names for joint, names in beside.items())
+        return tuple(found) if at in corners and alone else None
+
     def gripped(self) -> frozenset[str]:
         """Return the bubbles that go through a ring of others which is still closed."""
         firm = (each for each in self.contacts if self._popped.isdisjoint(each.others))
         return frozenset(each.bubble for each in firm if self.is_closed(each.others))
+
+    def _in_rows(self) -> frozenset[str]:
+        """Return the bubbles of rows that lead from a ring back into it."""
+        gripped = self.gripped()
+        rows = (self.row_from(each.others, each.bubble) for each in self.contacts if each.bubble in gripped)
+        return frozenset(name for row in rows for name in row or ())
 
     @property
     def _connections(self) -> Connections:

@@ -81,7 +81,7 @@ class _Followed:
     def __init__(
         self, plan: Plan, meshes: Sequence[BalloonMesh], move: PassThrough, ring: Sequence[str]
     ) -> None:
-        self._rings = [RingCorners.of(plan, meshes, at) for at in (_middle(move), *move.opening)]
+        self._rings = [RingCorners.of(plan, meshes, at) for at in (move.middle, *move.opening)]
         """That of the middle of the bubble, and those of the ring that it passes."""
         self._ends = {str(Joint(name, end)) for name in ring for end in ("start", "end")}
         """Joints without which the ring is open."""
@@ -130,8 +130,3 @@ def solid_angle(place: Floats, ring: Floats) -> float:
     volume = np.cross(b, c) @ a
     rest = la * lb * lc + (b @ a) * lc + np.einsum("ni,ni->n", b, c) * la + (c @ a) * lb
     return float(2.0 * np.arctan2(volume, rest).sum())
-
-
-def _middle(move: PassThrough) -> int:
-    """Return the ring nearest the middle of a bubble that passes."""
-    return move.led[(len(move.led) - 1) // 2]

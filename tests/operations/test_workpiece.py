@@ -127,6 +127,20 @@ def test_a_bubble_in_a_ring_is_gripped_while_the_ring_is_closed_and_nothing_unwi
     assert piece.gripped() == set()
 
 
+def test_a_row_leads_from_a_ring_to_a_bubble_if_nothing_else_hangs_on_it():
+    piece = Workpiece(["main", "more"])
+    for step, bubble in enumerate("abcdef"):
+        piece.make(step, bubble, "main")
+    piece.join(6, [start("b"), end("b")])
+    piece.join(7, [start("d"), end("d")])
+    assert piece.row_from(["b"], "f") == ("c", "e")
+    assert piece.row_from(["b"], "c") == ()
+    assert piece.row_from(["d"], "a") is None
+    piece.make(8, "g", "more")
+    piece.join(9, [start("g"), end("c")])
+    assert piece.row_from(["b"], "f") is None
+
+
 def test_joints_of_a_step_that_slips_come_apart(head):
     assert head.after(2, without={1}).free_to_spin(end("left_ear"))
 

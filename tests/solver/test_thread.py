@@ -80,6 +80,34 @@ def test_it_stays_where_it_is_when_hands_let_go(sword):
         assert np.linalg.norm(sword.place(ring) - sword.place(ring, -second)) < 1e-3
 
 
+ROW = Thread.example.replace("length: 29, tail: 6", "length: 32, tail: 7").replace(
+    "  - rest", "  - bubbles: {first: 3, second: 3}\n  - ear: {stop: 3}\n  - bubbles: {third: 3}\n  - rest"
+)
+
+
+@pytest.fixture(scope="module")
+def row():
+    return Threaded(ROW)
+
+
+def test_a_row_of_bubbles_stays_before_the_ring_and_the_rest_goes_through(row):
+    assert (row.stuck, row.slipped) == ([], [])
+    assert row.result["through"]["blade"] > 0.9
+    ends = [row.place(row.move.led[at]) for at in (row.move.row - 1, -1)]
+    guard = row.middle("guard")
+    assert np.linalg.norm(ends[0] - guard) < 0.1 < np.linalg.norm(ends[1] - guard)
+    assert sum(row.crossings) == 0
+
+
+def test_nothing_unwinds_in_a_row_that_leads_back_into_its_ring(row):
+    assert row.plan.cautions == ()
+    loose = plan(Recipe.parse(ROW[: ROW.index("  - thread")])).cautions
+    assert [caution.what for caution in loose] == [
+        "the twist between first and second will unwind",
+        "the twist between third and blade will unwind",
+    ]
+
+
 def test_one_that_was_bent_before_is_led_on_from_where_it_is():
     bent = Threaded(
         Thread.example.replace("  - thread", "  - bend: {blade: 70}\n    point: left\n  - thread")
@@ -107,8 +135,9 @@ BLADE = "  - rest: blade\n"
         (f"{BLADE}  - thread: {{bubble: blade, through: [grip]}}", "grip is no closed ring"),
         (f"{BLADE}  - thread: {{bubble: blade, through: []}}", "is empty"),
         (
-            f"  - bubbles: {{more: 5}}\n{BLADE}  - thread: {{bubble: blade, through: [guard]}}",
-            "blade does not begin at a joint of guard, expected a bubble that does",
+            f"  - bubbles: {{more: 5, left: 5, right: 5}}\n  - lock: [left, right]\n{BLADE}"
+            "  - thread: {bubble: blade, through: [guard]}",
+            "blade does not begin at a joint of guard, expected a bubble that does or hangs on one by a row of",
         ),
         (
             f"  - bubbles: {{more: 43}}\n  - lock: {{joints: [guard.end, more.end]}}\n{BLADE}"

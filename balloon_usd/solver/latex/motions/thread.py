@@ -39,6 +39,8 @@ RISE = 3.0
 """Radius of that curve, in widths of the bubble."""
 TIGHTEST = 0.75
 """Radius of the tightest bend, in widths of the bubble: a loop of 24 cm of a 260 is as tight."""
+CLOSE = 0.3
+"""Distance of the end of a row of bubbles from the hole when the bubble behind it is through, in widths."""
 BEFORE = 0.6
 """Distance of the tip from the hole as it is led there, in widths of the bubble."""
 FULL_FORCE = 0.05
@@ -61,10 +63,14 @@ class Thread(IntoRing):
         aside, _ = self._spread_aside(plane, move.width)
         far = self._ring @ plane.inward
         self._spread = aside + RAISED * move.width * (far / far.max())[:, None] * plane.inward
-        self._bow = _Bow(float((self._whole @ plane.inward).mean()), move.width, self._along)
+        self._row = move.row
+        before = float(self._along[move.row - 1]) + CLOSE * move.width if move.row else 0.0
+        self._bow = _Bow(float((self._whole @ plane.inward).mean()), move.width, self._along, before)
         self._aligning = turn_between(points, plane.normal)
-        self._end: Floats = math.cos(move.beyond) * plane.inward - math.sin(move.beyond) * plane.normal
+        self._end: Floats = -plane.normal
         """Unit direction of the bubble once it is taut."""
+        if not move.row:
+            self._end = math.cos(move.beyond) * plane.inward + math.sin(move.beyond) * self._end
         self._back = turn_between(self._end, points if move.point is None else np.array(move.point))
         self._off: Floats = np.zeros(3)
         self._off = self._began - self._bent(0.0)
@@ -75,14 +81,24 @@ class Thread(IntoRing):
         places = self._bent(share)
         if share > PULLED:
             # What is still before the ring follows by itself.
-            self._hands.mode[self._led[self._along < self._left(share)]] = 0
+            follows = self._along < self._left(share)
+            follows[: self._row] = False
+            self._hands.mode[self._led[follows]] = 0
             taut = smooth((share - PULLED) / (TAUT - PULLED))
-            places = places + taut * (self._along[:, None] * self._end - places)
+            places = places + taut * (self._taut(places) - places)
         axis, angle = self._back
         turned = smooth((share - TAUT) / (1.0 - TAUT))
         back = turn_about(axis, angle * turned)
         spread = smooth(share / SPREAD) * (1.0 - turned)
         self._lead((self._ring + spread * self._spread) @ back.T, places @ back.T)
+
+    def _taut(self, places: Floats) -> Floats:
+        """Return where its rings are once it is taut, (N, 3), m: straight on from a row, which stays."""
+        row, along = self._row, self._along
+        begin, before = (places[row - 1], along[row - 1]) if row else (np.zeros(3), 0.0)
+        straight: Floats = begin + (along - before)[:, None] * self._end
+        straight[:row] = places[:row]
+        return straight
 
     def _left(self, share: float) -> float:
         """Return how much of it is before the hole, m."""
@@ -104,10 +120,11 @@ class _Bow:
     It leaves its held end away from the hole, straight, goes round on an arc, and straight on into the hole.
     """
 
-    def __init__(self, height: float, width: float, along: Floats) -> None:
+    def __init__(self, height: float, width: float, along: Floats, before: float) -> None:
         """Take the height of the middle of the hole above the held end and the width of the bubble, m.
 
-        `along`: distances of its rings from its held end, (N,), m.
+        `along`: distances of its rings from its held end, (N,), m; `before`: how much stays before the hole,
+        m, 0 for as little as bends.
         """
         self._height, self._width, self._along = height, width, along
         rise = (1.0 + math.cos(DIPPED)) / math.sin(DIPPED)
@@ -117,7 +134,7 @@ class _Bow:
         self._per_radius = rise * (1.0 + math.cos(DIPPED)) + math.sin(DIPPED) + math.pi + DIPPED
         """Length of the curve for each radius of its arc, from a hole as high as the held end."""
         self._most = float(along[-1]) + BEFORE * width
-        self._least = min(self._per_radius * TIGHTEST * width - self._lost, self._most)
+        self._least = before or min(self._per_radius * TIGHTEST * width - self._lost, self._most)
 
     def left(self, progress: float) -> float:
         """Return how much of it is before the hole, m; `progress`: 0 all, 1 as little as bends."""
