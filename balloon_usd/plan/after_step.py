@@ -15,6 +15,7 @@ from balloon_usd.plan.report import (
     head_json,
     head_lines,
     joint_lines,
+    margins_of,
     ring_line,
 )
 
@@ -60,6 +61,11 @@ class AfterStep:
     def cautions(self) -> tuple[Caution, ...]:
         """Cautions about this step and those before it."""
         return tuple(c for c in self.plan.cautions if c.step is not None and c.step <= self.index)
+
+    @property
+    def margins(self) -> dict[int, float]:
+        """How many times the friction that they need joints have that hold by it, by their indices."""
+        return margins_of(self.plan.recipe, self.graph, self.index)
 
     @property
     def strips(self) -> list[Strip]:
@@ -109,7 +115,13 @@ def after_step_text(after: AfterStep) -> str:
         lines += ["", f"balloon {strip.balloon}:", *bubble_lines(strip, after.made(strip))]
         lines.append(_left(after.left(strip)))
     held = f"; held by hand alone: {', '.join(map(str, after.loose))}" if after.loose else ""
-    lines += ["", f"{ring_line(graph)}{held}", *joint_lines(graph), "", *caution_lines(after.cautions)]
+    lines += [
+        "",
+        f"{ring_line(graph)}{held}",
+        *joint_lines(graph, after.margins),
+        "",
+        *caution_lines(after.cautions),
+    ]
     return "\n".join(lines) + "\n"
 
 
@@ -135,6 +147,6 @@ def after_step_json(after: AfterStep) -> dict[str, Any]:
             for strip in after.strips
         ],
         "loose": [str(end) for end in after.loose],
-        "graph": graph_json(after.graph, winds=after.plan.recipe.physics.traits.winds),
+        "graph": graph_json(after.graph, after.margins, winds=after.plan.recipe.physics.traits.winds),
         "cautions": [asdict(caution) for caution in after.cautions],
     }

@@ -12,8 +12,11 @@ from typing import TYPE_CHECKING
 
 from balloon_usd.balloon.wound_neck import holding_friction
 from balloon_usd.operations.modifiers import Turned
+from balloon_usd.operations.workpiece import Joined
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from balloon_usd.language.joint import Joint
     from balloon_usd.operations.operation import Operation
     from balloon_usd.recipe import Recipe
@@ -42,6 +45,25 @@ def slipping_steps(recipe: Recipe) -> frozenset[int]:
 def too_slippery(step: Operation, friction: float) -> bool:
     """Return whether a step winds a neck that does not hold for want of friction."""
     return isinstance(step, Turned) and friction < holding_friction(step.turns)
+
+
+def friction_margin(recipe: Recipe, ends: Iterable[Joint], step: int | None = None) -> float | None:
+    """Return how many times the friction that it needs a joint has, given all ends of bubbles in it.
+
+    Of several necks that are wound there it is that of the weakest; None where none is wound about others,
+    and 0 where it has too few turns to hold. `step`: index of the last step that is done; None for all.
+    """
+    if not recipe.physics.traits.winds:
+        return None
+    here, last = set(ends), len(recipe.steps) if step is None else step
+    joined = (event for event in recipe.piece.history if isinstance(event, Joined) and event.step <= last)
+    steps = (recipe.steps[event.step] for event in joined if not here.isdisjoint(event.ends))
+    margins = [
+        recipe.physics.friction / holding_friction(step.turns) if step.holds else 0.0
+        for step in steps
+        if isinstance(step, Turned)
+    ]
+    return min(margins, default=None)
 
 
 def loose_joints(recipe: Recipe, step: int) -> tuple[LooseJoint, ...]:

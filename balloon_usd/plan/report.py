@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Any
 from balloon_usd.language.lengths import at_least, at_most, cm
 from balloon_usd.operations.moves import LeadIn
 from balloon_usd.operations.workpiece import Contact, Joined, Popped
+from balloon_usd.plan.holding import friction_margin
 from balloon_usd.plan.parking import parked
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
 
     from balloon_usd.operations.caution import Caution
     from balloon_usd.plan.budget import Budget
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from balloon_usd.plan.model import Plan
     from balloon_usd.plan.shaped import Shaped
     from balloon_usd.plan.strip import PlannedBubble, Strip
+    from balloon_usd.recipe import Recipe
 
 PLAN_FORMAT = 1
 """Version of the layout of `plan_json`."""
@@ -135,7 +137,16 @@ def _graph_lines(plan: Plan) -> Iterator[str]:
         if isinstance(event, Joined) and not plan.recipe.steps[event.step].closes:
             what = f"{plan.recipe.steps[event.step].word}s {', '.join(map(str, event.ends))}"
             yield f"  step {event.step + 1} {what} (joint {graph.joint_of(event.ends[0]).index})"
-    yield from joint_lines(graph)
+    yield from joint_lines(graph, margins_of(plan.recipe, graph))
+
+
+def margins_of(recipe: Recipe, graph: SculptureGraph, step: int | None = None) -> dict[int, float]:
+    """Return how many times the friction that they need joints have that hold by it, by their indices.
+
+    `step`: index of the last step that is done, after which the graph is; None for all.
+    """
+    found = ((joint.index, friction_margin(recipe, joint.ends, step)) for joint in graph.joints)
+    return {index: margin for index, margin in found if margin is not None}
 
 
 def _aside(plan: Plan) -> dict[str, float]:
@@ -157,10 +168,14 @@ def ring_line(graph: SculptureGraph) -> str:
     return f"{_count(len(graph.joints), 'joint')}, {bubbles}, {rings}"
 
 
-def joint_lines(graph: SculptureGraph) -> Iterator[str]:
-    """Yield a line for every joint of a graph."""
+def joint_lines(graph: SculptureGraph, margins: Mapping[int, float]) -> Iterator[str]:
+    """Yield a line for every joint of a graph; `margins`: how many times the friction that they need some
+    joints have, by their indices.
+    """
     for place in graph.joints:
-        yield f"  joint {place.index}, {_count(graph.degree(place.index), 'bubble end')}: {place}"
+        margin = margins.get(place.index)
+        held = "" if margin is None else f" ({margin:.1f} times the friction that holds it)"
+        yield f"  joint {place.index}, {_count(graph.degree(place.index), 'bubble end')}: {place}{held}"
 
 
 def _count(number: int, what: str) -> str:
@@ -193,7 +208,9 @@ def plan_json(plan: Plan) -> dict[str, Any]:
             }
             for name, strip in plan.strips.items()
         ],
-        "graph": graph_json(plan.graph, winds=plan.recipe.physics.traits.winds),
+        "graph": graph_json(
+            plan.graph, margins_of(plan.recipe, plan.graph), winds=plan.recipe.physics.traits.winds
+        ),
         "cautions": [asdict(caution) for caution in plan.cautions],
         "notices": [asdict(notice) for notice in plan.recipe.notices],
     }
@@ -210,8 +227,11 @@ def head_json(plan: Plan) -> dict[str, Any]:
     }
 
 
-def graph_json(graph: SculptureGraph, *, winds: bool) -> dict[str, Any]:
-    """Return a graph as plain data; joints of frozen springs never spring back."""
+def graph_json(graph: SculptureGraph, margins: Mapping[int, float], *, winds: bool) -> dict[str, Any]:
+    """Return a graph as plain data; joints of frozen springs never spring back.
+
+    `margins`: how many times the friction that they need some joints have, by their indices.
+    """
     return {
         "joints": [
             {
@@ -220,6 +240,7 @@ def graph_json(graph: SculptureGraph, *, winds: bool) -> dict[str, Any]:
                 "degree": graph.degree(joint.index),
                 "merged": joint.merged,
                 "springs_back": winds and graph.springs_back(joint.index),
+                "margin": margins.get(joint.index),
             }
             for joint in graph.joints
         ],

@@ -49,6 +49,11 @@ def joints_of(plan: Plan) -> list[PlannedJoint]:
     return _joints(plan, plan.recipe.piece.after(len(plan.recipe.steps), without=plan.slipping))
 
 
+def made_joints(plan: Plan) -> list[PlannedJoint]:
+    """Return all joints that a recipe makes, also those that are meant to slip; tips have none."""
+    return _joints(plan, plan.recipe.piece)
+
+
 def _joints(plan: Plan, piece: Workpiece) -> list[PlannedJoint]:
     loose = {loose.end for loose in plan.loose}
     found = []
@@ -82,7 +87,7 @@ def unkept_joints(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame) -> li
         asked = [(joint.name, joint) for joint in joints_of(plan) if joint.holds]
     else:
         undone |= {name for told in frame.undone for name in told.split(SLIPPED)}
-        joints = _joints(plan, plan.recipe.piece)
+        joints = made_joints(plan)
         asked = [(name, joint) for joint in joints if (name := _named(joint, wanted))]
     return [
         (name, [str(end) for end in joint.ends])
@@ -103,10 +108,11 @@ def _lost(
 ) -> bool:
     if not undone.isdisjoint(map(str, joint.ends)):
         return True
-    return not _together(plan, meshes, frame, joint)
+    return not together(plan, meshes, frame, joint)
 
 
-def _together(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame, joint: PlannedJoint) -> bool:
+def together(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame, joint: PlannedJoint) -> bool:
+    """Tell whether the necks of a joint are closed in a frame, and lie together."""
     middles, wide = [], []
     for index in joint.rings:
         radius = plan.strips[plan.table.rings[index].balloon].inflated_radius

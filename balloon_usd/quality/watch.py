@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from balloon_usd.balloon.ringed_faces import polygon_share
 from balloon_usd.quality.crossing_counter import CrossingCounter
 from balloon_usd.quality.crossing_history import CrossingHistory
+from balloon_usd.quality.joint_history import JointHistory
 from balloon_usd.quality.joints import SLIPPED, lost_joints, unkept_joints
 from balloon_usd.quality.measures import MEASURES, Verdict
 from balloon_usd.quality.passed import PassedBubbles
@@ -52,6 +53,7 @@ class QualityWatch:
         self._rest = Rest(plan)
         self._standing = Standing(plan)
         self._tails = TwistTails(plan, meshes)
+        self._joints = JointHistory(plan, meshes)
         self._passed = PassedBubbles(plan, meshes)
         self._undone: dict[str, int] = {}
         """First time code at which each end of a joint had come undone."""
@@ -62,6 +64,7 @@ class QualityWatch:
         self._rest.add(frame)
         self._standing.add(frame)
         self._tails.add(frame)
+        self._joints.add(frame)
         self._passed.add(frame)
         for name in (name for told in frame.undone for name in told.split(SLIPPED)):
             self._undone.setdefault(name, frame.time_code)
@@ -100,7 +103,7 @@ class QualityWatch:
             "tail": MEASURES["tail"].largest(self._tails.off),
             **self._rest.results(),
             **self._standing.results(),
-            "joints": _joints(plan, meshes, end),
+            "joints": self._lost_joints(end),
             "passed": self._passed.result(),
             **self._crossings(end),
             **symmetry_of(plan, meshes, end),
@@ -109,6 +112,14 @@ class QualityWatch:
         off.sort(key=lambda key: -excess(found[key]))
         verdict = Verdict.OFF if off else Verdict.GOOD
         return {"verdict": verdict.value, "off": off, **{key: found[key] for key in MEASURES}}
+
+    def _lost_joints(self, end: Frame) -> dict[str, Any]:
+        """Return the joints that were meant to hold and do not, and what has become of each."""
+        meant, lost = lost_joints(self._plan, self._meshes, end)
+        if not meant:
+            return MEASURES["joints"].result(None)
+        told = {"held": meant - len(lost), "meant": meant, "lost": lost, "undone": list(end.undone)}
+        return MEASURES["joints"].result(len(lost), told | {"each": self._joints.each()})
 
     def _crossings(self, end: Frame) -> dict[str, dict[str, Any]]:
         """Return the crossings of the last frame, and where there were most."""
@@ -157,11 +168,3 @@ def _gas(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame) -> dict[str, f
         for bubble, volume in zip(plan.bubbles, frame.volume, strict=True)
         if bubble.volume > 0.0 and bubble.name not in left_out
     }
-
-
-def _joints(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame) -> dict[str, Any]:
-    meant, lost = lost_joints(plan, meshes, frame)
-    if not meant:
-        return MEASURES["joints"].result(None)
-    told = {"held": meant - len(lost), "meant": meant, "lost": lost, "undone": list(frame.undone)}
-    return MEASURES["joints"].result(len(lost), told)

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from balloon_usd.balloon.wound_neck import holding_friction
 from balloon_usd.operations.moves import LetGo, Weld
+from balloon_usd.plan import after_step, after_step_json, plan_json, plan_text
 
 HEAD = "balloons: {a: {size: 260, tail: 10}}\nsteps:\n"
 CHAIN = f"{HEAD}- bubbles: {{b: 8, c: 8, d: 8}}\n"
@@ -41,6 +43,26 @@ def test_a_lock_of_slippery_rubber_slips_and_more_turns_hold_it(planned, frictio
     figure = planned(f"physics: {{friction: {friction}}}\n{CHAIN}- lock: [b, c, d]\n  turns: {turns}\n")
     assert loose_in(figure) == ([] if holds else ["b.end", "c.end", "d.end"])
     assert (1 in figure.slipping) is not holds
+
+
+def test_the_plan_says_how_many_times_the_friction_that_it_needs_a_lock_has(planned):
+    figure = planned(f"physics: {{friction: 0.4}}\n{CHAIN}- lock: [b, c, d]\n  turns: 2\n")
+    needed = holding_friction(2.0)
+    margins = {joint["ends"][0]: joint["margin"] for joint in plan_json(figure)["graph"]["joints"]}
+    assert margins == {
+        "b.start": pytest.approx(0.4 / needed),
+        "b.end": None,
+        "c.end": None,
+        "a_rest.end": None,
+    }
+    assert f"d.end = a_rest.start ({0.4 / needed:.1f} times the friction that holds it)" in plan_text(figure)
+    before = after_step_json(after_step(figure, 0))["graph"]["joints"]
+    assert {joint["margin"] for joint in before} == {None}
+
+
+def test_a_lock_of_too_few_turns_has_no_friction_to_spare(planned):
+    figure = planned(f"{CHAIN}- lock: [b, c, d]\n  turns: 1\n")
+    assert plan_json(figure)["graph"]["joints"][0]["margin"] == 0.0
 
 
 @pytest.mark.parametrize("friction", [0.05, 0.3, 0.8])

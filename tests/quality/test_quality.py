@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from balloon_usd.balloon.detail import detail_named
+from balloon_usd.balloon.wound_neck import holding_friction
 from balloon_usd.operations.moves import LetGo
 from balloon_usd.plan import plan as plan_of
 from balloon_usd.plan.meshing import mesh_of
@@ -174,6 +175,71 @@ def test_an_open_neck_a_parted_joint_and_what_the_simulation_tells_of_are_lost(f
     assert quality_of(figure, parted)["joints"]["lost"] == ["nose.end"]
     told = quality_of(figure, lambda frame: replace(frame, undone=("left_ear.end", "neck.end")))["joints"]
     assert (told["lost"], told["undone"]) == (["left_ear.end"], ["left_ear.end", "neck.end"])
+
+
+def by_joint(quality):
+    """What has become of every joint, by its name."""
+    return {each["joint"]: each for each in quality["joints"]["each"]}
+
+
+def test_every_joint_says_whether_it_held_and_with_how_much_friction(still):
+    each = by_joint(still)
+    assert list(each) == ["nose.end", "left_ear.end", "neck.end"]
+    assert [joint["meant"] for joint in each.values()] == [True, True, False]
+    assert each["nose.end"]["ends"] == ["nose.end", "left_ear.start", "right_ear.end", "neck.start"]
+    assert each["nose.end"]["margin"] == pytest.approx(0.8 / holding_friction(3.0), abs=0.01)
+    assert each["left_ear.end"]["margin"] is None
+    for joint in each.values():
+        assert (joint["held"], joint["undone_at"]) == (True, None)
+        assert (joint["slip"], joint["turn"]) == (0.0, 0.0)
+
+
+def test_a_joint_says_how_far_its_necks_and_its_bubbles_have_given_way(figure):
+    (mesh,), plan = figure[1], figure[0]
+    code = 1 + round(plan.choreography.let_go * plan.recipe.fps)
+    behind = mesh.along > plan.bubbles[3].rest_start - 1e-6
+    beside = behind & (mesh.along > plan.bubbles[3].rest_start + 1e-4)
+
+    def gives_way(frame):
+        if frame.time_code <= code:
+            return frame
+        away = behind[:, None] * np.float32([0.004, 0, 0]) + beside[:, None] * np.float32([0, 0.01, 0])
+        return replace(frame, points=(frame.points[0] + away,))
+
+    before, after = (by_joint(quality_of(figure, change)) for change in (lambda frame: frame, gives_way))
+    assert after["nose.end"]["held"]
+    assert after["nose.end"]["slip"] == pytest.approx(0.004, abs=2e-3)
+    assert after["nose.end"]["turn"] > 5.0
+    assert after["left_ear.end"] == before["left_ear.end"]
+
+
+def test_a_joint_says_when_it_came_undone_and_the_whole_figure_may_move(figure):
+    plan = figure[0]
+    code = 1 + round(plan.choreography.let_go * plan.recipe.fps)
+
+    def undone(frame):
+        late = frame.time_code - code
+        moved = replace(frame, points=(frame.points[0] + np.float32([0.1 * max(late, 0), 0, 0]),))
+        return replace(moved, undone=("neck.end",)) if late >= 7 else moved
+
+    each = by_joint(quality_of(figure, undone))
+    assert not each["neck.end"]["held"]
+    assert each["neck.end"]["undone_at"] == pytest.approx((code + 6) / plan.recipe.fps, abs=1e-3)
+    assert each["nose.end"]["held"]
+    assert each["nose.end"]["turn"] == pytest.approx(0.0, abs=0.01)
+
+
+def test_necks_that_part_come_undone_when_they_do_even_if_nothing_tells_it(figure):
+    (mesh,), plan = figure[1], figure[0]
+    tip = mesh.along > plan.bubbles[2].rest_end - 1e-6
+    code = 1 + round((plan.choreography.let_go + 1.0) * plan.recipe.fps)
+
+    def parted(frame):
+        far = np.float32([0.02 if frame.time_code >= code else 0.0, 0, 0])
+        return replace(frame, points=(frame.points[0] + tip[:, None] * far,))
+
+    each = by_joint(quality_of(figure, parted))
+    assert each["nose.end"]["undone_at"] == pytest.approx((code - 1) / plan.recipe.fps, abs=0.51)
 
 
 def kept(figure, wanted, undone):

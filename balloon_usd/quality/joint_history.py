@@ -1,0 +1,134 @@
+"""What becomes of every joint from the let-go on: whether it holds, until when, and how far it gives way."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from balloon_usd.plan.holding import friction_margin
+from balloon_usd.quality.joints import SLIPPED, joints_of, made_joints, together
+from balloon_usd.quality.ring_corners import RingCorners
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from balloon_usd.balloon.tube_mesh import BalloonMesh
+    from balloon_usd.plan import Plan
+    from balloon_usd.quality.joints import PlannedJoint
+    from balloon_usd.solver.frame import Frame
+
+    Floats = NDArray[np.float64]
+
+BETWEEN_LOOKS = 0.5
+"""Time between two frames in which joints are looked at, s."""
+SLIP_DIGITS, TURN_DIGITS, MARGIN_DIGITS = 5, 2, 2
+"""Digits after the point of what is told: m, degrees, and times the friction that is needed."""
+
+
+class JointHistory:
+    """Takes the frames of one sculpture, and looks at its joints twice a second from the let-go on."""
+
+    def __init__(self, plan: Plan, meshes: Sequence[BalloonMesh]) -> None:
+        """Find out what to look at, and when; one mesh a balloon, in the order of `Plan.strips`."""
+        self._plan, self._fps = plan, plan.recipe.fps
+        meant = {joint.name for joint in joints_of(plan) if joint.holds}
+        self._joints = [
+            _WatchedJoint(plan, meshes, joint, meant=joint.name in meant)
+            for joint in made_joints(plan)
+            if len(joint.ends) > 1
+        ]
+        # The time of a frame is (code - 1) / fps.
+        self._let_go = min(1 + round(plan.choreography.let_go * self._fps), plan.frame_count)
+        self._every = max(round(BETWEEN_LOOKS * self._fps), 1)
+
+    def add(self, frame: Frame) -> None:
+        """Take the next frame."""
+        after = frame.time_code - self._let_go
+        if after < 0:
+            return
+        undone = {name for told in frame.undone for name in told.split(SLIPPED)}
+        looks = after % self._every == 0 or frame.time_code == self._plan.frame_count
+        for joint in self._joints:
+            joint.note(frame.time_code, undone)
+            if looks:
+                joint.look(frame)
+
+    def each(self) -> list[dict[str, Any]]:
+        """Return what has become of every joint as plain data, once the last frame is taken."""
+        return [joint.data(self._fps) for joint in self._joints]
+
+
+class _Way(NamedTuple):
+    """How a joint lies: what no motion of the whole figure changes."""
+
+    apart: Floats
+    """Distances of its necks from each other, (N, N), m."""
+    cosines: Floats
+    """Of the angles between the directions in which its bubbles lie, (E, E)."""
+
+
+class _WatchedJoint:
+    """One joint of a figure."""
+
+    def __init__(
+        self, plan: Plan, meshes: Sequence[BalloonMesh], joint: PlannedJoint, *, meant: bool
+    ) -> None:
+        self._plan, self._meshes, self._joint, self._meant = plan, meshes, joint, meant
+        self._necks = [RingCorners.of(plan, meshes, ring) for ring in joint.rings]
+        self._bubbles = [_vertices(plan, meshes, end.bubble) for end in joint.ends]
+        self._margin = friction_margin(plan.recipe, joint.ends)
+        self._first: _Way | None = None
+        self._slip = self._turn = 0.0
+        self._undone: int | None = None
+        """First time code at which it was told to be undone, or its necks were open or apart."""
+
+    def note(self, code: int, undone: set[str]) -> None:
+        """Note whether it has come undone by a frame."""
+        if self._undone is None and not undone.isdisjoint(map(str, self._joint.ends)):
+            self._undone = code
+
+    def look(self, frame: Frame) -> None:
+        """Measure how far it has given way since it was looked at first."""
+        if self._undone is None and not together(self._plan, self._meshes, frame, self._joint):
+            self._undone = frame.time_code
+        way = self._way(frame)
+        if self._first is None:
+            self._first = way
+        self._slip = max(self._slip, float(np.abs(way.apart - self._first.apart).max()))
+        angles = np.arccos(way.cosines) - np.arccos(self._first.cosines)
+        self._turn = max(self._turn, float(np.degrees(np.abs(angles).max())))
+
+    def _way(self, frame: Frame) -> _Way:
+        necks = np.array([neck.places(frame).mean(axis=0) for neck in self._necks])
+        arms = np.array([frame.points[b][at].mean(axis=0, dtype=float) for b, at in self._bubbles])
+        arms -= necks.mean(axis=0)
+        arms /= np.maximum(np.linalg.norm(arms, axis=1), 1e-9)[:, None]
+        apart = np.linalg.norm(necks[:, None] - necks[None], axis=2)
+        return _Way(apart, np.clip(arms @ arms.T, -1.0, 1.0))
+
+    def data(self, fps: float) -> dict[str, Any]:
+        """Return what has become of it as plain data."""
+        undone = self._undone
+        return {
+            "joint": self._joint.name,
+            "ends": [str(end) for end in self._joint.ends],
+            "meant": self._meant,
+            "margin": None if self._margin is None else round(self._margin, MARGIN_DIGITS),
+            "held": undone is None,
+            "undone_at": None if undone is None else round((undone - 1) / fps, 3),
+            "slip": round(self._slip, SLIP_DIGITS),
+            "turn": round(self._turn, TURN_DIGITS),
+        }
+
+
+def _vertices(plan: Plan, meshes: Sequence[BalloonMesh], bubble: str) -> tuple[int, NDArray[np.int32]]:
+    """Return the index of the balloon of a bubble, and the vertices of its faces."""
+    for balloon, (strip, mesh) in enumerate(zip(plan.strips.values(), meshes, strict=True)):
+        names = [each.name for each in strip.bubbles]
+        if bubble in names:
+            faces = mesh.quads[mesh.quad_bubble == names.index(bubble)]
+            return balloon, np.unique(faces)
+    raise KeyError(bubble)
