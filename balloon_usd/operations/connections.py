@@ -54,6 +54,25 @@ class Connections:
                         coming.append(there)
         return frozenset(found)
 
+    def beyond(self, bubble: str, joint: Joint) -> frozenset[str]:
+        """Return a bubble and all that hang together with it on ways that do not pass a joint."""
+        met, found = {joint}, {bubble}
+        coming = [end for end in self._ends[bubble] if end != joint]
+        met.update(coming)
+        while coming:
+            here = coming.pop()
+            for each in self._at[here]:
+                found.add(each)
+                there = self._other(each, here)
+                if there not in met:
+                    met.add(there)
+                    coming.append(there)
+        return frozenset(found)
+
+    def at(self, joint: Joint) -> frozenset[str]:
+        """Return the bubbles with an end in a joint."""
+        return frozenset(self._at[joint])
+
     @cached_property
     def bridges(self) -> frozenset[str]:
         """Bubbles that belong to no closed ring: without any of them a piece falls apart."""

@@ -195,6 +195,15 @@ class Bend(Move):
 
 
 @dataclass(frozen=True)
+class Aim(Move):
+    """Turn a bubble, with all that hangs on it, about the joint at which it hangs on the figure."""
+
+    bubble: str = ""
+    toward: Vector = (0.0, 0.0, 1.0)
+    """Unit direction in which it points in the end, away from that joint."""
+
+
+@dataclass(frozen=True)
 class Press(Move):
     """Press a finger into a wall, hold it there, and take it away, while the other hand holds some rings."""
 

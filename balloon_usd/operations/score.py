@@ -274,13 +274,14 @@ class Score:
         seconds /= self.pace.leading
         aim = point or "up"
         gather = Gather(self.now, seconds, index, text, corners=corners, cheeks=cheeks, pulled=pulled)
-        self.add(replace(gather, point=self.towards(aim), across=self._side(ACROSS[aim])))
+        self.add(replace(gather, point=self.towards(aim), across=self.sided(ACROSS[aim])))
 
     def towards(self, point: Point) -> Vector:
         """Return the unit direction in which hands lead what the recipe points somewhere."""
-        return self._side(POINTS[point])
+        return self.sided(POINTS[point])
 
-    def _side(self, direction: Vector) -> Vector:
+    def sided(self, direction: Vector) -> Vector:
+        """Return a direction as hands take it: its mirror image where they make that of the figure."""
         return mirror_image(direction) if self.mirrored else direction
 
     def weld(self, rings: tuple[int, ...], turns: float, text: str, index: int) -> None:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import Discriminator, Tag
 
+from balloon_usd.operations.aim import Aim
 from balloon_usd.operations.bend import Bend
 from balloon_usd.operations.bubbles import Bubbles
 from balloon_usd.operations.ear import Ear
@@ -41,6 +42,7 @@ OPERATIONS: tuple[type[Operation], ...] = (
     Tulip,
     Rest,
     Bend,
+    Aim,
     Press,
     Squeeze,
     Push,

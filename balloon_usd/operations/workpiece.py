@@ -75,6 +75,16 @@ class Popped:
     bubble: str
 
 
+@dataclass(frozen=True)
+class Limb:
+    """A part of a figure that hangs on one joint."""
+
+    joint: Joint
+    """One end of a bubble in this joint."""
+    bubbles: frozenset[str]
+    """All that hangs there together."""
+
+
 Event: TypeAlias = Made | Joined | Cut | Contact | Popped
 
 
@@ -290,6 +300,23 @@ class Workpiece:
     def hangs_on(self, end: Joint) -> frozenset[str]:
         """Return what hangs on one end of a bubble: all other bubbles that come along when it is moved."""
         return self._stiff.reached(self._joints.root(end), without=end.bubble)
+
+    def limb(self, bubble: str) -> Limb | None:
+        """Return the smallest part of a figure that has a bubble and hangs on one joint; None where no joint
+        parts it from the rest.
+        """
+        whole, open_ends = self._stiff, {self._joints.root(end) for end in self.open_ends.values() if end}
+        best: tuple[int, Limb] | None = None
+        ends = {name: self._ends(name) for name in whole.reached(self._ends(bubble)[0])}
+        for joint in dict.fromkeys(end for name in (bubble, *ends) for end in self._ends(name)):
+            part = whole.beyond(bubble, joint)
+            if whole.at(joint) <= part and joint not in open_ends:
+                continue
+            inner = {end for name in part for end in ends[name]} - {joint}
+            size = len(part) + len(inner & open_ends)
+            if best is None or size < best[0]:
+                best = size, Limb(joint, part)
+        return None if best is None else best[1]
 
     def row_from(self, ring: Iterable[str], bubble: str) -> tuple[str, ...] | None:
         """Return the bubbles of its balloon between a joint of a ring and the start of a bubble, without ears

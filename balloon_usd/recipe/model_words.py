@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from balloon_usd.language.problem import Complaint
+from balloon_usd.operations.aim import Aim
 from balloon_usd.operations.entries import steps_in
 from balloon_usd.operations.inflate import Inflate
 from balloon_usd.operations.pop import Pop
@@ -32,6 +33,7 @@ LATEX_ONLY = {
 """Keys of the physics that the model kosaka does not know, and why."""
 
 LATEX_STEPS = {
+    Aim.word: (", whose joints are frozen", "no such step"),
     Inflate.word: (", whose balloons start blown up", "no such step"),
     Squeeze.word: (", whose fingers are forces on patches of a wall", "press, or no such step"),
     Push.word: (", whose walls hardly rub", "no such step"),

@@ -127,6 +127,30 @@ def test_a_bubble_in_a_ring_is_gripped_while_the_ring_is_closed_and_nothing_unwi
     assert piece.gripped() == set()
 
 
+def test_a_limb_is_the_smallest_part_that_hangs_on_one_joint(head):
+    ears = head.after(1)
+    assert ears.limb("nose").bubbles == {"nose"}
+    assert ears.limb("left_ear").bubbles == {"left_ear", "right_ear"}
+    assert end("nose") in ears.joint(ears.limb("left_ear").joint)
+    assert ears.limb("neck").bubbles == {"neck"}
+
+
+def test_a_bubble_in_a_row_takes_its_shorter_end_along():
+    piece = chain("a", "b", "c", "d", "e")
+    assert piece.limb("b").bubbles == {"a", "b"}
+    assert piece.limb("d").bubbles == {"d", "e"}
+    assert piece.limb("a").joint in piece.joint(end("a"))
+
+
+def test_a_bubble_of_a_closed_ring_that_is_all_there_is_is_no_limb():
+    piece = chain("a", "b", "c")
+    piece.join(3, [start("a"), end("c")])
+    piece.make(4, "rest", "main", last=True)
+    assert piece.limb("b").bubbles == {"a", "b", "c"}
+    piece.pop(5, "rest")
+    assert piece.limb("b") is None
+
+
 def test_a_row_leads_from_a_ring_to_a_bubble_if_nothing_else_hangs_on_it():
     piece = Workpiece(["main", "more"])
     for step, bubble in enumerate("abcdef"):

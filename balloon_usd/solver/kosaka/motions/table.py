@@ -39,6 +39,7 @@ KOSAKA_MOTIONS: Motions = {
     moves.Fall: Wait,
     moves.Pop: Wait,
     moves.StretchTip: Wait,
+    moves.Aim: Wait,
     moves.PassThrough: Wait,
     moves.Thread: Wait,
     moves.Invert: Wait,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from balloon_usd.operations import moves
+from balloon_usd.solver.latex.motions.aim import Aim
 from balloon_usd.solver.latex.motions.bend import LatexBend
 from balloon_usd.solver.latex.motions.fall import Fall
 from balloon_usd.solver.latex.motions.hold import Hold
@@ -41,6 +42,7 @@ LATEX_MOTIONS: Motions = {
     moves.Bring: Bring,
     moves.SetNet: LatexSetNet,
     moves.Bend: LatexBend,
+    moves.Aim: Aim,
     moves.Press: LatexPress,
     moves.PassThrough: PassThrough,
     moves.Pop: Pop,
