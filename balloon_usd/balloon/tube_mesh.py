@@ -117,7 +117,9 @@ def _graded(
     while True:
         stations: NDArray[np.float64] = np.interp(np.arange(count + 1) * cells[-1] / count, cells, s)
         led = [int(np.argmin(np.abs(stations - guide))) for guide in guides]
-        if len({0, *led, count}) == len(led) + 2:
+        # The last ring of the tube is no joint, and may be led.
+        ends = {0} if tail else {0, count}
+        if len({*led, *ends}) == len(led) + len(ends):
             return stations[1:]
         # Two hands cannot lead one ring.
         count += 1

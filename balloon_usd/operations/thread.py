@@ -84,7 +84,9 @@ steps:
         bubble = layout.bubble(self.bubble)
         if bubble.length < (least := SHORTEST * bubble.width):
             what = f"{cm(bubble.length)} of a {bubble.size} are too short to be bent round into a ring"
-            other = ", or push" if bubble.length <= LONGEST * depth_of(layout, self.ring) else ""
+            beside = {ring for name in self.ring for ring in layout.ends(name)}
+            fits = bubble.length <= LONGEST * depth_of(layout, self.ring)
+            other = ", or push" if fits and layout.ends(self.bubble)[0] in beside else ""
             yield (self.word, "bubble"), f"{what}, expected at least {at_least(least)}{other}"
 
     def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:

@@ -11,7 +11,7 @@ from balloon_usd.language.joint import Joint
 from balloon_usd.operations.table import BY_KIND
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Mapping
 
     from balloon_usd.plan.strip import PlannedBubble, Strip
 
@@ -20,6 +20,10 @@ REST_GUIDE = 0.07
 
 SLENDER = 0.25
 """Radius of a bubble, in its lengths, below which it is bent by more than its middle."""
+LEAST_APART = 0.5
+"""Least unstressed distance of two places at which hands hold a bubble, in R0: rings stand two thirds of that
+apart beside joints in the coarsest mesh.
+"""
 TIP_GUIDE = 3.0
 """Unstressed distance from the tip at which hands hold the flat tail, in R0."""
 
@@ -108,16 +112,31 @@ def _rings(strip: Strip) -> list[PlannedRing]:
 
 
 def _guide_shares(bubble: PlannedBubble, strip: Strip) -> tuple[float, ...]:
+    apart = LEAST_APART * strip.size.radius / bubble.rest_length
     if bubble.kind != "rest":
         own = BY_KIND[bubble.kind].guides
         round_end = strip.inflated_radius / bubble.length
         # Their places alone tell the directions of a bent bubble's ends.
         ends = (round_end, 1.0 - round_end) if bubble.bent and round_end < SLENDER else ()
-        return tuple(sorted({*own, *ends}))
+        return tuple(sorted([*own, *_parted(ends, apart, 1.0 - apart, own)]))
     stretch = 1.0 if strip.capsule else maxwell_state(strip.rubber).bulged.b
     share = min(REST_GUIDE / stretch / bubble.rest_length, 0.5)
     tip = max(1.0 - TIP_GUIDE * strip.size.radius / bubble.rest_length, 0.5 * (1.0 + share))
-    return (*_along_the_bend(bubble, strip, tip), tip) if bubble.bent else (share, tip)
+    shares = (*_along_the_bend(bubble, strip, tip), tip) if bubble.bent else (share, tip)
+    # Behind the last ring of the tube comes the round tip.
+    last = 1.0 - strip.size.radius / bubble.rest_length
+    return tuple(_parted(shares, apart, last)) or (0.5,)
+
+
+def _parted(shares: Iterable[float], apart: float, last: float, others: Iterable[float] = ()) -> list[float]:
+    """Return those of some places, in order, that lie at least so far from each other, from others and from
+    the start, and not beyond a last one: each has a ring of its own, so near ones would take many rings.
+    """
+    kept: list[float] = []
+    for share in sorted(shares):
+        if apart <= share <= last and all(abs(share - each) >= apart for each in (*others, *kept)):
+            kept.append(share)
+    return kept
 
 
 def _along_the_bend(bubble: PlannedBubble, strip: Strip, tip: float) -> list[float]:

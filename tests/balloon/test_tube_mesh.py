@@ -85,3 +85,10 @@ def test_every_guide_of_a_short_bubble_has_a_ring_of_its_own(detail, length):
     ends = [int(np.argmin(np.abs(stations - end))) for end in (0.03, 0.03 + length)]
     assert len({*led, *ends}) == len(led) + len(ends)
     assert np.all(np.diff(stations) > 0.0)
+
+
+def test_a_guide_beside_the_last_ring_is_led_by_it():
+    size = size_named("260")
+    last = size.length - size.radius
+    few = ring_stations(detail_named("draft"), size, (0.1,))
+    assert len(ring_stations(detail_named("draft"), size, (0.1,), (last - 1e-6,))) == len(few)
