@@ -110,7 +110,7 @@ steps:
         """Turn bubbles that are there and hang on a single joint."""
         for name in cls.uses(value):
             path = (*place.path, cls.word, name)
-            if not (bench.has_name(name, path) and bench.find_firm(name, path)):
+            if not (bench.has_name(name, path) and bench.find_firm(name, path) and bench.knows((name,))):
                 continue
             if bench.piece.limb(name) is None:
                 what = f"no joint is there about which {name} could be turned against its figure"
@@ -118,9 +118,12 @@ steps:
 
     def perform(self, score: Score, index: int) -> None:
         """Turn one limb after another."""
+        lengths = {name: score.layout.bubble(name).length for name in self.aim}
+        calm = {name: max(AIM_SECONDS, SECONDS_PER_METRE * length) for name, length in lengths.items()}
+        waits = SETTLE_SECONDS * len(calm)
+        score.refuse_haste(index, self.seconds, sum(calm.values()) + waits, f"turn {all_of(self.names)}")
         for bubble, way in self.aim.items():
-            length = score.layout.bubble(bubble).length
-            seconds = max(AIM_SECONDS, SECONDS_PER_METRE * length) / score.pace.leading
+            seconds = calm[bubble] / score.pace.leading
             text = f"{self.word}: {bubble}"
             x, y, z = np.sum([FRONTS[side] for side in way], axis=0).tolist()
             size = math.sqrt(x * x + y * y + z * z)

@@ -110,6 +110,10 @@ def test_what_is_made_to_the_right_is_the_mirror_image(between):
         ("aim: {leaf: []}", "is no direction, expected up, or a list such as [back, up]"),
         ("aim: {leef: up}", 'unknown bubble "leef", did you mean "leaf"?'),
         ("aim: {}", "is empty"),
+        (
+            "aim: {leaf: up, stalk: up}\n    seconds: 1",
+            "are too short a time to turn leaf and stalk, expected at least",
+        ),
         ("aim: {leaf: 30}", "30 is no direction, expected up, or a list such as [back, up]"),
     ],
 )
