@@ -42,7 +42,16 @@ class Connections:
 
     def reached(self, first: Joint, without: str | None = None) -> frozenset[str]:
         """Return the bubbles that are connected to a joint, also if one bubble is left out."""
-        met, found, coming = {first}, set(), [first]
+        return self._walked([first], {first}, without)
+
+    def beyond(self, bubble: str, joint: Joint) -> frozenset[str]:
+        """Return a bubble and all that hang together with it on ways that do not pass a joint."""
+        coming = [end for end in self._ends[bubble] if end != joint]
+        return self._walked(coming, {joint, *coming}) | {bubble}
+
+    def _walked(self, coming: list[Joint], met: set[Joint], without: str | None = None) -> frozenset[str]:
+        """Return the bubbles on all ways from some joints that do not go on from joints met before."""
+        found = set()
         while coming:
             here = coming.pop()
             for bubble in self._at.get(here, ()):
@@ -52,21 +61,6 @@ class Connections:
                     if there not in met:
                         met.add(there)
                         coming.append(there)
-        return frozenset(found)
-
-    def beyond(self, bubble: str, joint: Joint) -> frozenset[str]:
-        """Return a bubble and all that hang together with it on ways that do not pass a joint."""
-        met, found = {joint}, {bubble}
-        coming = [end for end in self._ends[bubble] if end != joint]
-        met.update(coming)
-        while coming:
-            here = coming.pop()
-            for each in self._at[here]:
-                found.add(each)
-                there = self._other(each, here)
-                if there not in met:
-                    met.add(there)
-                    coming.append(there)
         return frozenset(found)
 
     def at(self, joint: Joint) -> frozenset[str]:

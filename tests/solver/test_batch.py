@@ -21,7 +21,7 @@ SUBSTEPS = {"latex": 100, "kosaka": 12}
 
 def failing():
     """A loop that takes more than half of a balloon without tail."""
-    return small(head=9, kind="loop", physics="burst: stop", seconds=2.0, length=4.5, tail=0)
+    return small(head=9, kind="loop", physics="burst: stop", seconds=2.0, length=3.4, tail=0)
 
 
 def batch_of(*plans, ahead, most=1000):

@@ -34,8 +34,8 @@ def short(name="short", head=6, tail=3, kind="bubbles", physics="{hold: 0.2}", l
 
 
 def bursting():
-    """A loop that takes more than half of a balloon without tail."""
-    return short("bursting", head=9, tail=0, kind="loop", physics="{hold: 0.2, burst: stop}", length=4.5)
+    """A loop that takes two thirds of a balloon without tail."""
+    return short("bursting", head=9, tail=0, kind="loop", physics="{hold: 0.2, burst: stop}", length=3.4)
 
 
 def last_frames(plans, device="cpu"):

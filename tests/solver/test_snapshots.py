@@ -16,7 +16,7 @@ from tests.solver.small_plan import small
 def three():
     """Two plans of different lengths and one between them that soon bursts."""
     burst = "burst: stop"
-    return [small(physics=burst), small(9, "loop", burst, 2, 4.5, 0), small(5, physics=burst, seconds=3)]
+    return [small(physics=burst), small(9, "loop", burst, 2, 3.4, 0), small(5, physics=burst, seconds=3)]
 
 
 def two_of_kosaka():
