@@ -27,7 +27,8 @@ def test_throughput_stands_beside_that_of_one_copy(cli, solver):
     rows = rows_of(cli("bench", "--copies", 1, "--copies", 3, "--frames", 5, "--device", "cpu"))
     rates, times = ([float(row[k]) for row in rows] for k in (7, 12))
     assert times[0] == 1.0
-    assert times[1] == pytest.approx(rates[1] / rates[0], rel=0.02)
+    # It is told with two digits after the point, of which a busy machine makes few.
+    assert times[1] == pytest.approx(rates[1] / rates[0], rel=0.02, abs=0.005)
 
 
 def test_without_one_copy_there_is_nothing_to_compare_with(cli, solver):
