@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from balloon_usd.plan.holding import friction_margin
-from balloon_usd.quality.joints import SLIPPED, joints_of, made_joints, together
+from balloon_usd.quality.joints import joints_of, made_joints, together
 from balloon_usd.quality.ring_corners import RingCorners
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Iterable, Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from balloon_usd.solver.frame import Frame
 
     Floats = NDArray[np.float64]
+    Vertices = tuple[int, NDArray[np.int32]]
+    """Index of the balloon of a bubble, and the vertices of its faces."""
 
 BETWEEN_LOOKS = 0.5
 """Time between two frames in which joints are looked at, s."""
@@ -35,8 +37,9 @@ class JointHistory:
         """Find out what to look at, and when; one mesh a balloon, in the order of `Plan.strips`."""
         self._plan, self._fps = plan, plan.recipe.fps
         meant = {joint.name for joint in joints_of(plan) if joint.holds}
+        bubbles = _vertices(plan, meshes)
         self._joints = [
-            _WatchedJoint(plan, meshes, joint, meant=joint.name in meant)
+            _WatchedJoint(plan, meshes, joint, bubbles, meant=joint.name in meant)
             for joint in made_joints(plan)
             if len(joint.ends) > 1
         ]
@@ -49,16 +52,16 @@ class JointHistory:
         after = frame.time_code - self._let_go
         if after < 0:
             return
-        undone = {name for told in frame.undone for name in told.split(SLIPPED)}
-        looks = after % self._every == 0 or frame.time_code == self._plan.frame_count
-        for joint in self._joints:
-            joint.note(frame.time_code, undone)
-            if looks:
+        if after % self._every == 0 or frame.time_code == self._plan.frame_count:
+            for joint in self._joints:
                 joint.look(frame)
 
-    def each(self) -> list[dict[str, Any]]:
-        """Return what has become of every joint as plain data, once the last frame is taken."""
-        return [joint.data(self._fps) for joint in self._joints]
+    def each(self, told: Callable[[Iterable[str]], int | None]) -> list[dict[str, Any]]:
+        """Return what has become of every joint as plain data, once the last frame is taken.
+
+        `told`: gives the time code since which the simulation told a joint to be undone, by its ends.
+        """
+        return [joint.data(self._fps, told) for joint in self._joints]
 
 
 class _Way(NamedTuple):
@@ -74,26 +77,27 @@ class _WatchedJoint:
     """One joint of a figure."""
 
     def __init__(
-        self, plan: Plan, meshes: Sequence[BalloonMesh], joint: PlannedJoint, *, meant: bool
+        self,
+        plan: Plan,
+        meshes: Sequence[BalloonMesh],
+        joint: PlannedJoint,
+        bubbles: Mapping[str, Vertices],
+        *,
+        meant: bool,
     ) -> None:
         self._plan, self._meshes, self._joint, self._meant = plan, meshes, joint, meant
         self._necks = [RingCorners.of(plan, meshes, ring) for ring in joint.rings]
-        self._bubbles = [_vertices(plan, meshes, end.bubble) for end in joint.ends]
+        self._bubbles = [bubbles[end.bubble] for end in joint.ends]
         self._margin = friction_margin(plan.recipe, joint.ends)
         self._first: _Way | None = None
         self._slip = self._turn = 0.0
-        self._undone: int | None = None
-        """First time code at which it was told to be undone, or its necks were open or apart."""
-
-    def note(self, code: int, undone: set[str]) -> None:
-        """Note whether it has come undone by a frame."""
-        if self._undone is None and not undone.isdisjoint(map(str, self._joint.ends)):
-            self._undone = code
+        self._apart: int | None = None
+        """First time code at which its necks were open or apart."""
 
     def look(self, frame: Frame) -> None:
         """Measure how far it has given way since it was looked at first."""
-        if self._undone is None and not together(self._plan, self._meshes, frame, self._joint):
-            self._undone = frame.time_code
+        if self._apart is None and not together(self._plan, self._meshes, frame, self._joint):
+            self._apart = frame.time_code
         way = self._way(frame)
         if self._first is None:
             self._first = way
@@ -109,12 +113,13 @@ class _WatchedJoint:
         apart = np.linalg.norm(necks[:, None] - necks[None], axis=2)
         return _Way(apart, np.clip(arms @ arms.T, -1.0, 1.0))
 
-    def data(self, fps: float) -> dict[str, Any]:
-        """Return what has become of it as plain data."""
-        undone = self._undone
+    def data(self, fps: float, told: Callable[[Iterable[str]], int | None]) -> dict[str, Any]:
+        """Return what has become of it as plain data; `told`: as of `JointHistory.each`."""
+        ends = [str(end) for end in self._joint.ends]
+        undone = min((code for code in (told(ends), self._apart) if code is not None), default=None)
         return {
             "joint": self._joint.name,
-            "ends": [str(end) for end in self._joint.ends],
+            "ends": ends,
             "meant": self._meant,
             "margin": None if self._margin is None else round(self._margin, MARGIN_DIGITS),
             "held": undone is None,
@@ -124,11 +129,10 @@ class _WatchedJoint:
         }
 
 
-def _vertices(plan: Plan, meshes: Sequence[BalloonMesh], bubble: str) -> tuple[int, NDArray[np.int32]]:
-    """Return the index of the balloon of a bubble, and the vertices of its faces."""
-    for balloon, (strip, mesh) in enumerate(zip(plan.strips.values(), meshes, strict=True)):
-        names = [each.name for each in strip.bubbles]
-        if bubble in names:
-            faces = mesh.quads[mesh.quad_bubble == names.index(bubble)]
-            return balloon, np.unique(faces)
-    raise KeyError(bubble)
+def _vertices(plan: Plan, meshes: Sequence[BalloonMesh]) -> dict[str, Vertices]:
+    """Return the vertices of every bubble, by its name."""
+    return {
+        bubble.name: (balloon, np.unique(mesh.quads[mesh.quad_bubble == index]))
+        for balloon, (strip, mesh) in enumerate(zip(plan.strips.values(), meshes, strict=True))
+        for index, bubble in enumerate(strip.bubbles)
+    }

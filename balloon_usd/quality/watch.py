@@ -80,9 +80,13 @@ class QualityWatch:
         if self._end is None:
             return
         for name, ends in unkept_joints(self._plan, self._meshes, self._end):
-            code = min((self._undone[end] for end in ends if end in self._undone), default=None)
+            code = self._told_undone(ends)
             when = "" if code is None else f" at {(code - 1) / self._plan.recipe.fps:.1f} s"
             yield f"{name} came undone{when}"
+
+    def _told_undone(self, ends: Iterable[str]) -> int | None:
+        """Return the first time code at which any of some ends of bubbles had come undone."""
+        return min((self._undone[end] for end in ends if end in self._undone), default=None)
 
     def stuck_and_slipped(self) -> tuple[list[str], list[str]]:
         """Return the bubbles that must be in their rings by the recipe and have not come in, and those that
@@ -119,7 +123,7 @@ class QualityWatch:
         if not meant:
             return MEASURES["joints"].result(None)
         told = {"held": meant - len(lost), "meant": meant, "lost": lost, "undone": list(end.undone)}
-        return MEASURES["joints"].result(len(lost), told | {"each": self._joints.each()})
+        return MEASURES["joints"].result(len(lost), told | {"each": self._joints.each(self._told_undone)})
 
     def _crossings(self, end: Frame) -> dict[str, dict[str, Any]]:
         """Return the crossings of the last frame, and where there were most."""
