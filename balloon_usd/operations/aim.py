@@ -14,7 +14,7 @@ from balloon_usd.language.problem import quoted
 from balloon_usd.operations import moves
 from balloon_usd.operations.modifiers import OnBalloon, Timed
 from balloon_usd.operations.moves import FRONTS, Front, Move
-from balloon_usd.operations.operation import Operation
+from balloon_usd.operations.operation import WorksByBubble
 from balloon_usd.operations.score import SETTLE_SECONDS
 
 if TYPE_CHECKING:
@@ -54,11 +54,10 @@ Sides = Annotated[
 ]
 
 
-class Aim(OnBalloon, Timed, Operation):
+class Aim(OnBalloon, Timed, WorksByBubble):
     """Turn bubbles, with all that hangs on them, about the joints at which they hang on the figure."""
 
     word: ClassVar[str] = "aim"
-    by_bubble: ClassVar[bool] = True
     example: ClassVar[str] = """\
 format: 1
 name: clover
@@ -86,11 +85,6 @@ steps:
     aim: Annotated[dict[Name, Sides], Field(min_length=1)]
     """Turn bubbles, with all that hangs on them, about the joints at which they hang on the figure."""
 
-    @property
-    def names(self) -> tuple[str, ...]:
-        """Bubbles that it turns."""
-        return tuple(self.aim)
-
     def entry(self, units: str | None) -> object:
         """Return its value as it stands in a file."""
         return {name: way[0] if len(way) == 1 else list(way) for name, way in self.aim.items()}
@@ -99,11 +93,6 @@ steps:
     def value_of(cls, units: Units, ways: Mapping[str, object] | None = None, /, **more: object) -> object:
         """Return its value as it stands in a file: a side to which each bubble points, or a list of sides."""
         return {**(ways or {}), **more}
-
-    @classmethod
-    def uses(cls, value: object) -> tuple[str, ...]:
-        """Return the bubbles that it turns."""
-        return tuple(value) if isinstance(value, dict) else ()
 
     @classmethod
     def check(cls, value: object, place: Place, bench: Workbench) -> None:

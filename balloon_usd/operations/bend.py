@@ -15,7 +15,7 @@ from balloon_usd.operations.closing import LENIENCE, ROUND
 from balloon_usd.operations.loop import SHORTEST
 from balloon_usd.operations.modifiers import OnBalloon, Pointed, Timed
 from balloon_usd.operations.moves import Bend as BendMove
-from balloon_usd.operations.operation import Operation
+from balloon_usd.operations.operation import WorksByBubble
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -30,11 +30,10 @@ ROUND_OFF = 1e-6
 """Degrees by which an angle in radians may miss a whole number."""
 
 
-class Bend(OnBalloon, Pointed, Timed, Operation):
+class Bend(OnBalloon, Pointed, Timed, WorksByBubble):
     """Bend bubbles by an angle, their ends towards a point."""
 
     word: ClassVar[str] = "bend"
-    by_bubble: ClassVar[bool] = True
     example: ClassVar[str] = """\
 format: 1
 name: swan_neck
@@ -56,11 +55,6 @@ steps:
     bend: Annotated[dict[Name, Angle], Field(min_length=1)]
     """Bend bubbles by an angle (degrees; radians in Python), their ends towards point."""
 
-    @property
-    def names(self) -> tuple[str, ...]:
-        """Bubbles that it bends."""
-        return tuple(self.bend)
-
     def entry(self, units: str | None) -> object:
         """Return its value as it stands in a file."""
         return {name: angle_entry(angle) for name, angle in self.bend.items()}
@@ -71,11 +65,6 @@ steps:
     ) -> object:
         """Return its value as it stands in a file: angles in degrees."""
         return {**(angles or {}), **more}
-
-    @classmethod
-    def uses(cls, value: object) -> tuple[str, ...]:
-        """Return the bubbles that it bends."""
-        return tuple(value) if isinstance(value, dict) else ()
 
     @classmethod
     def check(cls, value: object, place: Place, bench: Workbench) -> None:

@@ -125,6 +125,22 @@ class Operation(Entries):
         """Write the moves of a step of this index; raises `RecipeError` where no hand can make it."""
 
 
+class WorksByBubble(Operation):
+    """An operation whose value says something of each of some bubbles that are there."""
+
+    by_bubble: ClassVar[bool] = True
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Bubbles that it works on."""
+        return tuple(getattr(self, self.word))
+
+    @classmethod
+    def uses(cls, value: object) -> tuple[str, ...]:
+        """Return the bubbles that it works on."""
+        return tuple(value) if isinstance(value, dict) else ()
+
+
 class LengthsByBubble(Operation):
     """An operation whose value has a length for each of some bubbles."""
 

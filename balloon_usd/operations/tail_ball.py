@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, ClassVar
 from balloon_usd.language.lengths import at_least, at_most, cm
 from balloon_usd.operations.modifiers import OnBalloon
 from balloon_usd.operations.moves import Move, StretchTip
-from balloon_usd.operations.operation import Lengths, LengthsByBubble
+from balloon_usd.operations.operation import Lengths, LengthsByBubble, WorksByBubble
 from balloon_usd.operations.score import SETTLE_SECONDS
 
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ BETWEEN = 2.5
 """Flat rubber that keeps the ball off the tube, in R0."""
 
 
-class TailBall(OnBalloon, LengthsByBubble):
+class TailBall(OnBalloon, WorksByBubble, LengthsByBubble):
     """Stretch the end of the flat tail, until it gives way to the gas and becomes a ball."""
 
     word: ClassVar[str] = "tail_ball"
@@ -51,16 +51,6 @@ steps:
 
     tail_ball: Lengths
     """Stretch so much flat rubber at the tip, until it gives way to the gas and becomes a ball."""
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """The rests whose tips become balls."""
-        return tuple(self.tail_ball)
-
-    @classmethod
-    def uses(cls, value: object) -> tuple[str, ...]:
-        """Return the rests that it names."""
-        return tuple(value) if isinstance(value, dict) else ()
 
     @classmethod
     def check(cls, value: object, place: Place, bench: Workbench) -> None:
