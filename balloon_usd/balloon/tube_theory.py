@@ -185,23 +185,6 @@ def bulged_state(law: MembraneLaw, p_star: float) -> TubeState:
 
 
 @lru_cache(maxsize=64)
-def bulged_state_of_volume(law: MembraneLaw, volume_ratio: float) -> TubeState:
-    """Return the bulged closed tube that encloses volume_ratio times its unstressed volume.
-
-    Raises:
-        ValueError: the rubber has no bulged phase, or the volume is below that of its least pressure.
-    """
-    bottom = pressure_minimum(law)
-    if volume_ratio < bottom.volume_ratio:
-        raise ValueError(f"no bulged phase at {volume_ratio:g} times the unstressed volume")
-
-    def ratio(a: Floats) -> Floats:
-        return np.asarray(a**2 * closed_tube_axial_stretch(law, a))
-
-    return closed_tube_state(law, _stretch_at(ratio, volume_ratio, bottom.a, LARGEST_STRETCH))
-
-
-@lru_cache(maxsize=64)
 def maxwell_state(law: MembraneLaw) -> MaxwellState:
     """Return the two phases that live side by side in a long closed tube, and their pressure.
 

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from balloon_usd.balloon.air import ATMOSPHERE, GAS_CONSTANT, ROOM_TEMPERATURE
-from balloon_usd.balloon.bubble_shape import twist_cost
+from balloon_usd.balloon.bubble_shape import bubble_of_length, twist_cost
+from balloon_usd.balloon.filled_tube import state_at_stretch
 from balloon_usd.balloon.tube_theory import gauge_pressure, maxwell_state
 from balloon_usd.plan.open_tube import inflated_tube, softened, tail_range
 
@@ -31,6 +32,8 @@ class TwistEntry:
     """Hoop stretch of the open part."""
     energy: float
     """Elastic energy of its rubber, J/m3."""
+    sealed: float
+    """That of a long tube whose pressure makes it wider by as much as the bubble is, J/m3."""
 
 
 @dataclass(frozen=True)
@@ -112,17 +115,18 @@ def budget_of(strip: Strip) -> Budget:
     """Return the budget of a strip: it is twisted off once more, bubble by bubble."""
     rubber = softened(strip.rubber)
     tube = inflated_tube(strip.size, rubber, strip.tail)
-    volume = tube.volume
+    volume, maxwell = tube.volume, maxwell_state(rubber)
     twists: list[TwistEntry] = []
     for bubble in strip.bubbles[:-1]:
-        _, tube = tube.pinched(bubble.twisted)
+        shape, tube = tube.pinched(bubble.twisted)
         state = tube.state
         pressure = gauge_pressure(strip.size, state.p_star)
-        energy = float(rubber.energy(state.a, state.b))
+        soft = bubble_of_length(strip.size, rubber, bubble.length)
+        sealed = state_at_stretch(rubber, shape.diameter / soft.diameter * maxwell.bulged.a)
+        energies = (float(rubber.energy(it.a, it.b)) for it in (state, sealed))
         left = tube.inflated_length, tube.tail
-        twists.append(TwistEntry(bubble.name, bubble.step, *left, pressure, state.a, energy))
+        twists.append(TwistEntry(bubble.name, bubble.step, *left, pressure, state.a, *energies))
     room = tail_range(strip.size, rubber, [bubble.twisted for bubble in strip.bubbles[:-1]])
-    maxwell = maxwell_state(rubber)
     return Budget(
         balloon=strip.balloon,
         tail=strip.tail,

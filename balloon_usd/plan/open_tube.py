@@ -1,7 +1,8 @@
 """The tube still open to the hands: from the last twist to the tip, with its gas and its empty tail.
 
 While a tail is left the gas sits at the Maxwell pressure, so a twist only moves the front of the bulge on.
-When the tail is used up, every further twist blows up what is left.
+When the tail is used up, every further twist blows up what is left: also the bubble that it makes, for its
+neck lets gas through until it is closed.
 """
 
 from __future__ import annotations
@@ -18,8 +19,9 @@ from balloon_usd.balloon.bubble_shape import (
     tail_volume_per_rest_length,
     tube_volume_per_rest_length,
 )
+from balloon_usd.balloon.filled_tube import filled_state, state_at_pressure
 from balloon_usd.balloon.rubber import Softening
-from balloon_usd.balloon.tube_theory import TubeState, bulged_state_of_volume, maxwell_state
+from balloon_usd.balloon.tube_theory import TubeState, maxwell_state
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -31,6 +33,8 @@ MILLIMETRE = 1e-3
 """Step in which tails are told, m."""
 SHARE = 1e-3
 """Accuracy of the share by which bubbles have to be shorter."""
+HALVINGS = 14
+"""Of the pressure between before and after a twist, to find that at which its neck closes."""
 
 
 class Twisted(NamedTuple):
@@ -85,26 +89,41 @@ class OpenTube:
 
     @property
     def state(self) -> TubeState:
-        """Stretches and pressure of the inflated part."""
-        bulged = maxwell_state(self.rubber).bulged
-        if self._tail_balance >= 0.0:
-            return bulged
-        unstressed = math.pi * self.size.radius**2 * self.rest_length
-        full = self.volume + 0.5 * pinch_volume(self.size, self.rubber)
-        return bulged_state_of_volume(self.rubber, max(full / unstressed, bulged.volume_ratio))
+        """Stretches and pressure of the inflated part, in its middle."""
+        filled = filled_state(self.size, self.rubber, self.rest_length, self.volume)
+        return maxwell_state(self.rubber).bulged if filled is None else filled
 
     def pinched(self, bubble: Twisted) -> tuple[BubbleShape, OpenTube]:
-        """Twist off a bubble; return it and what stays open.
+        """Twist off a bubble; return it and what stays open, which are equally hard.
 
-        From a tube blown harder than the Maxwell pressure, the same length takes less rubber and more gas.
+        From a tube harder than the Maxwell pressure, the same length takes less rubber and more gas.
         """
-        bulged, now = maxwell_state(self.rubber).bulged, self.state
-        shape = bubble_of_length(self.size, self.rubber, bubble.length)
+        before = self.state
+        shape, left = self._parted(bubble, before)
+        if not left.blown_up or left.state.p_star <= before.p_star:
+            return shape, left
+        low, high = before.p_star, left.state.p_star
+        for _ in range(HALVINGS):
+            middle = 0.5 * (low + high)
+            _, left = self._parted(bubble, state_at_pressure(self.rubber, middle))
+            softer = not left.blown_up or left.state.p_star < middle
+            low, high = (low, middle) if softer else (middle, high)
+        return self._parted(bubble, state_at_pressure(self.rubber, low))
+
+    def _parted(self, bubble: Twisted, now: TubeState) -> tuple[BubbleShape, OpenTube]:
+        """Return a bubble whose neck closes when the tube is in a state, and what stays open.
+
+        It has the shape of a bubble at the Maxwell pressure that is as long for its width.
+        """
+        bulged = maxwell_state(self.rubber).bulged
+        wider = now.a / bulged.a
+        shape = bubble_of_length(self.size, self.rubber, bubble.length / wider)
         shape = replace(
             shape,
-            rest_length=bubble.slack * shape.rest_length * bulged.b / now.b,
-            diameter=shape.diameter * now.a / bulged.a,
-            volume=bubble.gas * shape.volume * (now.a / bulged.a) ** 2,
+            rest_length=bubble.slack * shape.rest_length * wider * bulged.b / now.b,
+            length=bubble.length,
+            diameter=shape.diameter * wider,
+            volume=bubble.gas * shape.volume * wider**3,
             pressure=shape.pressure * now.p_star / bulged.p_star,
         )
         left = replace(

@@ -9,7 +9,6 @@ from balloon_usd.balloon.rubber import Rubber, rubber_named
 from balloon_usd.balloon.sizes import size_named
 from balloon_usd.balloon.tube_theory import (
     bulged_state,
-    bulged_state_of_volume,
     closed_tube_axial_stretch,
     closed_tube_pressure,
     closed_tube_state,
@@ -166,7 +165,6 @@ def test_branches_return_the_states_they_were_asked_for():
     thin, bulged = thin_state(rubber, 170e3), bulged_state(rubber, 170e3)
     assert thin.a < pressure_maximum(rubber).a < pressure_minimum(rubber).a < bulged.a
     assert (thin.p_star, bulged.p_star) == pytest.approx((170e3, 170e3), rel=1e-9)
-    assert bulged_state_of_volume(rubber, 200.0).volume_ratio == pytest.approx(200.0, rel=1e-9)
 
 
 def test_states_that_do_not_exist_are_refused():
@@ -175,7 +173,5 @@ def test_states_that_do_not_exist_are_refused():
         thin_state(rubber, 400e3)
     with pytest.raises(ValueError, match="no bulged phase"):
         bulged_state(rubber, 100e3)
-    with pytest.raises(ValueError, match="no bulged phase"):
-        bulged_state_of_volume(rubber, 10.0)
     with pytest.raises(ValueError, match="no maximum"):
         pressure_maximum(gent(5.0))
