@@ -39,7 +39,7 @@ def central_angles(lengths: Floats) -> Floats:
     longest = int(np.argmax(sides))
     sides[longest] = min(sides[longest], LONGEST_SIDE * (sides.sum() - sides[longest]))
     others = np.delete(sides, longest)
-    inside = np.sum(np.arcsin(others / sides[longest])) >= 0.5 * math.pi
+    inside = np.sum(np.arcsin(np.minimum(others / sides[longest], 1.0))) >= 0.5 * math.pi
     low, high = 0.5 * sides[longest], 1e3 * sides.sum()
     for _ in range(100):
         radius = math.sqrt(low * high)
