@@ -11,6 +11,7 @@ import pytest
 from balloon_usd.language.joint import Joint
 from balloon_usd.operations.push import Push
 from balloon_usd.operations.roll import Roll
+from balloon_usd.solver.latex.motions.into_ring import RingPlane
 from tests.solver.into_ring import IntoRing
 
 HELD = "physics: {hold: 2}\n"
@@ -52,6 +53,38 @@ steps:
     balloon: more
   - lock: {joints: [arm.start, left.start]}
   - push: {bubble: arm, through: [left, right]}
+"""
+MARRIED = """
+format: 1
+name: married
+units: cm
+balloons:
+  one: {size: 260, length: 12, tail: 6}
+  two: {size: 260, length: 12, tail: 6}
+steps:
+  - {bubbles: {a1: 8}, balloon: one}
+  - {bubbles: {b1: 8}, balloon: two}
+  - lock: {joints: [a1.start, b1.start]}
+  - lock: {joints: [a1.end, b1.end]}
+  - {bubbles: {a2: 8}, balloon: one}
+  - roll: {bubble: a2, between: [a1, b1]}
+  - {bubbles: {b2: 8}, balloon: two}
+  - lock: {joints: [a2.end, b2.end]}
+"""
+MEATBALL = """
+format: 1
+name: meatball
+units: cm
+balloons:
+  main: {size: 260, length: 17, tail: 8}
+steps:
+  - bubbles: {a: 6, b: 6}
+  - lock: [a, b]
+    point: up
+  - bubbles: {c: 6, d: 6}
+  - lock: [c, d]
+    point: down
+  - roll: {bubble: c, between: [a, b]}
 """
 
 
@@ -131,6 +164,21 @@ def test_a_bubble_of_another_balloon_that_was_led_in_from_the_side_goes_through(
     made = IntoRing(OTHER + HELD)
     assert made.stuck == made.slipped == []
     assert made.result["through"]["arm"] > 0.6
+
+
+@pytest.mark.parametrize(("text", "rolled"), [(MARRIED, "a2"), (MEATBALL, "c")], ids=["marriage", "meatball"])
+def test_pairs_are_passed_through_each_other(text, rolled):
+    made = IntoRing(text + HELD)
+    assert made.stuck == made.slipped == []
+    assert made.result["through"][rolled] > 0.75
+    assert not any(made.crossings)
+
+
+@pytest.mark.parametrize("slant", [-0.09, -0.01, 0.01, 0.09])
+def test_a_bubble_behind_its_ring_swings_over_the_side_that_it_is_nearer_to(slant):
+    ring = 0.03 * np.array([[1.0, 1.0, 0.0], [2.0, 0.0, 0.0], [1.0, -1.0, 0.0]])
+    plane = RingPlane.of(ring, np.array([-np.sqrt(1.0 - slant**2), 0.0, slant]))
+    assert plane.normal[2] == pytest.approx(np.sign(slant))
 
 
 def test_where_the_ring_comes_undone_as_planned_nothing_is_expected_to_stay():

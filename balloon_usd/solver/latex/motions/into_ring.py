@@ -46,7 +46,7 @@ class RingPlane(NamedTuple):
         normal = np.cross(around, np.roll(around, -1, axis=0)).sum(axis=0)
         normal -= inward * float(normal @ inward)
         normal /= max(float(np.linalg.norm(normal)), 1e-9)
-        # One that lies in the hole is on neither side; one behind it swings over the side that it is nearer to.
+        # One in the hole is on neither side; one behind it swings over the side that it is nearer to.
         least = -IN_PLANE if float(points @ inward) > 0.0 else 0.0
         if float(points @ normal) < least:
             normal = -normal
