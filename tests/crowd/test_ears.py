@@ -46,7 +46,7 @@ def test_an_ear_as_long_as_wide_never_goes_through_itself():
 
 
 def test_ears_that_press_on_each_other_lie_still_while_hands_loosen_their_grip():
-    planned = plan(Recipe.parse(IN_A_ROW.format(size=646, inflated=60, body=18, ear=9)))
+    planned = plan(Recipe.parse(IN_A_ROW.format(size=646, inflated=56, body=18, ear=9)))
     loosened = next(move for move in planned.choreography.moves if isinstance(move, Loosen))
     fps = planned.recipe.fps
     last_second = range(round((loosened.end - 1.0) * fps), round(loosened.end * fps))

@@ -71,7 +71,7 @@ def test_what_is_left_is_rock_hard_where_the_tail_has_run_out(taut, roomy):
     assert roomy[twisted].pressure[-1] < 7900.0
 
 
-@pytest.mark.parametrize(("belly", "stays"), [(7, True), (13, False)])
+@pytest.mark.parametrize(("belly", "stays"), [(7, True), (3, False)])
 def test_the_body_of_a_bird_slips_apart_where_its_bubbles_are_unequal(belly, stays):
     _, passed = run(BIRD.format(belly=belly))
     assert (not passed.stuck() and not passed.slipped()) == stays

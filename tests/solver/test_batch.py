@@ -53,7 +53,7 @@ def test_a_plan_that_fails_while_the_next_frame_is_made_gives_nothing_more_and_l
     ahead = list(frames_from(batch_of(*plans, ahead=True)))
     first = [outcomes[0] for outcomes in ahead]
     (end,) = (k for k, outcome in enumerate(first) if isinstance(outcome, SimulationFailed))
-    assert "pinch: head: tail bursts" in str(first[end])
+    assert "loop twist: head: head bursts" in str(first[end])
     assert all(outcome is None for outcome in first[end + 1 :])
     alone = [bits(outcomes[0]) for outcomes in frames_from(batch_of(plans[1], ahead=False))]
     assert [bits(outcomes[1]) for outcomes in ahead] == alone

@@ -112,7 +112,7 @@ def test_a_burst_stops_the_run_when_the_recipe_says_so():
     figure = bursting()
     stopped = last_frames([figure])[0]
     assert isinstance(stopped, SimulationFailed)
-    assert "pinch: head: tail bursts" in str(stopped)
+    assert "loop twist: head: head bursts" in str(stopped)
     assert "main may burst at the twist that ends head" in [caution.what for caution in figure.cautions]
 
 

@@ -61,7 +61,7 @@ def test_a_change_is_told_once_and_a_failure_with_it():
     assert len(told) < len(shots)
     (failed,) = (change for change in told if change.failed)
     assert failed.plan == 1
-    assert "pinch: head: tail bursts" in str(failed.failed)
+    assert "loop twist: head: head bursts" in str(failed.failed)
     assert failed is [change for change in told if change.plan == 1][-1]
     assert not any(shot.made[1] for shot in shots[failed.failed.frame - 1 :])
     texts = [(change.doing, change.undone) for change in told if change.plan == 2]
