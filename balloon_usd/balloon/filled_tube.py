@@ -113,17 +113,18 @@ def _ends(rubber: Rubber, rest_length: float) -> tuple[float, float]:
     """Return what both ends of a tube of this unstressed length (R0) lack, in what those of a long one do,
     and by how much it is harder, in the pressure of that.
     """
-    lengths, lacking = _bursting(rubber)
-    harder = (_HARDER - _HARDER[0])[::-1]
+    lengths, lacking, harder = _bursting(rubber)
     return float(np.interp(rest_length, lengths, lacking)), float(np.interp(rest_length, lengths, harder))
 
 
 @lru_cache(maxsize=32)
-def _bursting(rubber: Rubber) -> tuple[Floats, Floats]:
-    """Return unstressed lengths (R0) of tubes about to burst, ascending, and what both their ends lack."""
+def _bursting(rubber: Rubber) -> tuple[Floats, Floats, Floats]:
+    """Return unstressed lengths (R0) of tubes about to burst, ascending, what both their ends lack, and by
+    how much they are harder.
+    """
     tube = closed_tube_state(rubber, BURST_STRETCH)
     law = UnloadedRubber(rubber, float(rubber.energy(tube.a, tube.b)))
     widest, slow = np.full(len(_HARDER), tube.a), 1.0 + _HARDER[0]
     rest, _, volume = bubble_at_stretch(law, (1.0 + _HARDER) * tube.p_star, widest, slow * tube.a)[:, ::-1]
     lacking = math.pi * rest * tube.volume_ratio - volume
-    return rest, lacking / lacking[-1]
+    return rest, lacking / lacking[-1], (_HARDER - _HARDER[0])[::-1]
