@@ -164,6 +164,16 @@ def near_quads(chunk: int, place: int, other: int, mesh: Mesh, crossings: Crossi
 
 
 @wp.func
+def neck_of_quad(c: wp.vec4i, crossings: Crossings):
+    """Return the joint in whose neck a quad is folded up, -1 for none."""
+    neck = int_at(crossings.folded, c[0])
+    for k in range(1, 4):
+        if int_at(crossings.folded, c[k]) != neck:
+            neck = -1
+    return neck
+
+
+@wp.func
 def answer_chunk(
     chunk: int,
     q: int,
@@ -179,7 +189,7 @@ def answer_chunk(
     together share them out.
     """
     c = vec4i_at(mesh.quads, q)
-    own = int_at(mesh.quad_neck, q)
+    own = neck_of_quad(c, crossings)
     base = int_at(mesh.chunk_quad, other)
     close = near_quads(chunk, q - int_at(mesh.chunk_quad, chunk), other, mesh, crossings)
     close = without_lowest(close, part)
@@ -187,7 +197,7 @@ def answer_chunk(
         r = base + lowest_bit(close)
         close = without_lowest(close, search_lanes())
         d = vec4i_at(mesh.quads, r)
-        neck = int_at(mesh.quad_neck, r)
+        neck = neck_of_quad(d, crossings)
         if neck < 0 or neck != own:
             answer_quad(c, d, neck, together, world, mesh, contacts, crossings)
 
