@@ -32,6 +32,9 @@ FRONTS: dict[Front, Vector] = {
 }
 """Directions of these sides. Figures are shown with their front to -x, where what is made first lies."""
 
+Facing = Front | tuple[str, ...]
+"""A side of a figure: of its surroundings, as it was made, or that on which some bubbles lie, by name."""
+
 POINTS: dict[str, Vector] = {
     "up": (0.0, 0.0, 1.0),
     "down": (0.0, 0.0, -1.0),
@@ -311,9 +314,9 @@ class SetDown(Move):
     """Carry the finished figure as it is to where it stays."""
 
     pose: Pose = "stand"
-    front: Front = "forward"
+    front: Facing = "forward"
     """The side that is turned to face -x."""
-    top: Front | None = None
+    top: Facing | None = None
     """The side that is turned up; None for as little turned as needed."""
     height: float = 0.0
     """How far above the ground its lowest point comes, m."""

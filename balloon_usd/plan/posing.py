@@ -9,7 +9,7 @@ from balloon_usd.operations.moves import LET_GO, OTHER_SIDE, TIPPED, Fall, Move,
 from balloon_usd.recipe.recipe import EARTH
 
 if TYPE_CHECKING:
-    from balloon_usd.operations.moves import Front, Vector
+    from balloon_usd.operations.moves import Facing, Vector
     from balloon_usd.operations.score import Score
     from balloon_usd.recipe import Recipe
 
@@ -77,14 +77,18 @@ def pose(recipe: Recipe, score: Score, *, mirrored: bool) -> None:
         score.add(Move(score.now, POSED_SECONDS, last, done))
 
 
-def _sides(recipe: Recipe, *, mirrored: bool) -> tuple[Front, Front | None]:
+def _sides(recipe: Recipe, *, mirrored: bool) -> tuple[Facing, Facing | None]:
     """Return which sides of a figure, as hands make it, come to the front and to the top."""
     front, top = recipe.front, recipe.top
-    if top is not None and front == "forward":
+    if isinstance(top, str) and front == "forward":
         front = TIPPED.get(top, front)
     if mirrored:
-        front, top = OTHER_SIDE.get(front, front), top and OTHER_SIDE.get(top, top)
+        front, top = _mirrored(front), top and _mirrored(top)
     return front, top
+
+
+def _mirrored(facing: Facing) -> Facing:
+    return OTHER_SIDE.get(facing, facing) if isinstance(facing, str) else facing
 
 
 def _fall(recipe: Recipe, start: float, seconds: float) -> Fall:

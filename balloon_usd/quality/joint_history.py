@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from balloon_usd.plan.holding import friction_margin
+from balloon_usd.quality.bubbles import vertices_of_bubbles
 from balloon_usd.quality.joints import joints_of, made_joints, together
 from balloon_usd.quality.ring_corners import RingCorners
 
@@ -17,12 +18,11 @@ if TYPE_CHECKING:
 
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
+    from balloon_usd.quality.bubbles import Vertices
     from balloon_usd.quality.joints import PlannedJoint
     from balloon_usd.solver.frame import Frame
 
     Floats = NDArray[np.float64]
-    Vertices = tuple[int, NDArray[np.int32]]
-    """Index of the balloon of a bubble, and the vertices of its faces."""
 
 BETWEEN_LOOKS = 0.5
 """Time between two frames in which joints are looked at, s."""
@@ -37,7 +37,7 @@ class JointHistory:
         """Find out what to look at, and when; one mesh a balloon, in the order of `Plan.strips`."""
         self._plan, self._fps = plan, plan.recipe.fps
         meant = {joint.name for joint in joints_of(plan) if joint.holds}
-        bubbles = _vertices(plan, meshes)
+        bubbles = vertices_of_bubbles(plan, meshes)
         self._joints = [
             _WatchedJoint(plan, meshes, joint, bubbles, meant=joint.name in meant)
             for joint in made_joints(plan)
@@ -127,12 +127,3 @@ class _WatchedJoint:
             "slip": round(self._slip, SLIP_DIGITS),
             "turn": round(self._turn, TURN_DIGITS),
         }
-
-
-def _vertices(plan: Plan, meshes: Sequence[BalloonMesh]) -> dict[str, Vertices]:
-    """Return the vertices of every bubble, by its name."""
-    return {
-        bubble.name: (balloon, np.unique(mesh.quads[mesh.quad_bubble == index]))
-        for balloon, (strip, mesh) in enumerate(zip(plan.strips.values(), meshes, strict=True))
-        for index, bubble in enumerate(strip.bubbles)
-    }

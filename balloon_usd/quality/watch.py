@@ -51,7 +51,7 @@ class QualityWatch:
         self._led_apart, self._led_frames = 0.0, 0
         """Farthest that a wall was led out of others in a frame, m, and in how many frames any was."""
         self._rest = Rest(plan)
-        self._standing = Standing(plan)
+        self._standing = Standing(plan, meshes)
         self._tails = TwistTails(plan, meshes)
         self._joints = JointHistory(plan, meshes)
         self._passed = PassedBubbles(plan, meshes)

@@ -17,7 +17,7 @@ from .writer import Entries, recipe_text, step_entries
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
-    from balloon_usd.operations.moves import Front, Pose
+    from balloon_usd.operations.moves import Pose
     from balloon_usd.operations.tempo import Tempo
 
 BUILDER_FILE = "<builder>"
@@ -44,8 +44,8 @@ class RecipeBuilder:
         pose: Pose | None = None,
         height: LengthLike | None = None,
         speed: float | None = None,
-        front: Front | None = None,
-        top: Front | None = None,
+        front: str | Sequence[str] | None = None,
+        top: str | Sequence[str] | None = None,
         mirror: bool = False,
         must_hold: str | Sequence[str] | None = None,
     ) -> None:
@@ -56,10 +56,9 @@ class RecipeBuilder:
         self._balloons: dict[str, Entries] = {}
         self._steps: list[Entries] = []
         falling = {"height": None if height is None else self._length(height), "speed": speed}
-        self._end = _given({"pose": pose, **falling, "front": front, "top": top})
+        self._end = _given({"pose": pose, **falling, "front": _listed(front), "top": _listed(top)})
         self._end |= _given({"mirror": mirror or None})
-        held = must_hold if must_hold is None or isinstance(must_hold, str) else list(must_hold)
-        self._end |= _given({"must_hold": held})
+        self._end |= _given({"must_hold": _listed(must_hold)})
         self._physics: Entries = {}
 
     def balloon(
@@ -152,3 +151,8 @@ class RecipeBuilder:
 
 def _given(entries: Mapping[str, object]) -> Entries:
     return {key: value for key, value in entries.items() if value is not None}
+
+
+def _listed(value: str | Sequence[str] | None) -> object:
+    """Return a word, or a list of names, as it stands in a file."""
+    return value if value is None or isinstance(value, str) else list(value)

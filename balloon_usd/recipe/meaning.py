@@ -9,6 +9,7 @@ from balloon_usd.operations.entries import steps_in, workbench_of
 from balloon_usd.operations.workpiece import Workpiece
 
 from .balloons import FILLINGS, FLAT_ONLY, balloons_in
+from .facing import facing_complaints
 from .held_words import held_complaints
 from .mesh_words import mesh_complaints, meshes_in
 from .model_words import model_complaints
@@ -45,9 +46,9 @@ def meaning_of(data: object) -> Meaning:
     piece = _blown_up(meshes, len(steps)) if meshes else bench.finished(len(steps))
     told = bench.complaints
     # Of what is not made rightly is not known what meets where.
-    held = [] if told else held_complaints(data, piece)
+    finished = [] if told else [*facing_complaints(data, piece), *held_complaints(data, piece)]
     return Meaning(
-        [*told, *mesh_complaints(data), *model_complaints(data), *pose_complaints(data), *held], piece
+        [*told, *mesh_complaints(data), *model_complaints(data), *pose_complaints(data), *finished], piece
     )
 
 

@@ -24,12 +24,13 @@ from balloon_usd.language.problem import Complaint, Notice, Path, Problem, Recip
 from balloon_usd.language.quantities import METRES, Between, LengthWithin, Reading, Units
 from balloon_usd.language.yaml_reader import Document, read_yaml
 from balloon_usd.operations.modifiers import Entries
-from balloon_usd.operations.moves import LET_GO, Front, Pose
+from balloon_usd.operations.moves import LET_GO, Pose
 from balloon_usd.operations.table import Step
 from balloon_usd.operations.tempo import Tempo
 from balloon_usd.operations.workpiece import Workpiece
 
 from .balloons import Balloon
+from .facing import FacingEntry
 from .meaning import meaning_of
 from .physics import Physics
 from .recipe_file import FilePath, read_recipe_file
@@ -106,10 +107,10 @@ class Recipe(Entries):
     in Python."""
     speed: Annotated[float, Between(0.0, 10.0, "m/s")] | None = None
     """How fast it is thrown ahead, 3 m/s when absent."""
-    front: Front = "forward"
-    """Which side of the figure, as it is made, is its front: in the end it is turned to face -x."""
-    top: Front | None = None
-    """Which side of the figure, as it is made, is its top: in the end it is turned up."""
+    front: FacingEntry = "forward"
+    """Which side of the figure, as it is made, is its front, or bubbles there: in the end it faces -x."""
+    top: FacingEntry | None = None
+    """Which side of the figure, as it is made, is its top, or bubbles there: in the end it is turned up."""
     mirror: StrictBool = False
     """Whether the finished stage is the mirror image of what the recipe says, left and right exchanged."""
     must_hold: Held | None = None

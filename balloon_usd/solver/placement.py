@@ -10,9 +10,16 @@ from numpy.typing import NDArray
 from balloon_usd.operations.moves import FRONTS
 
 if TYPE_CHECKING:
-    from balloon_usd.operations.moves import Front
+    from collections.abc import Callable
+
+    from balloon_usd.operations.moves import Facing
 
 Floats = NDArray[np.float64]
+
+FORWARD = np.array(FRONTS["forward"])
+UP = np.array(FRONTS["up"])
+LEAST_ACROSS = 0.3
+"""Sine of the angle below which a front lies along the top: where it faces then says nothing."""
 
 
 class Placement(NamedTuple):
@@ -33,15 +40,36 @@ class Placement(NamedTuple):
         points[:] = points @ self.turn.T + self.shift
 
 
-def turn_of_sides(front: Front, top: Front | None) -> Floats:
+def turn_facing(front: Facing, top: Facing | None, middle: Floats, of: Callable[[str], Floats]) -> Floats:
     """Return the turn (3, 3) that brings the front of a figure to -x, and its top up: the smallest if none is
-    said.
+    said, or if it is told by bubbles and no front is said beside it.
+
+    Args:
+        front: a side, or bubbles that lie there.
+        top: the same, or None.
+        middle: of the figure, (3,), m.
+        of: gives the middle of a bubble by its name, (3,), m.
     """
-    ahead = np.array(FRONTS[front])
-    if top is None:
-        return turn_about(*turn_between(ahead, np.array(FRONTS["forward"])))
-    up = np.array(FRONTS[top])
-    return np.stack([-ahead, np.cross(up, -ahead), up])
+    up = None if top is None else _direction(top, middle, of)
+    if up is not None and not isinstance(top, str) and front == "forward":
+        return turn_about(*turn_between(up, UP))
+    ahead = _direction(front, middle, of)
+    if up is None:
+        return turn_about(*turn_between(ahead, FORWARD))
+    across = np.cross(up, -ahead)
+    if (size := float(np.linalg.norm(across))) < LEAST_ACROSS:
+        return turn_about(*turn_between(up, UP))
+    across /= size
+    return np.stack([np.cross(across, up), across, up])
+
+
+def _direction(facing: Facing, middle: Floats, of: Callable[[str], Floats]) -> Floats:
+    """Return the unit direction (3,) of a side, or that in which bubbles lie from the middle of a figure."""
+    if isinstance(facing, str):
+        return np.array(FRONTS[facing])
+    way = np.mean([of(bubble) for bubble in facing], axis=0) - middle
+    found: Floats = way / max(float(np.linalg.norm(way)), 1e-9)
+    return found
 
 
 def turn_between(one: Floats, other: Floats) -> tuple[Floats, float]:

@@ -154,18 +154,40 @@ class Sculpture:
         Raises:
             KeyError: no bubble of this name.
         """
+        name, index = self._place(bubble)
+        body = self.scene.bodies[self.body[name]]
+        run = self._run(name, index)
+        cap = (body.rings[0].around // 4) ** 2
+        first = run.start + (cap if index + body.spare_segments == 0 else 0)
+        last = run.stop - (cap if index == len(self.plan.strips[name].bubbles) - 1 else 0)
+        return self.body[name], np.arange(first, last)
+
+    def bubble_middle(self, bubble: str) -> NDArray[np.float64]:
+        """Return the middle of the wall of a bubble, (3,), m.
+
+        Raises:
+            KeyError: no bubble of this name.
+        """
+        name, index = self._place(bubble)
+        run, body = self._run(name, index), self.body[name]
+        corners = self.scene.bodies[body].quads[run.start : run.stop]
+        own = np.unique(corners) + int(self.scene.vertex_start[body])
+        middle: NDArray[np.float64] = self.hands.places[own].mean(axis=0, dtype=np.float64)
+        return middle
+
+    def _place(self, bubble: str) -> tuple[str, int]:
+        """Return the balloon of a bubble, and its place in it."""
         for name, strip in self.plan.strips.items():
             for index, planned in enumerate(strip.bubbles):
                 if planned.name == bubble:
-                    body = self.scene.bodies[self.body[name]]
-                    segment = index + body.spare_segments
-                    first = body.segment_ends[segment - 1] if segment else 0
-                    last = body.segment_ends[segment]
-                    cap = (body.rings[0].around // 4) ** 2
-                    first += cap if segment == 0 else 0
-                    last -= cap if index == len(strip.bubbles) - 1 else 0
-                    return self.body[name], np.arange(first, last)
+                    return name, index
         raise KeyError(bubble)
+
+    def _run(self, balloon: str, index: int) -> range:
+        """Return the faces of a bubble, numbered within its body."""
+        body = self.scene.bodies[self.body[balloon]]
+        segment = index + body.spare_segments
+        return range(body.segment_ends[segment - 1] if segment else 0, body.segment_ends[segment])
 
 
 def _tops(plan: Plan) -> set[int]:

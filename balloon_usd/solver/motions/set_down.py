@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from balloon_usd.operations.moves import LET_GO
 from balloon_usd.solver.motions.motion import Motion
 from balloon_usd.solver.motions.smooth import smooth
-from balloon_usd.solver.placement import Placement, axis_and_angle, turn_about, turn_between, turn_of_sides
+from balloon_usd.solver.placement import Placement, axis_and_angle, turn_about, turn_between, turn_facing
 from balloon_usd.solver.resting import standing_direction
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ class SetDown(Motion):
 
         `points`: its vertices, (V, 3), m.
         """
-        facing = turn_of_sides(move.front, move.top)
+        facing = turn_facing(move.front, move.top, points.mean(axis=0), self._sculpture.bubble_middle)
         arms = (points - self._centre) @ facing.T
         thread = _thread(arms, facing, self._centre, self._sculpture)
         down = DOWN

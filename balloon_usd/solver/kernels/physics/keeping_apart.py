@@ -74,20 +74,27 @@ def begin_keeping_apart(frame_ends: int, contacts: Contacts, crossings: Crossing
 
 @wp.func
 def neck_folded_in(
-    i: int, mesh: Mesh, balloons: Balloons, joints: Joints, hands: Hands, x: wp.array[wp.vec3]
+    i: int,
+    mesh: Mesh,
+    balloons: Balloons,
+    joints: Joints,
+    hands: Hands,
+    crossings: Crossings,
+    x: wp.array[wp.vec3],
 ):
     """Return the joint in whose neck a vertex is folded up, -1 for none: once hands have let go, not what is
-    far from it.
+    far from it, unless it could not be led apart there.
     """
     ring = int_at(mesh.vertex_neck_ring, i)
     if ring < 0:
         return -1
     balloon = int_at(mesh.vertex_balloon, i)
-    if int_at(hands.floating, balloon) == 1:
+    neck = int_at(mesh.vertex_neck, i)
+    if int_at(hands.floating, balloon) == 1 and int_at(crossings.given_up, neck) == 0:
         away = wp.length(vec3_at(x, i) - vec3_at(joints.ring_middle, ring))
         if away > FOLDED_WITHIN * float_at(balloons.balloon_radius, balloon):
             return -1
-    return int_at(mesh.vertex_neck, i)
+    return neck
 
 
 @wp.kernel
@@ -105,7 +112,7 @@ def begin_moves(
     crossings.restless[i] = 1
     crossings.smoothing[i] = 0.0
     crossings.pushed[i] = wp.vec3i(0)
-    crossings.folded[i] = neck_folded_in(i, mesh, balloons, joints, hands, x)
+    crossings.folded[i] = neck_folded_in(i, mesh, balloons, joints, hands, crossings, x)
 
 
 @wp.kernel

@@ -1,0 +1,86 @@
+"""Which side of a figure faces where: one of six, or that on which some of its bubbles lie."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, Any, get_args
+
+from pydantic import BeforeValidator, PlainSerializer, WithJsonSchema
+
+from balloon_usd.language.choices import one_of, unknown
+from balloon_usd.language.names import Name, is_name
+from balloon_usd.language.problem import Complaint, quoted
+from balloon_usd.operations.moves import Facing, Front
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from balloon_usd.operations.workpiece import Workpiece
+
+SIDES: tuple[str, ...] = get_args(Front)
+FACING = ("front", "top")
+"""Keys of a recipe that say a side."""
+
+
+def _facing(value: object) -> object:
+    """Read a side, a bubble, or a list of bubbles."""
+    if isinstance(value, str) and value in SIDES:
+        return value
+    names = [value] if isinstance(value, str) else value
+    if not isinstance(names, (list, tuple)) or not names:
+        raise ValueError(
+            f"{quoted(value)} is no side of a figure, expected {one_of(SIDES)}, or bubbles there"
+        )
+    for name in names:
+        if not (isinstance(name, str) and is_name(name)):
+            raise ValueError(f"{quoted(name)} is no name of a bubble, expected bubbles on that side")
+    return tuple(dict.fromkeys(names))
+
+
+def _written(facing: Facing) -> object:
+    """Return a side as it stands in a file."""
+    if isinstance(facing, str):
+        return facing
+    return facing[0] if len(facing) == 1 else list(facing)
+
+
+_BUBBLE: dict[str, Any] = {"type": "string"}
+FacingEntry = Annotated[
+    Front | tuple[Name, ...],
+    BeforeValidator(_facing),
+    PlainSerializer(_written),
+    WithJsonSchema(
+        {"anyOf": [{"enum": list(SIDES)}, _BUBBLE, {"type": "array", "items": _BUBBLE, "minItems": 1}]}
+    ),
+]
+
+
+def _names(value: object) -> list[str]:
+    """Return the bubbles of a side as it stands in a file; none where it is one of six."""
+    listed = value if isinstance(value, (list, tuple)) else [value]
+    return [
+        name
+        for name in listed
+        if isinstance(name, str) and is_name(name) and (name not in SIDES or listed is value)
+    ]
+
+
+def facing_complaints(data: object, piece: Workpiece) -> Iterator[Complaint]:
+    """Yield what of the front and the top is neither a side nor a bubble of the finished figure.
+
+    `data`: plain data of a recipe, of whatever shape it is; `piece`: what its steps make.
+    """
+    if not isinstance(data, dict):
+        return
+    for key in FACING:
+        listed = isinstance(data.get(key), (list, tuple))
+        for at, name in enumerate(_names(data.get(key))):
+            path = (key, at) if listed else (key,)
+            if name in piece.popped:
+                what = f"bubble {quoted(name)} was popped, expected one that has its gas"
+                yield Complaint(path, what)
+            elif name not in piece.bubbles:
+                choices = [*piece.bubbles] if listed else [*SIDES, *piece.bubbles]
+                yield Complaint(path, unknown("bubble" if listed else key, name, choices))
+    front, top = (frozenset(_names(data.get(key))) for key in FACING)
+    if front and front == top:
+        yield Complaint(("top",), "names what is the front already, expected another side of the figure")
