@@ -99,7 +99,6 @@ def ring_arrays(scene: FlatBodies, host: Arrays) -> None:
     neck = np.concatenate(necks).astype(np.int32)
     corners = neck[host["quads"]]
     host["vertex_neck"] = neck
-    host["vertex_neck_ring"] = neck
     host["quad_neck"] = np.where((corners == corners[:, :1]).all(axis=1), corners[:, 0], -1).astype(np.int32)
     host["ring_cos_sin"] = np.zeros((v[-1], 2), dtype=np.float32)
     sizes = host["ring_around"].astype(np.int64)

@@ -22,7 +22,7 @@ class IntoRing:
     def __init__(self, text):
         self.plan = plan(Recipe.parse(text))
         (self.move,) = (move for move in self.plan.choreography.moves if isinstance(move, PassThrough))
-        self.simulation = simulation = simulate_many([self.plan], device="cpu")
+        simulation = simulate_many([self.plan], device="cpu")
         (meshes,) = simulation.meshes
         self.mesh = meshes[0]
         passed = PassedBubbles(self.plan, meshes)

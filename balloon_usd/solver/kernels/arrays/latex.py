@@ -161,12 +161,6 @@ class Crossings:
     pushed: wp.array[wp.vec3i] = array(
         "vertices", meaning="mass by way on which pairs that would cross push it apart, 10^12 to 1 kg m"
     )
-    folded: wp.array[int] = array(
-        "vertices", meaning="joint in whose neck it is folded up, through what else is there; -1 for none"
-    )
-    given_up: wp.array[int] = array(
-        "joints", meaning="1 for a neck whose rubber could not be led apart where it lies far from its joint"
-    )
     smoothing: wp.array[float] = array("vertices", meaning="how much it is smoothed; 1 at a crossing")
     smoothing_next: wp.array[float] = array("vertices", meaning="scratch: that in the coming round")
     pierced_count: wp.array[int] = array("sculptures", meaning="edges found that pierce a face")

@@ -57,9 +57,6 @@ class Mesh:
     vertex_neck: wp.array[int] = array(
         "vertices", meaning="joint in whose neck it lies, one for all that are meant to join; -1 for none"
     )
-    vertex_neck_ring: wp.array[int] = array(
-        "vertices", meaning="joint next to which it lies in that neck; -1 for none"
-    )
     vertex_place: wp.array[wp.vec3] = array("vertices", unit="m", meaning="its unstressed place")
     vertex_outward: wp.array[wp.vec3] = array("vertices", meaning="its unstressed outward direction, or 0")
     mass: wp.array[float] = array(

@@ -7,7 +7,7 @@ import warp as wp
 from balloon_usd.solver.frame import LEAST_SLOWNESS
 from balloon_usd.solver.kernels.arrays.latex import Crossings
 from balloon_usd.solver.kernels.arrays.shared import Balloons, Contacts, Hands, Joints, Mesh, State
-from balloon_usd.solver.kernels.device.array_access import float_at, int_at, vec3_at
+from balloon_usd.solver.kernels.device.array_access import int_at, vec3_at
 from balloon_usd.solver.kernels.physics.joints import held
 from balloon_usd.solver.kernels.physics.motion import LYING, SLOW
 from balloon_usd.solver.kernels.physics.piercing_edge import PER_METRE
@@ -25,11 +25,6 @@ from balloon_usd.solver.kernels.physics.untangling import (
     segment_of,
 )
 
-FOLDED_WITHIN = wp.constant(3.0)
-"""Distance from its joint within which rubber counts as folded up in a neck once hands have let go, in R0:
-where it goes through itself farther away, gas blows it up inside its bubble (a foreleg beside a rolled body
-drew 54 mm of its wall in). While hands work, creases that open past them would jam.
-"""
 MORE = wp.constant(0.02)
 """How much more a vertex moves as its neighbours do in every round, as a share of the difference."""
 HELD_ROUNDS = wp.constant(12)
@@ -72,47 +67,14 @@ def begin_keeping_apart(frame_ends: int, contacts: Contacts, crossings: Crossing
         crossings.any_watched[0] = 0
 
 
-@wp.func
-def neck_folded_in(
-    i: int,
-    mesh: Mesh,
-    balloons: Balloons,
-    joints: Joints,
-    hands: Hands,
-    crossings: Crossings,
-    x: wp.array[wp.vec3],
-):
-    """Return the joint in whose neck a vertex is folded up, -1 for none: once hands have let go, not what is
-    far from it, unless it could not be led apart there.
-    """
-    ring = int_at(mesh.vertex_neck_ring, i)
-    if ring < 0:
-        return -1
-    balloon = int_at(mesh.vertex_balloon, i)
-    neck = int_at(mesh.vertex_neck, i)
-    if int_at(hands.floating, balloon) == 1 and int_at(crossings.given_up, neck) == 0:
-        away = wp.length(vec3_at(x, i) - vec3_at(joints.ring_middle, ring))
-        if away > FOLDED_WITHIN * float_at(balloons.balloon_radius, balloon):
-            return -1
-    return neck
-
-
 @wp.kernel
-def begin_moves(
-    mesh: Mesh,
-    balloons: Balloons,
-    joints: Joints,
-    hands: Hands,
-    crossings: Crossings,
-    x: wp.array[wp.vec3],
-):
+def begin_moves(crossings: Crossings, x: wp.array[wp.vec3]):
     """Let every vertex be where it went; nothing is shared yet, and all have to be looked at."""
     i = wp.tid()
     crossings.x_apart[i] = x[i]
     crossings.restless[i] = 1
     crossings.smoothing[i] = 0.0
     crossings.pushed[i] = wp.vec3i(0)
-    crossings.folded[i] = neck_folded_in(i, mesh, balloons, joints, hands, crossings, x)
 
 
 @wp.kernel

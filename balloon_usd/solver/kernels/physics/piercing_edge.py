@@ -58,13 +58,13 @@ def lead_back(i: int, share: float, way: wp.vec3, crossings: Crossings):
 
 
 @wp.func
-def counts(ends: wp.vec3i, neck: int, crossings: Crossings):
+def counts(ends: wp.vec3i, neck: int, mesh: Mesh):
     """Return whether an edge may not pierce a quad beside which it does not end: it is not folded up in its
     neck.
 
     `neck`: of the quad.
     """
-    return neck < 0 or int_at(crossings.folded, ends[0]) != neck or int_at(crossings.folded, ends[1]) != neck
+    return neck < 0 or int_at(mesh.vertex_neck, ends[0]) != neck or int_at(mesh.vertex_neck, ends[1]) != neck
 
 
 @wp.func
@@ -245,7 +245,7 @@ def answer_edge(
     `ends`: of the edge, and the third corner of its face; `other`: corners of the triangle; `neck`: in which
     that lies; `together`: 1 for their motions.
     """
-    if not counts(ends, neck, crossings):
+    if not counts(ends, neck, mesh):
         return
     p = vec3_at(crossings.x_apart, ends[0])
     q = vec3_at(crossings.x_apart, ends[1])

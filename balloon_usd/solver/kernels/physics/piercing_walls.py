@@ -164,16 +164,6 @@ def near_quads(chunk: int, place: int, other: int, mesh: Mesh, crossings: Crossi
 
 
 @wp.func
-def neck_of_quad(c: wp.vec4i, crossings: Crossings):
-    """Return the joint in whose neck a quad is folded up, -1 for none."""
-    neck = int_at(crossings.folded, c[0])
-    for k in range(1, 4):
-        if int_at(crossings.folded, c[k]) != neck:
-            neck = -1
-    return neck
-
-
-@wp.func
 def answer_chunk(
     chunk: int,
     q: int,
@@ -189,7 +179,7 @@ def answer_chunk(
     together share them out.
     """
     c = vec4i_at(mesh.quads, q)
-    own = neck_of_quad(c, crossings)
+    own = int_at(mesh.quad_neck, q)
     base = int_at(mesh.chunk_quad, other)
     close = near_quads(chunk, q - int_at(mesh.chunk_quad, chunk), other, mesh, crossings)
     close = without_lowest(close, part)
@@ -197,7 +187,7 @@ def answer_chunk(
         r = base + lowest_bit(close)
         close = without_lowest(close, search_lanes())
         d = vec4i_at(mesh.quads, r)
-        neck = neck_of_quad(d, crossings)
+        neck = int_at(mesh.quad_neck, r)
         if neck < 0 or neck != own:
             answer_quad(c, d, neck, together, world, mesh, contacts, crossings)
 

@@ -181,15 +181,11 @@ def end_untangling(
     mesh: Mesh, balloons: Balloons, hands: Hands, contacts: Contacts, crossings: Crossings, state: State
 ):
     """Let every vertex be where it was led; where walls still cross it goes a step on the way found first,
-    but stays where it was put back to: there walls are only too near. Necks whose rubber still crosses far
-    from their joints are given up: else all else of the sculpture would jam.
+    but stays where it was put back to: there walls are only too near.
     """
     i = wp.tid()
-    done = round_of(i, mesh, balloons, crossings)
-    neck = mesh.vertex_neck[i]
-    if done == FAILED and crossings.way_back[i][3] > 0 and neck >= 0 and crossings.folded[i] < 0:
-        crossings.given_up[neck] = 1
     crossings.way_back[i] = wp.vec4i(0)
+    done = round_of(i, mesh, balloons, crossings)
     shift = crossings.x_apart[i] - state.x[i]
     if done == APART:
         contacts.crossed[i] = 0
