@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated, Any, get_args
 
-from pydantic import BeforeValidator, PlainSerializer, WithJsonSchema
+from pydantic import BeforeValidator, Discriminator, Field, PlainSerializer, Tag, WithJsonSchema
 
-from balloon_usd.language.choices import one_of, unknown
+from balloon_usd.language.choices import unknown
 from balloon_usd.language.names import Name, is_name
 from balloon_usd.language.problem import Complaint, quoted
 from balloon_usd.operations.moves import Facing, Front
@@ -17,23 +17,19 @@ if TYPE_CHECKING:
     from balloon_usd.operations.workpiece import Workpiece
 
 SIDES: tuple[str, ...] = get_args(Front)
+SIDE, BUBBLES = "one of six sides", "bubbles on a side"
+"""Tags of the forms of a side, which never occur as keys of a recipe."""
 FACING = ("front", "top")
 """Keys of a recipe that say a side."""
 
 
-def _facing(value: object) -> object:
-    """Read a side, a bubble, or a list of bubbles."""
-    if isinstance(value, str) and value in SIDES:
-        return value
-    names = [value] if isinstance(value, str) else value
-    if not isinstance(names, (list, tuple)) or not names:
-        raise ValueError(
-            f"{quoted(value)} is no side of a figure, expected {one_of(SIDES)}, or bubbles there"
-        )
-    for name in names:
-        if not (isinstance(name, str) and is_name(name)):
-            raise ValueError(f"{quoted(name)} is no name of a bubble, expected bubbles on that side")
-    return tuple(dict.fromkeys(names))
+def _form(value: object) -> str:
+    listed = isinstance(value, (list, tuple)) or (isinstance(value, str) and value not in SIDES)
+    return BUBBLES if listed else SIDE
+
+
+def _listed(value: object) -> object:
+    return (value,) if isinstance(value, str) else value
 
 
 def _written(facing: Facing) -> object:
@@ -45,8 +41,9 @@ def _written(facing: Facing) -> object:
 
 _BUBBLE: dict[str, Any] = {"type": "string"}
 FacingEntry = Annotated[
-    Front | tuple[Name, ...],
-    BeforeValidator(_facing),
+    Annotated[Front, Tag(SIDE)]
+    | Annotated[tuple[Name, ...], BeforeValidator(_listed), Field(min_length=1), Tag(BUBBLES)],
+    Discriminator(_form),
     PlainSerializer(_written),
     WithJsonSchema(
         {"anyOf": [{"enum": list(SIDES)}, _BUBBLE, {"type": "array", "items": _BUBBLE, "minItems": 1}]}

@@ -107,6 +107,35 @@ def test_a_figure_is_turned_so_that_its_top_is_up(top, sign, axis):
         assert after[:, 0] == pytest.approx(before[:, 0], abs=4e-3)
 
 
+def middles(points, sculpture):
+    """Where its bubbles are from the middle of a figure, by their names; points: (V, 3), m."""
+    found = {}
+    for bubble in sculpture.plan.bubbles:
+        body, faces = sculpture.faces(bubble.name)
+        own = np.unique(sculpture.scene.bodies[body].quads[faces])
+        found[bubble.name] = points[own].mean(axis=0) - points.mean(axis=0)
+    return found
+
+
+def test_bubbles_that_are_its_top_come_up():
+    points, _, sculpture = made("hold\ntop: [left_leg, right_leg]")
+    lies = middles(points[-1], sculpture)
+    legs = lies["left_leg"] + lies["right_leg"]
+    assert legs[:2] == pytest.approx([0.0, 0.0], abs=3e-3)
+    assert legs[2] > 0.02
+
+
+@pytest.mark.parametrize("mirror", ["", "\nmirror: true"])
+def test_a_bubble_that_is_its_front_faces_ahead_as_far_as_its_top_lets_it(mirror):
+    points, _, sculpture = made(f"hold\ntop: [left_leg, right_leg]\nfront: back{mirror}")
+    points = points[-1] * [1.0, -1.0 if mirror else 1.0, 1.0]
+    lies = middles(points, sculpture)
+    legs = lies["left_leg"] + lies["right_leg"]
+    assert legs[:2] == pytest.approx([0.0, 0.0], abs=3e-3)
+    assert lies["back"][1] == pytest.approx(0.0, abs=3e-3)
+    assert lies["back"][0] < -0.015
+
+
 def test_a_figure_that_stays_where_it_was_made_turns_about_its_middle():
     points, doing, sculpture = made("as made\nfront: back")
     assert doing == "turned"
