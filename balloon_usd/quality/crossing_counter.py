@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from balloon_usd.quality.crossings import pierced_triangles
-from balloon_usd.quality.pierced_walls import crossings_in, depth_in
+from balloon_usd.quality.pierced_walls import crossings_in, depth_in, folded_in_necks
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -45,6 +45,12 @@ class CrossingCounter:
         """Return how deep the deepest vertex at a crossing of a frame lies inside a wall, m."""
         joined = _joined(points)
         return depth_in(self._walls, self._pierced(joined), joined.astype(np.float64))
+
+    def in_necks(self, points: Sequence[NDArray[np.float32]]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Return the edges of a frame that pierce faces in the neck of one joint, (P, 2) vertices of all
+        balloons, and these joints, (P,).
+        """
+        return folded_in_necks(self._walls, self._pierced(_joined(points)))
 
     def _pierced(self, points: NDArray[np.float32]) -> Pierced:
         if self._search is not None:

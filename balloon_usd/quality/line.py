@@ -35,6 +35,8 @@ def _parts(data: Data) -> Iterator[str]:
     # Nor what lies in rings.
     yield from _passed(data.get("passed", {}))
     yield _crossings(data["crossings"], data["depth"])
+    # Nor how far necks reach.
+    yield from _necks(data.get("necks", {"verdict": Verdict.NONE}))
     yield from _symmetry(data)
 
 
@@ -85,6 +87,11 @@ def _crossings(result: Data, depth: Data) -> str:
     a, b = result["bubbles"][0]["pair"]
     told = [pair_text((a, b)), f"{MILLI * depth['value']:.1f} mm", *earlier]
     return f"{result['value']} crossings ({', '.join(told)})"
+
+
+def _necks(result: Data) -> Iterator[str]:
+    if _off(result):
+        yield f"wall drawn in {MILLI * result['away']:.1f} mm at {result['joint']}"
 
 
 def _symmetry(data: Data) -> Iterator[str]:

@@ -70,6 +70,13 @@ MEASURES = _table(
     Measure("passed", "1", 0, 0, "bubbles that were pushed or rolled into a ring and have slipped out of it"),
     Measure("crossings", "1", 0, 0, "pairs of an edge and a face that it pierces, but for those in one neck"),
     Measure("depth", "m", 0.001, 6, "depth of the deepest vertex at such a pair that lies inside a wall"),
+    Measure(
+        "necks",
+        "1",
+        5.0,
+        2,
+        "farthest from its joint that rubber of a neck goes through itself, in R0: else gas draws it in",
+    ),
     Measure("symmetric_volume", "1", 0.05, 4, "largest difference of volume in a pair, as a share of it"),
     Measure("symmetric_length", "1", 0.05, 4, "largest difference of length in a pair, as a share of it"),
     Measure("symmetric_place", "m", 0.02, 5, "largest distance of a bubble from its twin's mirror image"),

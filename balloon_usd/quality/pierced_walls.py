@@ -46,6 +46,12 @@ def crossings_in(walls: Walls, pierced: Pierced) -> Crossings:
     return Crossings(len(both), len(outside) - len(both), dict(pairs.most_common()))
 
 
+def folded_in_necks(walls: Walls, pierced: Pierced) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return the edges, (P, 2) vertices, that pierce faces in the neck of one joint, and the joint, (P,)."""
+    edges = pierced.edges[~_outside_necks(walls, pierced)]
+    return edges, walls.neck[edges[:, 0]]
+
+
 def depth_in(walls: Walls, pierced: Pierced, points: NDArray[np.float64]) -> float:
     """Return how deep the deepest vertex at a crossing in no neck lies inside a wall, m; `points`: (V, 3)."""
     return deepest(points, walls.triangles, _ends(pierced, _outside_necks(walls, pierced)))

@@ -53,7 +53,7 @@ def walls_of(plan: Plan, meshes: Sequence[BalloonMesh]) -> Walls:
         for ring, joint in rings:
             place = plan.table.rings[ring]
             if place.balloon == strip.balloon and not (strip.inverted and place.along <= 0.0):
-                near = np.abs(mesh.along - place.along) <= _reach(strip)
+                near = np.abs(mesh.along - place.along) <= neck_reach(strip)
                 # Knot and lip lie behind their ring.
                 neck[near | (mesh.along < 0.0) if place.along <= 0.0 else near] = joint
         necks.append(neck)
@@ -75,5 +75,6 @@ def halves(quads: Numbers) -> Numbers:
     return np.concatenate([quads[:, :3], quads[:, [0, 2, 3]]])
 
 
-def _reach(strip: Strip) -> float:
+def neck_reach(strip: Strip) -> float:
+    """Return how far from its joint rubber of a neck lies unstressed, at most, m."""
     return CAPSULE_NECK_REACH * strip.inflated_radius if strip.capsule else NECK_REACH * strip.size.radius

@@ -11,6 +11,7 @@ from balloon_usd.quality.crossing_history import CrossingHistory
 from balloon_usd.quality.joint_history import JointHistory
 from balloon_usd.quality.joints import SLIPPED, lost_joints, unkept_joints
 from balloon_usd.quality.measures import MEASURES, Verdict
+from balloon_usd.quality.neck_reach import NeckReach
 from balloon_usd.quality.passed import PassedBubbles
 from balloon_usd.quality.ranking import excess
 from balloon_usd.quality.rest import Rest
@@ -141,7 +142,15 @@ class QualityWatch:
         return {
             "crossings": MEASURES["crossings"].result(found.count, told),
             "depth": MEASURES["depth"].result(depth),
+            "necks": self._necks(end) if found.in_necks else MEASURES["necks"].result(0.0),
         }
+
+    def _necks(self, end: Frame) -> dict[str, Any]:
+        """Return how far from its joint rubber of a neck goes through itself in the last frame."""
+        found = NeckReach(self._plan, self._meshes).farthest(end, *self._counter.in_necks(end.points))
+        if found is None:
+            return MEASURES["necks"].result(0.0)
+        return MEASURES["necks"].result(found.reaches, {"joint": found.joint, "away": round(found.away, 5)})
 
 
 def counted_over_time(plan: Plan, codes: range) -> list[int]:

@@ -311,6 +311,29 @@ def test_walls_that_cross_within_one_neck_are_told_apart(figure, still):
     assert (crossings["value"], crossings["verdict"]) == (0, "good")
 
 
+@pytest.mark.parametrize(("drawn", "verdict"), [(0.0, "good"), (0.03, "off")])
+def test_rubber_of_a_neck_that_is_blown_up_inside_its_bubble_is_told_with_its_joint(figure, drawn, verdict):
+    """It goes through itself far from its joint."""
+    (mesh,), plan = figure[1], figure[0]
+    end = plan.bubbles[1].rest_end
+    row = np.flatnonzero((mesh.along < end - 1e-5) & (mesh.along > end - plan.strips["main"].size.radius))
+    ring = np.abs(mesh.along - end) < 1e-5
+    crumple = np.random.default_rng(1).uniform(-3e-3, 3e-3, (len(row), 3)).astype(np.float32)
+
+    def blown(frame):
+        moved = frame.points[0].copy()
+        moved[row] = moved[ring].mean(axis=0) + crumple - np.float32([drawn, 0.0, 0.0])
+        return replace(frame, points=(moved,))
+
+    quality = quality_of(figure, blown)
+    necks = quality["necks"]
+    assert quality["crossings"]["in_necks"] > 10
+    assert necks["verdict"] == verdict
+    assert necks["joint"] == f"{plan.bubbles[1].name}.end"
+    assert necks["away"] == pytest.approx(drawn, abs=0.01)
+    assert ("wall drawn in" in quality_line(quality)) == (drawn > 0.0)
+
+
 def test_crossings_are_counted_twice_a_second_and_the_most_are_told_with_their_frame(figure):
     plan, meshes = figure
     codes = range(1, plan.frame_count + 1)
