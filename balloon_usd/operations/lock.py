@@ -115,9 +115,9 @@ steps:
                 "joints of different balloons are brought straight to each other, and no bubble lies between",
                 "leave out point",
             )
-        if isinstance(self.lock, LockJoints) or len(self.lock) != 2:
+        if (pair := self._pair(layout)) is None:
             return
-        first, second = self.lock
+        first, second = pair
         one, other = layout.bubble(first).length, layout.bubble(second).length
         if abs(one - other) > UNEQUAL * max(one, other):
             yield Caution(
@@ -126,6 +126,18 @@ steps:
                 "the longer one bows out and turns the pair aside",
                 f"make both {cm(0.5 * (one + other))} long",
             )
+
+    def _pair(self, layout: Layout) -> tuple[str, str] | None:
+        """Return the two bubbles of which it makes a pair, None where it makes something else."""
+        if not isinstance(self.lock, LockJoints):
+            return (self.lock[0], self.lock[1]) if len(self.lock) == 2 else None
+        starts = [each.bubble for each in self.ends if each.end == "start"]
+        ends = [each.bubble for each in self.ends if each.end == "end"]
+        if (len(starts), len(ends)) != (1, 1):
+            return None
+        between = layout.joint(Joint(starts[0], "end"))
+        behind = between is not None and between == layout.joint(Joint(ends[0], "start"))
+        return (starts[0], ends[0]) if behind else None
 
     def perform(self, score: Score, index: int) -> None:
         """Bring each joint to the next, and twist all into one."""

@@ -53,6 +53,10 @@ TOLD = {
         r"s \(40 cm\) is longer than p, q and r together",
     ),
     "a pair of a long and a short one": (ONE % "bubbles: {b: 24, c: 3}, lock: [b, c]", "an unequal pair"),
+    "the same pair by its joints": (
+        ONE % "bubbles: {b: 24, c: 3}, lock: {joints: [b.start, c.end]}",
+        "an unequal pair",
+    ),
     "a crease": (ONE % "bubbles: {b: 6, c: 4}, bend: {c: 180}", "too short to be bent by 180 degrees"),
     "two ends bent over one bubble": (
         ONE % "bubbles: {b: 10, c: 10, d: 10, e: 10}, bend: {c: 180}, bend: {e: 180}",
