@@ -14,7 +14,7 @@ from balloon_usd.plan.graph_drawing import HEIGHT, graph_shapes, graph_width
 from balloon_usd.plan.open_tube import softened
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Container, Iterator, Sequence
 
     from numpy.typing import NDArray
 
@@ -30,9 +30,11 @@ _HEAD = 44.0
 _ABOVE_TUBE = 84.0
 _BELOW_TUBE = 96.0
 _ABOVE_MESH = 28.0
+_LINE = 16.0
 _STYLE = (
     "text{font:11px sans-serif;fill:#333}.name{text-anchor:middle}.head{font-size:16px;font-weight:bold}"
     ".mark{stroke:#333;stroke-width:0.6}.bubble{stroke:#333;stroke-width:0.8;fill-opacity:0.8}"
+    ".popped{fill:none;stroke:#333;stroke-width:0.8;stroke-dasharray:4 3}"
     ".flat,.capsule{fill:#e8e2d8;stroke:#333;stroke-width:0.6}.empty{fill:#fff;stroke:#333;stroke-width:0.6}"
     ".edge{fill:none;stroke-width:9;stroke-linecap:round;stroke-opacity:0.55}"
     ".joint{fill:#333}.merged{fill:#fff;stroke:#333;stroke-width:2}"
@@ -48,6 +50,8 @@ def plan_svg(plan: Plan, after: AfterStep | None = None) -> str:
     colors = {name: svg.srgb(plan.recipe.balloons[name].color.rgb) for name in plan.strips}
     title = plan.recipe.title or plan.recipe.name
     title = title if after is None else f"{title}, {after.what}"
+    piece = plan.recipe.piece if after is None else plan.recipe.piece.after(after.index)
+    popped = piece.popped
     body = [svg.text(title, (MARGIN, 28.0), "head")]
     top, width = _HEAD, 0.0 if plan.of_meshes else graph_width(graph)
     for name, strip in plan.strips.items():
@@ -57,13 +61,16 @@ def plan_svg(plan: Plan, after: AfterStep | None = None) -> str:
             width = max(width, SCALE * max(strip.shape.surface.size))
             continue
         bubbles = strip.bubbles if after is None else after.made(strip)
-        body += _strip_shapes(strip, bubbles, colors[name], top)
+        body += _strip_shapes(strip, bubbles, popped, colors[name], top)
         top += _strip_height(strip)
         before = strip.capsule_length if strip.capsule else strip.size.length
         width = max(width, SCALE * max(strip.bubbles[-1].end, before))
     if not plan.of_meshes:
         body += graph_shapes(graph, colors, (MARGIN, top))
         top += HEIGHT
+        for contact in graph.contacts:
+            top += _LINE
+            body.append(svg.text(contact.text, (MARGIN, top)))
     width, height = width + 2.0 * MARGIN, top + MARGIN
     size = f'width="{width:.0f}" height="{height:.0f}" viewBox="0 0 {width:.0f} {height:.0f}"'
     head = f'<svg xmlns="http://www.w3.org/2000/svg" {size}><style>{_STYLE}</style>'
@@ -96,26 +103,30 @@ def _strip_height(strip: Strip) -> float:
     return _ABOVE_TUBE + _thickness(strip) + _BELOW_TUBE + (_thickness(strip) if strip.capsule else 0.0)
 
 
-def _strip_shapes(strip: Strip, bubbles: Sequence[PlannedBubble], color: str, top: float) -> Iterator[str]:
+def _strip_shapes(
+    strip: Strip, bubbles: Sequence[PlannedBubble], popped: Container[str], color: str, top: float
+) -> Iterator[str]:
     thick = _thickness(strip)
     middle = top + _ABOVE_TUBE + 0.5 * thick
     filling = f"capsule of {cm(strip.capsule_length)}" if strip.capsule else f"leave {cm(strip.tail)} flat"
     yield svg.text(f"{strip.balloon}: {strip.size.name}, {filling}", (MARGIN, top + 12.0))
     for bubble in bubbles:
-        yield from _bubble_shapes(bubble, color, middle, thick)
+        yield from _bubble_shapes(bubble, "" if bubble.name in popped else color, middle, thick)
     yield from _ruler(strip.bubbles[-1].end, middle + 0.5 * thick + 10.0)
     before = _capsule_shapes if strip.capsule else _flat_shapes
     yield from before(strip, middle + 0.5 * thick + 44.0)
 
 
 def _bubble_shapes(bubble: PlannedBubble, color: str, middle: float, thick: float) -> Iterator[str]:
+    """A bubble, and its name; one without a colour was popped."""
     left, wide = MARGIN + bubble.start * SCALE, bubble.length * SCALE
     # As the exact shapes: a bubble as long as the tube is wide is nearly as wide as the tube.
     high = min(thick, 1.3 * wide)
     rounding = 0.5 * min(wide, high)
-    yield svg.rectangle((left, middle - 0.5 * high), wide, high, "bubble", color, rounding)
+    kind, told = ("bubble", "") if color else ("popped", ", popped")
+    yield svg.rectangle((left, middle - 0.5 * high), wide, high, kind, color, rounding)
     label = (left + 0.5 * wide, middle - 0.5 * thick - 6.0)
-    yield svg.text(f"{bubble.name} {bubble.length * 100.0:.3g}", label, degrees=-28.0)
+    yield svg.text(f"{bubble.name} {bubble.length * 100.0:.3g}{told}", label, degrees=-28.0)
 
 
 def _ruler(length: float, y: float) -> Iterator[str]:
