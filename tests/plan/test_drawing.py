@@ -56,13 +56,12 @@ def test_what_is_popped_is_drawn_empty_and_what_is_pushed_through_is_told(planne
           - bubbles: {nose: 5, left: 8, right: 8}
           - lock: [left, right]
           - push: {bubble: nose, through: [left, right]}
-          - bubbles: {b: 6}
           - rest: spare
           - pop: spare
         """))  # fmt: skip
     (popped,) = shapes(drawing, "rect", "popped")
     assert popped.get("fill") is None
-    assert len(shapes(drawing, "rect", "bubble")) == 4
+    assert len(shapes(drawing, "rect", "bubble")) == 3
     told = [text.text for text in ET.fromstring(drawing).iter(SVG + "text")]
     assert "pushes nose through left, right" in told
     assert any(each.startswith("spare ") and each.endswith(", popped") for each in told)
