@@ -33,7 +33,7 @@ FRONTS: dict[Front, Vector] = {
 """Directions of these sides. Figures are shown with their front to -x, where what is made first lies."""
 
 Facing = Front | tuple[str, ...]
-"""A side of a figure: of its surroundings, as it was made, or that on which some bubbles lie, by name."""
+"""A side of a figure as it was made, or the names of bubbles that lie on it."""
 
 POINTS: dict[str, Vector] = {
     "up": (0.0, 0.0, 1.0),

@@ -75,7 +75,7 @@ MEASURES = _table(
         "1",
         5.0,
         2,
-        "farthest from its joint that rubber of a neck goes through itself, in R0: else gas draws it in",
+        "how far from its joint rubber of a neck goes through itself, in R0; farther out gas draws it in",
     ),
     Measure("symmetric_volume", "1", 0.05, 4, "largest difference of volume in a pair, as a share of it"),
     Measure("symmetric_length", "1", 0.05, 4, "largest difference of length in a pair, as a share of it"),
