@@ -291,6 +291,27 @@ def test_whatever_is_built_reads_back_equal(builder: RecipeBuilder) -> None:
     assert again.to_yaml() == recipe.to_yaml()
 
 
+@pytest.mark.parametrize(
+    ("top", "written", "read"),
+    [
+        ("left", "left", "left"),
+        ("nose", "nose", ("nose",)),
+        (["nose"], "nose", ("nose",)),
+        (["nose", "tail"], "[nose, tail]", ("nose", "tail")),
+    ],
+)
+def test_the_top_is_a_side_or_bubbles(top: Any, written: str, read: Any) -> None:
+    recipe = (
+        RecipeBuilder("dog", top=top)
+        .balloon("main", size=260, tail=0.1)
+        .bubbles(nose=0.1)
+        .rest("tail")
+        .build()
+    )
+    assert f"top: {written}\n" in recipe.to_yaml()
+    assert Recipe.parse(recipe.to_yaml()).top == recipe.top == read
+
+
 def test_every_operation_is_a_method_with_its_own_arguments_and_modifiers() -> None:
     builder = RecipeBuilder("f")
     for operation in OPERATIONS:
