@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
 from rich.table import Table
@@ -11,10 +11,11 @@ from rich.table import Table
 from balloon_usd.batch.record import Status
 from balloon_usd.quality.joints import SLIPPED
 from balloon_usd.quality.line import quality_line
+from balloon_usd.quality.measures import Verdict
 from balloon_usd.quality.ranking import worst_first
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
 
     from balloon_usd.batch.order import Order
     from balloon_usd.batch.record import Record
@@ -81,7 +82,7 @@ def _warnings(records: Sequence[Record]) -> Iterator[str]:
         # Records of earlier versions have no loads.
         if told.get("bursts") and "burst_load" in told:
             load = f"its wall has {told['burst_load']:.0%} of the load at which latex tears"
-            remedy = "leave more tail, or make what is folded longer"
+            remedy = _remedy(_measured(told, "necks"))
             yield f"{record.name}: {told['most_loaded']} would burst: {load}: {remedy}"
         for balloon, (bubble, pressure) in told.get("hard", {}).items():
             hardest = f"the hardest, {bubble}, has {pressure / 1e3:.1f} kPa"
@@ -93,6 +94,24 @@ def _warnings(records: Sequence[Record]) -> Iterator[str]:
             slipped = any(SLIPPED in each for each in undone)
             remedy = "more turns, or more friction" if slipped else "lock them, with 2 turns or more"
             yield f"{record.name}: came undone: {', '.join(undone)}: {remedy}"
+
+        # The same of their quality.
+        if (lean := _measured(told, "lean")).get("verdict") == Verdict.OFF:
+            remedy = "put its feet farther apart, or pose: hold"
+            yield f"{record.name}: fell over, leaning {lean['value']:.0f} degrees: {remedy}"
+
+
+def _measured(told: Mapping[str, Any], key: str) -> Mapping[str, Any]:
+    """Return a measure of the quality in what is told of a figure, empty where there is none."""
+    found: Mapping[str, Any] = (told.get("quality") or {}).get(key, {})
+    return found
+
+
+def _remedy(necks: Mapping[str, Any]) -> str:
+    """Return what helps where a wall would burst; `necks`: that measure of its quality."""
+    if necks.get("verdict") == Verdict.OFF:
+        return f"rubber of the neck at {necks['joint']} is drawn in: longer bubbles there, or fewer"
+    return "leave more tail, or make what is folded longer"
 
 
 def _qualities(records: Sequence[Record]) -> Iterator[str]:

@@ -9,6 +9,7 @@ import pytest
 from balloon_usd.batch.order import Order
 from balloon_usd.batch.record import Record, Status
 from balloon_usd.cli.summary import print_summary
+from balloon_usd.quality.measures import MEASURES
 
 TOLD = {
     "fps": 24.0,
@@ -69,3 +70,23 @@ def test_bubbles_whose_gas_is_off_the_plan_are_named_in_one_line(printed):
 
 def test_no_gas_is_told_where_all_is_as_planned(printed):
     assert "gas" not in printed(TOLD | {"gas_off": {}})
+
+
+def measured(**values):
+    """A quality in which all but these measures are 0."""
+    found = {key: measure.result(values.get(key, 0.0), {"worst": "a"}) for key, measure in MEASURES.items()}
+    found["necks"] |= {"joint": "nose.end", "away": 0.05}
+    found["joints"] |= {"held": 3, "meant": 3, "lost": []}
+    return {"quality": {"off": [], **found}}
+
+
+def test_a_figure_that_falls_over_is_told_with_a_remedy(printed):
+    told = "dog: fell over, leaning 71 degrees: put its feet farther apart, or pose: hold"
+    assert told in printed(TOLD | measured(lean=71.0))
+    assert "fell over" not in printed(TOLD | measured(lean=14.0))
+
+
+def test_a_wall_that_bursts_where_a_neck_is_drawn_in_has_another_remedy(printed):
+    out = printed(TOLD | {"bursts": True, "burst_load": 30.0} | measured(necks=9.0))
+    assert "rubber of the neck at nose.end is drawn in: longer bubbles there, or fewer" in out
+    assert "leave more tail" not in out
