@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any, get_args
+from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import BeforeValidator, Discriminator, Field, PlainSerializer, Tag, WithJsonSchema
 
 from balloon_usd.language.choices import unknown
 from balloon_usd.language.names import Name, is_name
 from balloon_usd.language.problem import Complaint, quoted
-from balloon_usd.operations.moves import Facing, Front
+from balloon_usd.operations.moves import FRONTS, Facing, Front
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from balloon_usd.operations.workpiece import Workpiece
 
-SIDES: tuple[str, ...] = get_args(Front)
 SIDE, BUBBLES = "one of six sides", "bubbles on a side"
 """Tags of the forms of a side, which never occur as keys of a recipe."""
 FACING = ("front", "top")
@@ -24,7 +23,7 @@ FACING = ("front", "top")
 
 
 def _form(value: object) -> str:
-    listed = isinstance(value, (list, tuple)) or (isinstance(value, str) and value not in SIDES)
+    listed = isinstance(value, (list, tuple)) or (isinstance(value, str) and value not in FRONTS)
     return BUBBLES if listed else SIDE
 
 
@@ -46,7 +45,7 @@ FacingEntry = Annotated[
     Discriminator(_form),
     PlainSerializer(_written),
     WithJsonSchema(
-        {"anyOf": [{"enum": list(SIDES)}, _BUBBLE, {"type": "array", "items": _BUBBLE, "minItems": 1}]}
+        {"anyOf": [{"enum": list(FRONTS)}, _BUBBLE, {"type": "array", "items": _BUBBLE, "minItems": 1}]}
     ),
 ]
 
@@ -57,7 +56,7 @@ def _names(value: object) -> list[str]:
     return [
         name
         for name in listed
-        if isinstance(name, str) and is_name(name) and (name not in SIDES or listed is value)
+        if isinstance(name, str) and is_name(name) and (name not in FRONTS or listed is value)
     ]
 
 
@@ -76,7 +75,7 @@ def facing_complaints(data: object, piece: Workpiece) -> Iterator[Complaint]:
                 what = f"bubble {quoted(name)} was popped, expected one that has its gas"
                 yield Complaint(path, what)
             elif name not in piece.bubbles:
-                choices = [*piece.bubbles] if listed else [*SIDES, *piece.bubbles]
+                choices = [*piece.bubbles] if listed else [*FRONTS, *piece.bubbles]
                 yield Complaint(path, unknown("bubble" if listed else key, name, choices))
     front, top = (frozenset(_names(data.get(key))) for key in FACING)
     if front and front == top:
