@@ -131,6 +131,8 @@ class Sculpture:
             told.append(f"{what}: make the bubble shorter or the ring larger, or change must_hold")
         if slipped:
             told.append(f"{all_of(slipped)}: make the ring smaller or the bubble larger, or change must_hold")
+        if unwound := self._quality.unwound():
+            told.append(f"{all_of(unwound)}: make the bubbles longer, or change must_hold")
         if not told:
             return ""
         last = self._plan.frame_count

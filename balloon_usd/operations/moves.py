@@ -266,6 +266,19 @@ class Thread(PassThrough):
 
 
 @dataclass(frozen=True)
+class WindRound(Move):
+    """Wind bubbles that lie side by side round each other, by turning the joint at one end of all."""
+
+    bubbles: tuple[str, ...] = ()
+    strands: tuple[tuple[int, ...], ...] = ()
+    """Rings of each strand, from the joint at one end of all to the place at the other."""
+    turns: float = 0.0
+    """Right-handed, left-handed below 0."""
+    radius: float = 0.0
+    """How far from the axis each strand lies once it is wound, m."""
+
+
+@dataclass(frozen=True)
 class Invert(Move):
     """Press the knot of a balloon through its first bubble, whose wall is turned inside, to its other end."""
 

@@ -262,8 +262,10 @@ class Score:
         corners = tuple(joints)
         cheeks: tuple[tuple[int, int], ...] = ()
         if fold is not None:
-            before, middle, beyond = layout.guides(fold)
-            corners, cheeks = (first, middle, last), ((before, 0), (beyond, 1))
+            inside = layout.guides(fold)
+            quarter = len(inside) // 4
+            corners = (first, inside[len(inside) // 2], last)
+            cheeks = ((inside[quarter], 0), (inside[-1 - quarter], 1))
         elif len(joints) == 2:
             corners = (first, *layout.guides(layout.ring(last).bubble), last)
         elif len(joints) == 3:

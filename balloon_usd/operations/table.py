@@ -23,6 +23,7 @@ from balloon_usd.operations.press import Press
 from balloon_usd.operations.push import Push
 from balloon_usd.operations.rest import Rest
 from balloon_usd.operations.roll import Roll
+from balloon_usd.operations.spiral import Spiral
 from balloon_usd.operations.squeeze import Squeeze
 from balloon_usd.operations.tail_ball import TailBall
 from balloon_usd.operations.thread import Thread
@@ -43,6 +44,7 @@ OPERATIONS: tuple[type[Operation], ...] = (
     Rest,
     Bend,
     Aim,
+    Spiral,
     Press,
     Squeeze,
     Push,

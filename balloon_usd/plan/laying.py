@@ -12,6 +12,7 @@ from balloon_usd.language.lengths import at_least, at_most, cm
 from balloon_usd.language.problem import RecipeError, quoted
 from balloon_usd.operations.bend import Bend
 from balloon_usd.operations.modifiers import Turned
+from balloon_usd.operations.spiral import Spiral
 from balloon_usd.operations.thread import Thread
 from balloon_usd.plan.capsule import capsule_bubbles
 from balloon_usd.plan.laying_shapes import overlap_problems, shaped_strip
@@ -104,6 +105,7 @@ def _tube(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> Strip
     along, rest_along, drawn_before = 0.0, 0.0, 0.0
     bent = {each for step in recipe.steps if isinstance(step, Bend) for each in step.names}
     bent |= {step.bubble for step in recipe.steps if isinstance(step, Thread)}
+    places = {each: s.places for s in recipe.steps if isinstance(s, Spiral) for each in s.names}
     for made in _wound(recipe, name, size, rubber):
         index, kind, bubble, length, gas, drawn, slack = made
         shape, left = tube.pinched(made.twisted)
@@ -115,7 +117,8 @@ def _tube(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> Strip
         pressure = shape.pressure * gauge_pressure(size, maxwell_state(tube.rubber).p_star)
         planned = PlannedBubble(bubble, name, kind, length, *place, shape.volume, index, pressure)
         drawn_in = drawn_before, drawn
-        bubbles.append(replace(planned, bent=bubble in bent, gas=gas, drawn=drawn_in, slack=slack))
+        planned = replace(planned, bent=bubble in bent, places=places.get(bubble, 0))
+        bubbles.append(replace(planned, gas=gas, drawn=drawn_in, slack=slack))
         tube, along, rest_along, drawn_before = left, along + length, rest_end, drawn
     rest = _rest_of_tube(recipe, name, tube, along, rest_along)
     bubbles.append(replace(rest, bent=rest.name in bent, drawn=(drawn_before, 0.0)))

@@ -118,7 +118,8 @@ def _guide_shares(bubble: PlannedBubble, strip: Strip) -> tuple[float, ...]:
         round_end = strip.inflated_radius / bubble.length
         # Their places alone tell the directions of a bent bubble's ends.
         ends = (round_end, 1.0 - round_end) if bubble.bent and round_end < SLENDER else ()
-        return tuple(sorted([*own, *_parted(ends, apart, 1.0 - apart, own)]))
+        evenly = [k / (bubble.places + 1) for k in range(1, bubble.places + 1)]
+        return tuple(sorted([*own, *_parted([*ends, *evenly], apart, 1.0 - apart, own)]))
     stretch = 1.0 if strip.capsule else maxwell_state(strip.rubber).bulged.b
     share = min(REST_GUIDE / stretch / bubble.rest_length, 0.5)
     tip = max(1.0 - TIP_GUIDE * strip.size.radius / bubble.rest_length, 0.5 * (1.0 + share))

@@ -65,6 +65,8 @@ class PlannedBubble:
     """Gauge pressure at which it is twisted off, Pa; only of bubbles of tubes."""
     bent: bool = False
     """Whether a step bends it: hands then hold it at more places."""
+    places: int = 0
+    """At how many places more, evenly, hands hold it; 0 of what is not wound round others."""
     gas: float = 1.0
     """Share of the gas of its length that hands leave in it: below 1 of a soft one."""
     drawn: tuple[float, float] = (0.0, 0.0)

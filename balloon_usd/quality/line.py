@@ -34,6 +34,8 @@ def _parts(data: Data) -> Iterator[str]:
     yield from _joints(data["joints"])
     # Nor what lies in rings.
     yield from _passed(data.get("passed", {}))
+    # Nor what is wound.
+    yield from _wound(data.get("unwound", {}))
     yield _crossings(data["crossings"], data["depth"])
     # Nor how far necks reach.
     yield from _necks(data.get("necks", {"verdict": Verdict.NONE}))
@@ -74,6 +76,11 @@ def _passed(result: Data) -> Iterator[str]:
         slipped = f" ({', '.join(result['slipped'])} not)" if result["slipped"] else ""
         count = len(result["through"])
         yield f"{count - result['value']} of {count} stay in their rings{slipped}"
+
+
+def _wound(result: Data) -> Iterator[str]:
+    for name, (turns, asked) in result.get("turns", {}).items():
+        yield f"{name} wound {turns:.1f} of {asked:g} turns"
 
 
 def _crossings(result: Data, depth: Data) -> str:

@@ -19,6 +19,7 @@ from balloon_usd.quality.standing import Standing
 from balloon_usd.quality.symmetry import symmetry_of
 from balloon_usd.quality.twists import TwistTails
 from balloon_usd.quality.walls import walls_of
+from balloon_usd.quality.wound import WoundSpirals
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
@@ -56,6 +57,7 @@ class QualityWatch:
         self._tails = TwistTails(plan, meshes)
         self._joints = JointHistory(plan, meshes)
         self._passed = PassedBubbles(plan, meshes)
+        self._wound = WoundSpirals(plan, meshes)
         self._undone: dict[str, int] = {}
         """First time code at which each end of a joint had come undone."""
         self._end: Frame | None = None
@@ -67,6 +69,7 @@ class QualityWatch:
         self._tails.add(frame)
         self._joints.add(frame)
         self._passed.add(frame)
+        self._wound.add(frame)
         for name in (name for told in frame.undone for name in told.split(SLIPPED)):
             self._undone.setdefault(name, frame.time_code)
         if frame.shift is not None and (most := float(frame.shift.max(initial=0.0))) > 0.0:
@@ -93,10 +96,18 @@ class QualityWatch:
         """Return the bubbles that must be in their rings by the recipe and have not come in, and those that
         have not stayed, and since when; none before the end.
         """
+        return (self._passed.stuck(), self._passed.slipped()) if self._contacts_must_hold else ([], [])
+
+    def unwound(self) -> list[str]:
+        """Return the bubbles that must stay wound round each other by the recipe and have not, and since
+        when; none before the end.
+        """
+        return self._wound.unwound() if self._contacts_must_hold else []
+
+    @property
+    def _contacts_must_hold(self) -> bool:
         # Where a recipe names joints, only these must hold.
-        if self._end is None or self._plan.recipe.must_hold not in (None, "all"):
-            return [], []
-        return self._passed.stuck(), self._passed.slipped()
+        return self._end is not None and self._plan.recipe.must_hold in (None, "all")
 
     def data(self) -> dict[str, Any] | None:
         """Return the quality as plain data, by the keys of `MEASURES`; None before the last frame."""
@@ -110,6 +121,7 @@ class QualityWatch:
             **self._standing.results(),
             "joints": self._lost_joints(end),
             "passed": self._passed.result(),
+            "unwound": self._wound.result(),
             **self._crossings(end),
             **symmetry_of(plan, meshes, end),
         }

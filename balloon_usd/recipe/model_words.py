@@ -11,6 +11,7 @@ from balloon_usd.operations.inflate import Inflate
 from balloon_usd.operations.pop import Pop
 from balloon_usd.operations.push import Push
 from balloon_usd.operations.roll import Roll
+from balloon_usd.operations.spiral import Spiral
 from balloon_usd.operations.squeeze import Squeeze
 from balloon_usd.operations.tail_ball import TailBall
 from balloon_usd.operations.thread import Thread
@@ -39,6 +40,7 @@ LATEX_STEPS = {
     Push.word: (", whose walls hardly rub", "no such step"),
     Roll.word: (", whose walls hardly rub", "no such step"),
     Thread.word: (", whose walls hardly rub", "no such step"),
+    Spiral.word: (", whose walls hardly rub", "no such step"),
     Pop.word: (", whose air particles stay in", "no such step"),
     Tulip.word: (", whose net is not turned inside out", "no such step"),
     TailBall.word: (", whose springs do not soften", "no such step"),

@@ -42,6 +42,7 @@ KOSAKA_MOTIONS: Motions = {
     moves.Aim: Wait,
     moves.PassThrough: Wait,
     moves.Thread: Wait,
+    moves.WindRound: Wait,
     moves.Invert: Wait,
     moves.Loosen: Wait,
     moves.LetGo: LetGo,

@@ -38,3 +38,22 @@ def beyond_on_others(sculpture: LatexSculpture, ring: int) -> Ints:
     )
     start = sculpture.scene.vertex_start
     return np.concatenate([np.arange(0), *(np.arange(start[body], start[body + 1]) for body in bodies)])
+
+
+def vertices_at(sculpture: LatexSculpture, rings: tuple[int, ...]) -> Ints:
+    """Return the vertices of the scene that lie at some rings of the plan or in bubbles beside them."""
+    table, scene, chosen = sculpture.plan.table.rings, sculpture.scene, set(rings)
+    found = [np.arange(0)]
+    for balloon in {table[ring].balloon for ring in rings}:
+        body = sculpture.body[balloon]
+        own = [k for k, ring in enumerate(table) if ring.balloon == balloon]
+        places = np.array([table[ring].along for ring in own])
+        inside = np.array([False, *(ring in chosen for ring in own), False])
+        along = scene.bodies[body].along
+        before, after = (np.searchsorted(places, along + off) for off in (-CLEAR, CLEAR))
+        # Beside no ring both are the same, and the bubble goes with either ring beside it.
+        at_ring = inside[after]
+        between = inside[before] | inside[np.minimum(before + 1, len(own) + 1)]
+        turns = np.where(after > before, at_ring, between)
+        found.append(np.flatnonzero(turns) + int(scene.vertex_start[body]))
+    return np.concatenate(found)

@@ -24,6 +24,7 @@ from balloon_usd.solver.latex.motions.spin import Spin
 from balloon_usd.solver.latex.motions.stretch_tip import StretchTip
 from balloon_usd.solver.latex.motions.thread import Thread
 from balloon_usd.solver.latex.motions.turn_fold import TurnFold
+from balloon_usd.solver.latex.motions.wind_round import WindRound
 from balloon_usd.solver.motions.bring import Bring
 from balloon_usd.solver.motions.gather import Gather
 from balloon_usd.solver.motions.wait import Wait
@@ -48,6 +49,7 @@ LATEX_MOTIONS: Motions = {
     moves.Pop: Pop,
     moves.StretchTip: StretchTip,
     moves.Thread: Thread,
+    moves.WindRound: WindRound,
     moves.Invert: Invert,
     moves.Weld: Weld,
     moves.TurnFold: TurnFold,

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from balloon_usd.operations.tempo import eased
-from balloon_usd.solver.latex.motions.beyond import CLEAR
+from balloon_usd.solver.latex.motions.beyond import vertices_at
 from balloon_usd.solver.latex.spins import VertexSet
 from balloon_usd.solver.motions.hanging import folded_between
 from balloon_usd.solver.motions.motion import Motion
@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     from balloon_usd.solver.latex.sculpture import LatexSculpture
 
 Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 
 class TurnFold(Motion):
@@ -36,7 +35,7 @@ class TurnFold(Motion):
         self._share = 0.0
         """Share of its turns that are done."""
         rings = folded_between(*move.rings, sculpture.balloons, sculpture.welds)
-        self._turning = VertexSet.of(_vertices(sculpture, rings)) if rings else None
+        self._turning = VertexSet.of(vertices_at(sculpture, rings)) if rings else None
         if self._turning is None:
             return
         middle, joints = sculpture.frame.middle, sculpture.joints
@@ -65,22 +64,3 @@ class TurnFold(Motion):
         self._hands.spin(self._turning, self._point, self._axis, rate)
         angle = 2.0 * math.pi * self._move.turns * self._share
         self._hands.goal[self._led] = self._point + self._began @ turn_about(self._axis, angle).T
-
-
-def _vertices(sculpture: LatexSculpture, rings: tuple[int, ...]) -> Ints:
-    """Return the vertices of the scene that lie at some rings of the plan or in bubbles beside them."""
-    table, scene, chosen = sculpture.plan.table.rings, sculpture.scene, set(rings)
-    found = [np.arange(0)]
-    for balloon in {table[ring].balloon for ring in rings}:
-        body = sculpture.body[balloon]
-        own = [k for k, ring in enumerate(table) if ring.balloon == balloon]
-        places = np.array([table[ring].along for ring in own])
-        inside = np.array([False, *(ring in chosen for ring in own), False])
-        along = scene.bodies[body].along
-        before, after = (np.searchsorted(places, along + off) for off in (-CLEAR, CLEAR))
-        # Beside no ring both are the same, and the bubble goes with either ring beside it.
-        at_ring = inside[after]
-        between = inside[before] | inside[np.minimum(before + 1, len(own) + 1)]
-        turns = np.where(after > before, at_ring, between)
-        found.append(np.flatnonzero(turns) + int(scene.vertex_start[body]))
-    return np.concatenate(found)
