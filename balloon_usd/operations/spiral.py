@@ -14,7 +14,7 @@ from balloon_usd.language.names import Name
 from balloon_usd.language.quantities import Between
 from balloon_usd.operations import moves
 from balloon_usd.operations.caution import Caution
-from balloon_usd.operations.modifiers import Entries, OnBalloon, Timed
+from balloon_usd.operations.modifiers import Entries, Timed
 from balloon_usd.operations.moves import Move
 from balloon_usd.operations.operation import Operation
 from balloon_usd.operations.score import SETTLE_SECONDS
@@ -48,7 +48,7 @@ class WoundBubbles(Entries):
     """Full turns of one joint against the other, right-handed; left-handed in a mirrored recipe."""
 
 
-class Spiral(OnBalloon, Timed, Operation):
+class Spiral(Timed, Operation):
     """Wind bubbles that lie side by side round each other."""
 
     word: ClassVar[str] = "spiral"

@@ -337,7 +337,8 @@ def test_the_builder_writes_the_steps_of_every_example(operation: type[Operation
     recipe = Recipe.parse(operation.example)
     builder = RecipeBuilder("f", units="in")
     for name, balloon in recipe.balloons.items():
-        builder.balloon(name, size=balloon.size, tail=balloon.tail, length=balloon.length)
+        lengths = {"tail": balloon.tail, "length": balloon.length, "inflated": balloon.inflated}
+        builder.balloon(name, size=balloon.size, **lengths)
     for step in recipe.steps:
         builder.add(step)
     assert builder.build().steps == recipe.steps
