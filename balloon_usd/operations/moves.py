@@ -279,6 +279,18 @@ class WindRound(Move):
 
 
 @dataclass(frozen=True)
+class Plait(Move):
+    """Lay three bubbles that hang on one joint over each other in turns, and bring their ends together."""
+
+    bubbles: tuple[str, ...] = ()
+    strands: tuple[tuple[int, ...], ...] = ()
+    """Rings of each strand, from the joint on which all hang."""
+    crossings: int = 0
+    width: float = 0.0
+    """Of the widest of them, m."""
+
+
+@dataclass(frozen=True)
 class Invert(Move):
     """Press the knot of a balloon through its first bubble, whose wall is turned inside, to its other end."""
 

@@ -10,6 +10,7 @@ from pydantic import Discriminator, Tag
 
 from balloon_usd.operations.aim import Aim
 from balloon_usd.operations.bend import Bend
+from balloon_usd.operations.braid import Braid
 from balloon_usd.operations.bubbles import Bubbles
 from balloon_usd.operations.ear import Ear
 from balloon_usd.operations.fold import Fold
@@ -45,6 +46,7 @@ OPERATIONS: tuple[type[Operation], ...] = (
     Bend,
     Aim,
     Spiral,
+    Braid,
     Press,
     Squeeze,
     Push,

@@ -134,6 +134,7 @@ def test_hands_wait_while_nothing_moves_and_in_model_kosaka_where_nothing_is_blo
         moves.PassThrough,
         moves.Thread,
         moves.WindRound,
+        moves.Plait,
         moves.Invert,
     }
     assert waits == {moves.Move, *unmoved}

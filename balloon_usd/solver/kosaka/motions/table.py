@@ -43,6 +43,7 @@ KOSAKA_MOTIONS: Motions = {
     moves.PassThrough: Wait,
     moves.Thread: Wait,
     moves.WindRound: Wait,
+    moves.Plait: Wait,
     moves.Invert: Wait,
     moves.Loosen: Wait,
     moves.LetGo: LetGo,

@@ -16,6 +16,7 @@ from balloon_usd.solver.latex.motions.let_go import LatexLetGo
 from balloon_usd.solver.latex.motions.loosen import Loosen
 from balloon_usd.solver.latex.motions.pass_through import PassThrough
 from balloon_usd.solver.latex.motions.pinch import Pinch
+from balloon_usd.solver.latex.motions.plait import Plait
 from balloon_usd.solver.latex.motions.pop import Pop
 from balloon_usd.solver.latex.motions.press import LatexPress
 from balloon_usd.solver.latex.motions.set_down import LatexSetDown
@@ -50,6 +51,7 @@ LATEX_MOTIONS: Motions = {
     moves.StretchTip: StretchTip,
     moves.Thread: Thread,
     moves.WindRound: WindRound,
+    moves.Plait: Plait,
     moves.Invert: Invert,
     moves.Weld: Weld,
     moves.TurnFold: TurnFold,

@@ -1,0 +1,85 @@
+"""What operations share that lead bubbles side by side about each other, as strands of a rope or a plait."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, ClassVar
+
+from balloon_usd.operations.modifiers import Timed
+from balloon_usd.operations.operation import Operation
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from balloon_usd.language.problem import Path
+    from balloon_usd.operations.score import Layout, PlacedBubble, Score
+    from balloon_usd.operations.workbench import Place, Workbench
+
+
+class OfStrands(Timed, Operation):
+    """An operation whose value has a list of bubbles, which are strands."""
+
+    most: ClassVar[int]
+    """Bubbles that it takes at most."""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Bubbles that are its strands."""
+        named: tuple[str, ...] = getattr(self, self.word).bubbles
+        return named
+
+    @property
+    def places(self) -> int:
+        """At how many places hands hold each bubble, evenly."""
+        raise NotImplementedError
+
+    @classmethod
+    def uses(cls, value: object) -> tuple[str, ...]:
+        """Return its bubbles."""
+        named = value.get("bubbles") if isinstance(value, dict) else None
+        if not isinstance(named, (list, tuple)):
+            return ()
+        return tuple(name for name in named[: cls.most] if isinstance(name, str))
+
+    @classmethod
+    def check(cls, value: object, place: Place, bench: Workbench) -> None:
+        """Take bubbles that are there, each once, have their gas, and lie as they must."""
+        path: Path = (*place.path, cls.word, "bubbles")
+        names = cls.uses(value)
+        found = [
+            bench.has_name(name, (*path, k)) and bench.find_firm(name, (*path, k))
+            for k, name in enumerate(names)
+        ]
+        if not names or not all(found) or not bench.knows(names):
+            return
+        if len(set(names)) < len(names):
+            bench.complain(path, "names a bubble twice, expected each once")
+        else:
+            cls.take(names, path, bench)
+
+    @classmethod
+    def take(cls, names: Sequence[str], path: Path, bench: Workbench) -> None:
+        """Take different bubbles that are there, or complain of how they lie."""
+        raise NotImplementedError
+
+    def shortest(self, layout: Layout) -> float:
+        """Return the length of the shortest bubble, m."""
+        return min(layout.bubble(name).length for name in self.names)
+
+    def widest(self, layout: Layout) -> PlacedBubble:
+        """Return the bubble of the widest balloon."""
+        return max((layout.bubble(name) for name in self.names), key=lambda bubble: bubble.width)
+
+    def rows(self, score: Score) -> list[tuple[int, ...]]:
+        """Return the rings of each bubble, from its start to its end, which is no tip."""
+        found = []
+        for name in self.names:
+            start, end = score.layout.ends(name)
+            assert end is not None, "what ends in a joint with others ends in no tip"
+            found.append((start, *score.layout.guides(name), end))
+        return found
+
+
+def from_joint(joint: int, rows: Sequence[tuple[int, ...]], score: Score) -> tuple[tuple[int, ...], ...]:
+    """Return rows of rings, each turned so that it begins in a joint, named by a ring of it."""
+    root = score.joints.root
+    return tuple(row if root(row[0]) == root(joint) else row[::-1] for row in rows)
