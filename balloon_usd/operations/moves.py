@@ -98,6 +98,13 @@ class Pop(Move):
 
 
 @dataclass(frozen=True)
+class Cut(Move):
+    """Cut an end of a balloon off, which is limp: it is gone."""
+
+    bubble: str = ""
+
+
+@dataclass(frozen=True)
 class StretchTip(Move):
     """Stretch the end of the flat tail of what is left of a balloon, so that it gives way to the gas."""
 

@@ -12,6 +12,7 @@ from balloon_usd.operations.aim import Aim
 from balloon_usd.operations.bend import Bend
 from balloon_usd.operations.braid import Braid
 from balloon_usd.operations.bubbles import Bubbles
+from balloon_usd.operations.cut import Cut
 from balloon_usd.operations.ear import Ear
 from balloon_usd.operations.fold import Fold
 from balloon_usd.operations.inflate import Inflate
@@ -53,6 +54,7 @@ OPERATIONS: tuple[type[Operation], ...] = (
     Roll,
     Thread,
     Pop,
+    Cut,
     TailBall,
     Inflate,
     Wait,

@@ -62,6 +62,7 @@ class Workbench:
         self.piece = Workpiece(self._balloons)
         self._made_at: dict[str, Path] = {}
         self._popped_at: dict[str, Path] = {}
+        self._cut_at: dict[str, Path] = {}
         self._tipped_at: dict[str, Path] = {}
         self._ended: dict[str, Path] = {}
         self._made_ever, self._rests = made_ever, rests
@@ -152,6 +153,24 @@ class Workbench:
             return
         self._popped_at[name] = path
         self.piece.pop(int(path[1]), name)
+
+    def cut(self, name: str, path: Path) -> None:
+        """Cut off a bubble at an end of its balloon, which is popped if it was not."""
+        if name in self._cut_at:
+            at = path_text(self._cut_at[name])
+            self.complain(path, f"bubble {quoted(name)} was cut off at {at}, expected each once")
+            return
+        if name not in self._popped_at:
+            self.pop(name, path)
+            if name not in self._popped_at:
+                return
+        row = self.piece.row(self.piece.bubbles[name].balloon)
+        free = [end for end, at in ((Joint(name, "start"), 0), (Joint(name, "end"), -1)) if row[at] == name]
+        if not any(len(self.piece.joint(end)) == 1 for end in free):
+            what = f"both ends of {quoted(name)} hang on something"
+            self.complain(path, f"{what}, expected a bubble at an end of its balloon")
+            return
+        self._cut_at[name] = path
 
     def has_name(self, name: str, path: Path) -> bool:
         """Say whether what a step names got its name before, and complain if that is yet to come."""

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from balloon_usd.language.problem import Complaint
 from balloon_usd.operations.aim import Aim
 from balloon_usd.operations.braid import Braid
+from balloon_usd.operations.cut import Cut
 from balloon_usd.operations.entries import steps_in
 from balloon_usd.operations.inflate import Inflate
 from balloon_usd.operations.pop import Pop
@@ -44,6 +45,7 @@ LATEX_STEPS = {
     Braid.word: (", whose walls hardly rub", "no such step"),
     Spiral.word: (", whose walls hardly rub", "no such step"),
     Pop.word: (", whose air particles stay in", "no such step"),
+    Cut.word: (", whose air particles stay in", "no such step"),
     Tulip.word: (", whose net is not turned inside out", "no such step"),
     TailBall.word: (", whose springs do not soften", "no such step"),
     "burp": (", whose bubbles keep the air particles that are in them", "no burp"),

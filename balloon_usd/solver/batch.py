@@ -14,7 +14,7 @@ from balloon_usd.solver.frame_arrays import Extent
 from balloon_usd.solver.snapshot import Change, Snapshot
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Generator, Iterable, Sequence
+    from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from balloon_usd.plan import Plan
     from balloon_usd.solver.frame_arrays import FrameArrays
     from balloon_usd.solver.model import Model, ModelMaker
+    from balloon_usd.solver.placement import Placement
+    from balloon_usd.solver.severed import Severed
     from balloon_usd.solver.snapshot import Memory
     from balloon_usd.solver.status import Status
 
@@ -81,6 +83,7 @@ class Batch:
             self.model.read_back()
             arrays, statuses, suspects = self.model.frame_arrays, self.model.statuses, self.model.suspects
             causes, placements = self.model.failures(), self.model.placements
+            severed = self.model.severed
             # A plan that fails in this frame still takes part in the next one, unseen.
             if self._ahead and self.goes_on(index + 1):
                 self._advance(index + 1)
@@ -88,14 +91,29 @@ class Batch:
             for world in self._checks.suspicious(arrays, suspects):
                 if self._made(index)[world] and (cause := self._checks.failure(world)):
                     causes[world] = cause
-            for world, placement in placements.items():
-                for points in into.places_of(self.model.layout.places[world]):
-                    placement.put(points)
-            for world in self._mirrored:
-                for points in into.places_of(self.model.layout.places[world]):
-                    points[:, 1] *= -1.0
+            self._show(into, severed, placements)
             changes = self._changes(index, statuses, causes)
         return Snapshot(index + 1, into, self._made(index), changes)
+
+    def _show(
+        self,
+        into: FrameArrays,
+        severed: Mapping[int, Sequence[Severed]],
+        placements: Mapping[int, Placement],
+    ) -> None:
+        """Turn what was simulated into what frames show: without what was cut off, where it is put, and not
+        mirrored.
+        """
+        places = self.model.layout.places
+        for world, cut in severed.items():
+            for each in cut:
+                each.put(into.points[places[world].walls[each.balloon]])
+        for world, placement in placements.items():
+            for points in into.places_of(places[world]):
+                placement.put(points)
+        for world in self._mirrored:
+            for points in into.places_of(places[world]):
+                points[:, 1] *= -1.0
 
     def _advance(self, index: int) -> None:
         self.model.advance((index - 1) / self._fps, index / self._fps)

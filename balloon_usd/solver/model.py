@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from balloon_usd.solver.performer import Performer
     from balloon_usd.solver.placement import Placement
     from balloon_usd.solver.readback import Readback
+    from balloon_usd.solver.severed import Severed
     from balloon_usd.solver.status import Status
 
 
@@ -44,6 +45,8 @@ class Model(ABC):
         """Status of every sculpture when the state was read back."""
         self.placements: dict[int, Placement] = {}
         """Where frames show the sculptures that are not where they were made, as of that state."""
+        self.severed: dict[int, tuple[Severed, ...]] = {}
+        """What was cut off of sculptures, as of that state."""
         self._hands, self._bodies, self._readback = hands, bodies, readback
         self._state: dict[str, NDArray[Any]] = {}
         """Arrays of the state read back last, by name."""
@@ -73,6 +76,8 @@ class Model(ABC):
         self.statuses = [performer.status for performer in self.performers]
         placed = enumerate(performer.sculpture.placement for performer in self.performers)
         self.placements = {world: placement for world, placement in placed if placement is not None}
+        cut = enumerate(tuple(performer.sculpture.severed.values()) for performer in self.performers)
+        self.severed = {world: found for world, found in cut if found}
 
     def rest(self) -> None:
         """Wait for the pending read-back, and so for all work before it."""

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from balloon_usd.solver.hands import Hands
     from balloon_usd.solver.placement import Placement
     from balloon_usd.solver.scene import Scene
+    from balloon_usd.solver.severed import Severed
 
 Floats = NDArray[np.float32]
 
@@ -48,6 +49,8 @@ class Sculpture:
 
     def __init__(self, plan: Plan, scene: Scene, hands: Hands, first_body: int) -> None:
         self.plan = plan
+        self.severed: dict[str, Severed] = {}
+        """What is being cut off or gone, by the names of bubbles."""
         self.scene = scene
         self.hands = hands
         self.body = {name: first_body + k for k, name in enumerate(plan.strips)}
@@ -135,6 +138,10 @@ class Sculpture:
     def walls(self) -> NDArray[np.float64]:
         """Return where all its vertices are, (V, 3), m."""
         walls: NDArray[np.float64] = self.hands.places[self.vertices].astype(np.float64)
+        start = self.scene.vertex_start
+        for each in self.severed.values():
+            body = self.bodies[each.balloon]
+            each.put(walls[start[body] - start[self.bodies[0]] : start[body + 1] - start[self.bodies[0]]])
         return walls
 
     def centre(self, points: NDArray[np.float64]) -> NDArray[np.float64]:

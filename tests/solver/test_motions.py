@@ -129,6 +129,7 @@ def test_hands_wait_while_nothing_moves_and_in_model_kosaka_where_nothing_is_blo
         moves.Hold,
         moves.Fall,
         moves.Pop,
+        moves.Cut,
         moves.StretchTip,
         moves.Aim,
         moves.PassThrough,

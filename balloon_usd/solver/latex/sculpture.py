@@ -42,6 +42,12 @@ class LatexSculpture(Sculpture):
         middle: NDArray[np.float64] = mass @ points / mass.sum()
         return middle
 
+    def weigh_nothing(self, body: int, vertices: NDArray[np.int64]) -> None:
+        """Take the weight of some vertices of a body away."""
+        mass = self.scene.true_mass.numpy()
+        mass[vertices + int(self.scene.vertex_start[body])] = 0.0
+        self.scene.true_mass.assign(mass)
+
     @property
     def unwinding(self) -> str | None:
         """Name of the joint that is coming undone, or None."""

@@ -38,6 +38,7 @@ KOSAKA_MOTIONS: Motions = {
     # Only latex has a weight, bursts, and softens.
     moves.Fall: Wait,
     moves.Pop: Wait,
+    moves.Cut: Wait,
     moves.StretchTip: Wait,
     moves.Aim: Wait,
     moves.PassThrough: Wait,

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from balloon_usd.operations import moves
 from balloon_usd.solver.latex.motions.aim import Aim
 from balloon_usd.solver.latex.motions.bend import LatexBend
+from balloon_usd.solver.latex.motions.cut import Cut
 from balloon_usd.solver.latex.motions.fall import Fall
 from balloon_usd.solver.latex.motions.hold import Hold
 from balloon_usd.solver.latex.motions.inflate import Inflate
@@ -48,6 +49,7 @@ LATEX_MOTIONS: Motions = {
     moves.Press: LatexPress,
     moves.PassThrough: PassThrough,
     moves.Pop: Pop,
+    moves.Cut: Cut,
     moves.StretchTip: StretchTip,
     moves.Thread: Thread,
     moves.WindRound: WindRound,
