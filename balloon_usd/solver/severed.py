@@ -51,6 +51,7 @@ class Stub(NamedTuple):
         vertices = np.flatnonzero(beyond > 0.0)
         share = beyond[vertices] / beyond.max()
         flat = body.points[:, 1:].astype(np.float64)
+        flat -= flat[neck].mean(axis=0)
         corners = flat[neck] / np.linalg.norm(flat[neck], axis=1, keepdims=True)
         wide = np.linalg.norm(flat, axis=1).max()
         near = np.minimum(beyond[vertices] / (NECK_REACH * body.radius), 1.0)

@@ -27,17 +27,37 @@ steps:
 """
 
 
-class CutOff:
-    """A figure, its last frame, its mesh, the weight of its vertices, and its quality."""
+PAIR = """
+format: 1
+name: pair
+units: cm
+balloons:
+  red: {size: 260, inflated: 14, length: 12}
+  white: {size: 260, inflated: 14, length: 12}
+steps:
+  - bubbles: {red_end: 4}
+    balloon: red
+  - bubbles: {white_end: 4}
+    balloon: white
+  - lock: {joints: [red_end.end, white_end.end]}
+  - {rest: over, balloon: white}
+  - cut: over
+"""
 
-    def __init__(self, recipe):
+
+class CutOff:
+    """A figure, the last frame of one of its balloons, its mesh, the weight of all vertices, and the quality."""
+
+    def __init__(self, recipe, balloon="main"):
         self.plan = plan(Recipe.parse(recipe))
         simulation = simulate_many([self.plan], device="cpu")
-        ((self.mesh,),) = simulation.meshes
-        quality = QualityWatch(self.plan, (self.mesh,))
+        (meshes,) = simulation.meshes
+        at = list(self.plan.strips).index(balloon)
+        self.mesh = meshes[at]
+        quality = QualityWatch(self.plan, meshes)
         for (frame,) in simulation.frames():
             quality.add(frame)
-        self.points = frame.points[0].astype(float)
+        self.points = frame.points[at].astype(float)
         self.weight = simulation.model.scene.true_mass.numpy()
         self.quality = quality.data()
 
@@ -87,6 +107,14 @@ def test_it_weighs_nothing(bow, end):
 def test_no_wall_goes_through_another_and_the_figure_holds(bow):
     assert bow.quality["crossings"]["most"] == 0
     assert bow.quality["joints"]["held"] == bow.quality["joints"]["meant"]
+
+
+def test_a_balloon_that_lay_aside_is_cut_off_as_well():
+    pair = CutOff(PAIR, "white")
+    own, neck = pair.side(pair.plan.table.ends("over")[0], 1)
+    radius = np.linalg.norm(pair.points[neck] - pair.points[neck].mean(axis=0), axis=1).max()
+    assert np.linalg.norm(pair.points[own] - pair.points[neck].mean(axis=0), axis=1).max() < 1.05 * radius
+    assert pair.quality["crossings"]["most"] == 0
 
 
 def test_what_was_popped_is_not_pricked_again():
