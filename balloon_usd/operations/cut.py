@@ -15,9 +15,6 @@ if TYPE_CHECKING:
     from balloon_usd.operations.score import Score
     from balloon_usd.operations.workbench import Place, Workbench
 
-CUT_SECONDS = 0.25
-"""Time in which what is cut off is gone, s."""
-
 
 class Cut(Operation):
     """Let the gas out of an end of a balloon and cut it off, at an ear or a lock that stays shut."""
@@ -73,6 +70,6 @@ steps:
         if not any(isinstance(move, moves.Pop) and move.bubble == self.cut for move in score.moves):
             score.add(moves.Pop(score.now, POP_SECONDS, index, self.label, bubble=self.cut))
             score.add(moves.Move(score.now, SNAP_SECONDS, index, self.label))
-        score.add(moves.Cut(score.now, CUT_SECONDS, index, self.label, bubble=self.cut))
+        score.add(moves.Cut(score.now, 0.0, index, self.label, bubble=self.cut))
         score.add(moves.Move(score.now, SETTLE_SECONDS, index, self.label))
         score.let_go(index)

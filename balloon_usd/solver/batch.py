@@ -107,7 +107,7 @@ class Batch:
         places = self.model.layout.places
         for world, cut in severed.items():
             for each in cut:
-                each.put(into.points[places[world].walls[each.balloon]])
+                each.stub.put(into.points[places[world].walls[each.balloon]])
         for world, placement in placements.items():
             for points in into.places_of(places[world]):
                 placement.put(points)

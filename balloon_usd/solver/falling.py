@@ -125,7 +125,7 @@ class FallingFigure:
             slowing = float(np.linalg.norm(drag)) / self.figure.inertial
             block = min(BLOCK, SLOWED * float(np.linalg.norm(self.velocity)) / max(slowing, 1.0e-9), left)
             # In full blocks, the last of which is not much shorter.
-            block = left / math.ceil(left / max(block, SHORTEST) - 1.0e-9)
+            block = left / max(math.ceil(left / max(block, SHORTEST) - 1.0e-9), 1)
             steps = math.ceil(block / self._step_seconds) if len(near) else 1
             for _ in range(steps):
                 pushed += self._step(block / steps, drag, torque, near) * block / steps

@@ -138,10 +138,10 @@ class Sculpture:
     def walls(self) -> NDArray[np.float64]:
         """Return where all its vertices are, (V, 3), m."""
         walls: NDArray[np.float64] = self.hands.places[self.vertices].astype(np.float64)
-        start = self.scene.vertex_start
+        start = self.scene.vertex_start[list(self.bodies)] - self.vertices.start
         for each in self.severed.values():
-            body = self.bodies[each.balloon]
-            each.put(walls[start[body] - start[self.bodies[0]] : start[body + 1] - start[self.bodies[0]]])
+            # What lies behind it is of other balloons.
+            each.stub.put(walls[start[each.balloon] :])
         return walls
 
     def centre(self, points: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -1,7 +1,8 @@
-"""What was cut off a balloon: frames show it snap into the joint at which it hung."""
+"""What was cut off a balloon: frames show what is left of it at its joint."""
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -13,31 +14,38 @@ if TYPE_CHECKING:
     from balloon_usd.solver.body import Body
 
 Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
 
-STUB = 0.1
-"""How far what is left stands out of the neck, in radii of the neck."""
-NARROWED, HUB = 0.25, 0.05
-"""How wide it is there, in radii of the neck, where the rubber begins that is not folded up in the neck, and
-in its middle: the wider, the more of what is folded up in other necks of the joint goes through it.
+NIB, HUB = 0.06, 0.01
+"""How wide the rubber that is gone is where it begins, and in its middle, in radii of the neck: 0.15 mm on a
+260, for what is folded up in other necks of the joint may lie in this one.
 """
+HEIGHT = 0.1
+"""How far it stands out, in radii of the neck."""
+OFF_MIDDLE = 0.5
+"""How far from the middle of the neck it may lie, in radii of it."""
 
 
 class Stub(NamedTuple):
-    """What is left at a neck where a balloon was cut: a lid on it, of the rubber that is gone.
+    """What is left where a balloon was cut: a lid on the neck, and on it a nib of what is gone.
 
     A mesh keeps its faces, and none of these may be without area.
     """
 
-    vertices: NDArray[np.int64]
+    vertices: Ints
     """Vertices of the balloon that are gone, (N,)."""
     neck: slice
     """Corners of the neck."""
     spokes: Floats
-    """Where each of these vertices is in the lid, along both axes of the neck, in radii of it, (N, 2)."""
+    """Where each vertex is across the neck, from the nib's middle, (N, 2), in radii of the neck."""
+    nib: Floats
+    """How far each goes along with the nib if that does not lie in the middle, (N,)."""
     height: Floats
-    """How far each stands out of it, (N,), in radii of it."""
+    """How far each stands out, (N,), in radii of the neck."""
     corners: Floats
-    """Where the corners of the neck are along its axes, (C, 2), in radii of it."""
+    """Where the corners of the neck are across it, (C, 2), in radii of it."""
+    middle: tuple[float, float] = (0.0, 0.0)
+    """Where the nib lies across the neck, in radii of it."""
 
     @classmethod
     def at(cls, body: Body, first: int, around: int, side: int) -> Stub:
@@ -49,37 +57,46 @@ class Stub(NamedTuple):
         neck = slice(first, first + around)
         beyond[neck] = 0.0
         vertices = np.flatnonzero(beyond > 0.0)
-        share = beyond[vertices] / beyond.max()
         flat = body.points[:, 1:].astype(np.float64)
         flat -= flat[neck].mean(axis=0)
         corners = flat[neck] / np.linalg.norm(flat[neck], axis=1, keepdims=True)
         wide = np.linalg.norm(flat, axis=1).max()
         near = np.minimum(beyond[vertices] / (NECK_REACH * body.radius), 1.0)
-        scale = 1.0 - (1.0 - NARROWED) * near - (NARROWED - HUB) * share
-        spokes = scale[:, None] * flat[vertices] / wide
-        return cls(vertices, neck, spokes, side * STUB * share, corners)
+        share = beyond[vertices] / beyond.max()
+        scale = 1.0 - (1.0 - NIB) * near - (NIB - HUB) * share
+        return cls(
+            vertices, neck, scale[:, None] * flat[vertices] / wide, near, side * HEIGHT * share, corners
+        )
 
-    def places(self, points: NDArray[np.floating]) -> Floats:
-        """Return where its vertices are, (N, 3), m, among those of its balloon, (V, 3), m."""
+    def clear_of(self, points: NDArray[np.floating], others: Floats) -> Stub:
+        """Return it with its nib where most room is from other places, (M, 3), m.
+
+        `points`: of its balloon, (V, 3), m.
+        """
+        middle, axes, _ = self._frame(points)
+        tried = np.concatenate([np.zeros((1, 2)), OFF_MIDDLE * self.corners])
+        room = [np.linalg.norm(others - place, axis=1).min() for place in middle + tried @ axes]
+        x, y = tried[int(np.argmax(room))].tolist()
+        return self._replace(middle=(x, y))
+
+    def put(self, points: NDArray[np.floating]) -> None:
+        """Move its vertices among those of its balloon, (V, 3), m, in place."""
+        middle, axes, out = self._frame(points)
+        across = self.spokes + self.nib[:, None] * np.array(self.middle)
+        points[self.vertices] = middle + across @ axes + self.height[:, None] * out
+
+    def _frame(self, points: NDArray[np.floating]) -> tuple[Floats, Floats, Floats]:
+        """Return the middle of the neck, (3,), two axes across it, (2, 3), and one along it, (3,), m."""
         neck = points[self.neck].astype(np.float64)
         middle = neck.mean(axis=0)
         axes = 2.0 / len(neck) * self.corners.T @ (neck - middle)
         out = np.cross(*axes)
-        out /= max(float(np.sqrt(np.linalg.norm(out))), 1e-12)
-        places: Floats = middle + self.spokes @ axes + self.height[:, None] * out
-        return places
+        return middle, axes, out / max(math.sqrt(float(np.linalg.norm(out))), 1e-12)
 
 
 class Severed(NamedTuple):
-    """Rubber of a balloon that is being cut off, or is gone."""
+    """Rubber of a balloon that is gone."""
 
     balloon: int
     """Which of its sculpture's."""
     stub: Stub
-    share: float
-    """Of the cut that is done."""
-
-    def put(self, points: NDArray[np.floating]) -> None:
-        """Move its vertices among those of its balloon, (V, 3), m, in place."""
-        own = self.stub.vertices
-        points[own] = (1.0 - self.share) * points[own] + self.share * self.stub.places(points)

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from balloon_usd.solver.motions.motion import Motion
-from balloon_usd.solver.motions.smooth import smooth
 from balloon_usd.solver.severed import Severed, Stub
 
 if TYPE_CHECKING:
@@ -20,19 +21,18 @@ class Cut(Motion):
     """
 
     def __init__(self, move: moves.Cut, sculpture: LatexSculpture) -> None:
-        """Find what is cut off."""
-        self._sculpture, self._bubble = sculpture, move.bubble
+        """Cut it off."""
+        scene, hands = sculpture.scene, sculpture.hands
         start, end = sculpture.plan.table.ends(move.bubble)
         ring, side = (start, 1) if end is None else (end, -1)
-        self._body = sculpture.body[sculpture.plan.table.rings[ring].balloon]
-        first, around = (int(values[sculpture.joints[ring]]) for values in sculpture.hands.rings)
-        first -= int(sculpture.scene.vertex_start[self._body])
-        self._stub = Stub.at(sculpture.scene.bodies[self._body], first, around, side)
-
-    def advance(self, share: float) -> None:
-        """Show how it snaps into its joint."""
-        sculpture = self._sculpture
-        balloon = self._body - sculpture.bodies[0]
-        sculpture.severed[self._bubble] = Severed(balloon, self._stub, smooth(share))
-        if share >= 1.0:
-            sculpture.weigh_nothing(self._body, self._stub.vertices)
+        body = sculpture.body[sculpture.plan.table.rings[ring].balloon]
+        before = int(scene.vertex_start[body])
+        first, around = (int(values[sculpture.joints[ring]]) for values in hands.rings)
+        stub = Stub.at(scene.bodies[body], first - before, around, side)
+        own = np.zeros(len(hands.places), dtype=bool)
+        own[before + np.r_[stub.vertices, stub.neck]] = True
+        corners = scene.quads.numpy()
+        others = hands.places[corners[~own[corners].any(axis=1)]].mean(axis=1, dtype=np.float64)
+        balloon = hands.places[before : int(scene.vertex_start[body + 1])]
+        sculpture.severed[move.bubble] = Severed(body - sculpture.bodies[0], stub.clear_of(balloon, others))
+        sculpture.weigh_nothing(body, stub.vertices)
