@@ -281,6 +281,8 @@ class WindRound(Move):
     """Rings of each strand, from the joint at one end of all to the place at the other."""
     turns: float = 0.0
     """Right-handed, left-handed below 0."""
+    asked: float = 0.0
+    """How many of these shall stay when hands let go."""
     radius: float = 0.0
     """How far from the axis each strand lies once it is wound, m."""
 

@@ -33,6 +33,10 @@ EASY = 1.4
 """Length from which on bubbles are wound without creases, in the least that has room."""
 PLACES_A_TURN = 6.0
 """At how many places hands hold each strand for a turn of it."""
+SPRING_BACK = 0.3
+"""Turns that hands wind beyond those that shall stay, where there is length for them: of half a turn to three
+of a 260 a quarter to a half spring back when hands let go.
+"""
 TURN_SECONDS = 2.5
 """Time of a turn: the walls go round at 0.1 m/s, s."""
 LEAST_SECONDS = 1.5
@@ -143,8 +147,10 @@ steps:
 
     def perform(self, score: Score, index: int) -> None:
         """Turn the joint at one end about the way from the one at the other."""
-        turns = -self.spiral.turns if score.mirrored else self.spiral.turns
-        calm = max(LEAST_SECONDS, TURN_SECONDS * self.spiral.turns)
+        asked = self.spiral.turns
+        room = self._strand(score.layout) / self._least(score.layout) * asked
+        turns = max(asked, min(asked + SPRING_BACK, room))
+        calm = max(LEAST_SECONDS, TURN_SECONDS * asked)
         score.refuse_haste(index, self.seconds, calm + SETTLE_SECONDS, f"wind {all_of(self.names)}")
         text = f"{self.word}: {all_of(self.names)}"
         move = moves.WindRound(
@@ -154,7 +160,8 @@ steps:
             text,
             bubbles=self.names,
             strands=self._strands(score),
-            turns=turns,
+            turns=-turns if score.mirrored else turns,
+            asked=asked,
             radius=self.widest(score.layout).width * wound_radius(self.strands),
         )
         score.add(move)

@@ -80,7 +80,7 @@ class _Spiral:
         # The time of a frame is (code - 1) / fps.
         self._last = 1 + math.ceil(move.end * plan.recipe.fps)
         self.name = all_of(move.bubbles)
-        self.asked = abs(move.turns)
+        self.asked = move.asked
         self.turns = 0.0
         self.since: int | None = None
         """Time code since which more than half of its turns are lost."""

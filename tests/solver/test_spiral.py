@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from balloon_usd.operations.moves import WindRound
-from balloon_usd.operations.spiral import tightest_turn, wound_radius
+from balloon_usd.operations.spiral import SPRING_BACK, tightest_turn, wound_radius
 from balloon_usd.plan import plan
 from balloon_usd.quality.ring_corners import RingCorners
 from balloon_usd.quality.watch import QualityWatch
@@ -61,16 +61,18 @@ def pair():
     return Wound(PAIR + "  - spiral: {bubbles: [one, other], turns: 1}\n")
 
 
-def test_a_pair_is_wound_as_often_as_the_recipe_says_like_a_right_handed_screw(pair):
-    assert pair.wound == pytest.approx(1.0, abs=0.15)
+def test_a_pair_is_wound_farther_than_the_recipe_says_like_a_right_handed_screw(pair):
+    (move,) = (move for move in pair.plan.choreography.moves if isinstance(move, WindRound))
+    assert (move.asked, move.turns) == (1.0, pytest.approx(1.0 + SPRING_BACK, abs=0.06))
+    assert pair.wound == pytest.approx(move.turns, abs=0.15)
 
 
 def test_winding_does_not_twist_the_walls_themselves(pair):
     assert max(map(abs, pair.twisted)) < 0.1
 
 
-def test_most_of_the_turns_stay_when_hands_let_go_and_no_wall_goes_through_another(pair):
-    assert 0.5 < pair.turns < pair.wound
+def test_what_the_recipe_says_stays_when_hands_let_go_and_no_wall_goes_through_another(pair):
+    assert 0.8 < pair.turns < min(pair.wound, 1.2)
     assert pair.quality["unwound"]["verdict"] == "good"
     assert pair.quality["unwound"]["turns"] == {"one and other": [round(pair.turns, 3), 1.0]}
     assert pair.quality["crossings"]["value"] == 0
@@ -92,8 +94,8 @@ steps:
   - spiral: {bubbles: [wreath], turns: 1}
 """
     wreath = Wound(loop)
-    assert wreath.wound == pytest.approx(-1.0, abs=0.25)
-    assert wreath.turns < -0.5
+    assert wreath.wound == pytest.approx(-1.3, abs=0.25)
+    assert wreath.turns == pytest.approx(-1.0, abs=0.3)
     assert wreath.quality["crossings"]["value"] == 0
 
 
