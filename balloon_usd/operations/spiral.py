@@ -37,6 +37,8 @@ SPRING_BACK = 0.3
 """Turns that hands wind beyond those that shall stay, where there is length for them: of half a turn to three
 of a 260 a quarter to a half spring back when hands let go.
 """
+TIGHT = 1.15
+"""Length up to which bubbles that are wound farther keep less, in the least that has room."""
 TURN_SECONDS = 2.5
 """Time of a turn: the walls go round at 0.1 m/s, s."""
 LEAST_SECONDS = 1.5
@@ -148,7 +150,7 @@ steps:
     def perform(self, score: Score, index: int) -> None:
         """Turn the joint at one end about the way from the one at the other."""
         asked = self.spiral.turns
-        room = self._strand(score.layout) / self._least(score.layout) * asked
+        room = self._strand(score.layout) / self._least(score.layout) * asked / TIGHT
         turns = max(asked, min(asked + SPRING_BACK, room))
         calm = max(LEAST_SECONDS, TURN_SECONDS * asked)
         score.refuse_haste(index, self.seconds, calm + SETTLE_SECONDS, f"wind {all_of(self.names)}")

@@ -22,9 +22,9 @@ format: 1
 name: rope
 units: cm
 balloons:
-  main: {size: 260, length: 60, tail: 6}
+  main: {size: 260, length: 66, tail: 6}
 steps:
-  - bubbles: {grip: 4, one: 26, other: 26}
+  - bubbles: {grip: 4, one: 29, other: 29}
   - lock: [one, other]
     point: up
 """
@@ -63,7 +63,8 @@ def pair():
 
 def test_a_pair_is_wound_farther_than_the_recipe_says_like_a_right_handed_screw(pair):
     (move,) = (move for move in pair.plan.choreography.moves if isinstance(move, WindRound))
-    assert (move.asked, move.turns) == (1.0, pytest.approx(1.0 + SPRING_BACK, abs=0.06))
+    assert move.asked == 1.0
+    assert 1.0 < move.turns < 1.0 + SPRING_BACK
     assert pair.wound == pytest.approx(move.turns, abs=0.15)
 
 
@@ -94,7 +95,7 @@ steps:
   - spiral: {bubbles: [wreath], turns: 1}
 """
     wreath = Wound(loop)
-    assert wreath.wound == pytest.approx(-1.3, abs=0.25)
+    assert wreath.wound == pytest.approx(-1.15, abs=0.25)
     assert wreath.turns == pytest.approx(-1.0, abs=0.3)
     assert wreath.quality["crossings"]["value"] == 0
 
@@ -127,7 +128,7 @@ def test_tubes_that_touch_lie_on_a_circle_and_two_take_four_widths_a_turn():
         ("{bubbles: [one, one]}", "names a bubble twice"),
         ("{bubbles: [one, othr]}", "unknown bubble"),
         ("{bubbles: [one, other], turns: 0}", "0.5 to 10 turns"),
-        ("{bubbles: [one, other], turns: 2}", "too short for 2 turns, expected at most 1.2"),
+        ("{bubbles: [one, other], turns: 2}", "too short for 2 turns, expected at most 1.35"),
         ("{bubbles: [one, other], turn: 2}", "turns"),
         ("[one, other]", "spiral"),
         ("{bubbles: []}", "bubbles"),
