@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 _WORD_COMPARED = 64
 _CHOICES_COMPARED = 1000
-_CHOICES_LISTED = 20
+_CHOICES_LISTED = 24
 _ALIKE = 0.6
 """Share of letters in common from which a word counts as a slip of the pen (difflib's own default)."""
 

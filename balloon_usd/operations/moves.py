@@ -282,7 +282,7 @@ class WindRound(Move):
     turns: float = 0.0
     """Right-handed, left-handed below 0."""
     asked: float = 0.0
-    """How many of these shall stay when hands let go."""
+    """How many shall stay when hands let go, with those that were there before."""
     radius: float = 0.0
     """How far from the axis each strand lies once it is wound, m."""
 

@@ -125,17 +125,18 @@ steps:
         if strand < least:
             most = math.floor(20.0 * self.spiral.turns * strand / least) / 20.0
             text = f"{cm(strand)} of {self.strands} strands of a {self.widest(layout).size} are too short for"
-            text += f" {self.spiral.turns:g} turns, expected at most {most:g}, or {at_least(least)}"
+            text += f" {_turns(self.spiral.turns)}, expected at most {most:g}, or {at_least(least)}"
             yield (self.word, "turns"), text
 
     def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:
-        """Warn of bubbles that are wound as tight as they can be."""
+        """Warn of unequal strands, and of bubbles that are wound as tight as they can be."""
+        yield from super().cautions(index, layout)
         strand, least = self._strand(layout), self._least(layout)
         if least <= strand < EASY * least:
             yield Caution(
                 index,
-                f"{all_of(self.names)} are wound tight",
-                f"{self.strands} strands of {cm(strand)} take {self.spiral.turns:g} turns with creases only",
+                f"{all_of(self.names)} {'is' if len(self.names) == 1 else 'are'} wound tight",
+                f"{self.strands} strands of {cm(strand)} take {_turns(self.spiral.turns)} with creases only",
                 f"make each {at_least(EASY * least)}, or wind them less",
             )
 
@@ -149,10 +150,14 @@ steps:
 
     def perform(self, score: Score, index: int) -> None:
         """Turn the joint at one end about the way from the one at the other."""
-        asked = self.spiral.turns
-        room = self._strand(score.layout) / self._least(score.layout) * asked / TIGHT
-        turns = max(asked, min(asked + SPRING_BACK, room))
-        calm = max(LEAST_SECONDS, TURN_SECONDS * asked)
+        turns, wound = self.spiral.turns, self._wound_before(score)
+        most = self._strand(score.layout) / self._least(score.layout) * turns
+        asked = wound + turns
+        if wound and asked > most:
+            told = f"wound {_turns(wound)} already, and there is length for {most:.1f} in all, expected fewer"
+            score.refuse(index, {(self.word, "turns"): told})
+        calm = max(LEAST_SECONDS, TURN_SECONDS * turns)
+        turns += max(0.0, min(SPRING_BACK, most / TIGHT - asked))
         score.refuse_haste(index, self.seconds, calm + SETTLE_SECONDS, f"wind {all_of(self.names)}")
         text = f"{self.word}: {all_of(self.names)}"
         move = moves.WindRound(
@@ -170,6 +175,11 @@ steps:
         score.add(Move(score.now, SETTLE_SECONDS, index, text))
         score.let_go(index)
 
+    def _wound_before(self, score: Score) -> float:
+        """Return how often earlier steps have wound the same bubbles."""
+        before = [move for move in score.moves if isinstance(move, moves.WindRound)]
+        return max((move.asked for move in before if set(move.bubbles) == set(self.names)), default=0.0)
+
     def _strands(self, score: Score) -> tuple[tuple[int, ...], ...]:
         """Return the rings of every strand, from the joint at one end of all to the place at the other."""
         rows = self.rows(score)
@@ -178,6 +188,11 @@ steps:
         (loop,) = rows
         middle = len(loop) // 2
         return loop[: middle + 1], loop[middle:][::-1]
+
+
+def _turns(turns: float) -> str:
+    """Return a number of turns in words."""
+    return f"{turns:g} {'turn' if turns == 1.0 else 'turns'}"
 
 
 def tightest_turn(strands: int) -> float:

@@ -4,15 +4,21 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar
 
+from balloon_usd.language.lengths import cm
+from balloon_usd.operations.caution import Caution
 from balloon_usd.operations.modifiers import Timed
 from balloon_usd.operations.operation import Operation
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from balloon_usd.language.problem import Path
     from balloon_usd.operations.score import Layout, PlacedBubble, Score
     from balloon_usd.operations.workbench import Place, Workbench
+
+
+UNEQUAL = 0.10
+"""Difference of lengths that shows, as a share of the longest, as of a locked pair."""
 
 
 class OfStrands(Timed, Operation):
@@ -49,7 +55,9 @@ class OfStrands(Timed, Operation):
             bench.has_name(name, (*path, k)) and bench.find_firm(name, (*path, k))
             for k, name in enumerate(names)
         ]
-        if not names or not all(found) or not bench.knows(names):
+        # What is no name is told where it stands.
+        whole = names and isinstance(value, dict) and len(names) == len(value["bubbles"])
+        if not whole or not all(found) or not bench.knows(names):
             return
         if len(set(names)) < len(names):
             bench.complain(path, "names a bubble twice, expected each once")
@@ -60,6 +68,18 @@ class OfStrands(Timed, Operation):
     def take(cls, names: Sequence[str], path: Path, bench: Workbench) -> None:
         """Take different bubbles that are there, or complain of how they lie."""
         raise NotImplementedError
+
+    def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:
+        """Warn of strands of unequal lengths."""
+        by_length = sorted(self.names, key=lambda name: layout.bubble(name).length)
+        short, long = (layout.bubble(by_length[k]).length for k in (0, -1))
+        if short < (1.0 - UNEQUAL) * long:
+            yield Caution(
+                index,
+                f"{by_length[-1]} ({cm(long)}) is longer than {by_length[0]} ({cm(short)})",
+                "strands end in the same joints, so the longer one bows out",
+                f"make all {cm(long)} long",
+            )
 
     def shortest(self, layout: Layout) -> float:
         """Return the length of the shortest bubble, m."""

@@ -221,6 +221,10 @@ class Workbench:
 
     def find(self, name: str, path: Path, rests: Iterable[str] = ()) -> bool:
         """Say whether a bubble exists by now, and complain if it does not; `rests` could be meant, too."""
+        if name in self._cut_at:
+            at = path_text(self._cut_at[name])
+            self.complain(path, f"bubble {quoted(name)} was cut off at {at}, expected one that is there")
+            return False
         if name in self._made_at:
             return True
         later = self._made_ever.get(name)

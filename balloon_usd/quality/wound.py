@@ -38,11 +38,13 @@ class WoundSpirals:
     def __init__(self, plan: Plan, meshes: Sequence[BalloonMesh]) -> None:
         """Find out what to look at; one mesh a balloon, in the order of `Plan.strips`."""
         self._fps = plan.recipe.fps
-        self._spirals = [
-            _Spiral(plan, meshes, move)
+        # What is wound once more has all its turns in the last move.
+        last = {
+            frozenset(move.bubbles): move
             for move in plan.choreography.moves
             if isinstance(move, WindRound) and plan.recipe.piece.popped.isdisjoint(move.bubbles)
-        ]
+        }
+        self._spirals = [_Spiral(plan, meshes, move) for move in last.values()]
 
     def add(self, frame: Frame) -> None:
         """Take the next frame."""

@@ -132,7 +132,8 @@ def test_what_was_popped_is_not_pricked_again():
         ("cut: spair", "unknown bubble"),
         ("cut: [spare]", "cut"),
         ("cut: spare\n  - cut: spare", "was cut off at"),
-        ("cut: spare\n  - lock: [right, spare]", "was popped at"),
+        ("cut: spare\n  - lock: [right, spare]", "was cut off at"),
+        ("cut: knob\n  - lock: {joints: [knob.start, right.end]}", "was cut off at"),
     ],
 )
 def test_what_cannot_be_cut_is_refused(steps, told):

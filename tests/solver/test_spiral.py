@@ -131,6 +131,7 @@ def test_tubes_that_touch_lie_on_a_circle_and_two_take_four_widths_a_turn():
         ("{bubbles: [one, other], turns: 2}", "too short for 2 turns, expected at most 1.35"),
         ("{bubbles: [one, other], turn: 2}", "turns"),
         ("[one, other]", "spiral"),
+        ("{bubbles: [one, other], turns: 1}\n  - spiral: {bubbles: [other, one]}", "wound 1 turn already"),
         ("{bubbles: []}", "bubbles"),
     ],
 )
@@ -147,6 +148,26 @@ def test_what_is_left_of_a_balloon_ends_in_no_joint_and_a_popped_bubble_has_no_g
     popped = PAIR + "  - rest: end\n  - pop: end\n  - spiral: {bubbles: [one, end]}\n"
     with pytest.raises(RecipeError, match="was popped at"):
         Recipe.parse(popped)
+
+
+def test_a_name_that_is_none_is_told_without_words_about_the_others():
+    with pytest.raises(RecipeError) as caught:
+        Recipe.parse(PAIR + "  - spiral: {bubbles: [one, 3]}\n")
+    assert len(str(caught.value).splitlines()) == 1
+
+
+def test_what_is_wound_twice_has_all_its_turns_in_the_last_move():
+    long = PAIR.replace("one: 29, other: 29", "one: 45, other: 45").replace("length: 66", "length: 100")
+    figure = plan(Recipe.parse(long + 2 * "  - spiral: {bubbles: [one, other], turns: 0.5}\n"))
+    winding = [move for move in figure.choreography.moves if isinstance(move, WindRound)]
+    assert [(move.asked, move.turns) for move in winding] == [(0.5, 0.8), (1.0, 0.8)]
+
+
+def test_unequal_strands_are_told():
+    figure = plan(
+        Recipe.parse(PAIR.replace("other: 29", "other: 24") + "  - spiral: {bubbles: [one, other]}\n")
+    )
+    assert any("one (29 cm) is longer than other (24 cm)" in str(each) for each in figure.cautions)
 
 
 def test_bubbles_that_are_wound_tight_are_told():
