@@ -11,6 +11,7 @@ from pydantic import BeforeValidator, Field, WithJsonSchema
 from balloon_usd.language.choices import all_of, one_of, unknown
 from balloon_usd.language.names import Name
 from balloon_usd.language.problem import quoted
+from balloon_usd.language.quantities import Between
 from balloon_usd.operations import moves
 from balloon_usd.operations.modifiers import OnBalloon, Timed
 from balloon_usd.operations.moves import FRONTS, Front, Move
@@ -85,6 +86,9 @@ steps:
     aim: Annotated[dict[Name, Sides], Field(min_length=1)]
     """Turn bubbles, with all that hangs on them, about the joints at which they hang on the figure."""
 
+    spin: Annotated[float, Between(-360.0, 360.0, "degrees")] = 0.0
+    """How far each is turned about itself, right-handed about the way it points then, degrees."""
+
     def entry(self, units: str | None) -> object:
         """Return its value as it stands in a file."""
         return {name: way[0] if len(way) == 1 else list(way) for name, way in self.aim.items()}
@@ -117,6 +121,8 @@ steps:
             x, y, z = np.sum([FRONTS[side] for side in way], axis=0).tolist()
             size = math.sqrt(x * x + y * y + z * z)
             toward = score.sided((x / size, y / size, z / size))
-            score.add(moves.Aim(score.now, seconds, index, text, bubble=bubble, toward=toward))
+            spin = math.radians(-self.spin if score.mirrored else self.spin)
+            move = moves.Aim(score.now, seconds, index, text, bubble=bubble, toward=toward, spin=spin)
+            score.add(move)
             score.add(Move(score.now, SETTLE_SECONDS, index, text))
             score.let_go(index)

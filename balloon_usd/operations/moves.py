@@ -145,6 +145,27 @@ class Gather(Move):
 
 
 @dataclass(frozen=True)
+class Wrap(Gather):
+    """Lay a row of bubbles back beside a chain, a neck of it where the hole will be, and close the chain."""
+
+    bubble: str = ""
+    """The bubble behind that neck."""
+    led: tuple[int, ...] = ()
+    """Rings of the row and of that bubble, away from the held ring of the chain."""
+    row: int = 0
+    """How many of these, the first ones, are of the row: the last of them is that of the neck."""
+    tube: float = 0.0
+    """How wide the chain is, m."""
+    behind: float = 1.0
+    """Side of the closed chain on which the row lies, along the balloon: 1 that of the tip, -1 the other."""
+
+    @property
+    def neck(self) -> int:
+        """Ring of the neck round which the chain is closed."""
+        return self.led[self.row - 1]
+
+
+@dataclass(frozen=True)
 class LeadIn(Move):
     """Lead a balloon in from where it lay, with all that is joined to it, until a ring of it is beside a ring
     of the figure, which is held still.
@@ -211,6 +232,8 @@ class Aim(Move):
     bubble: str = ""
     toward: Vector = (0.0, 0.0, 1.0)
     """Unit direction in which it points in the end, away from that joint."""
+    spin: float = 0.0
+    """How far it is turned about itself meanwhile, right-handed about that direction, rad."""
 
 
 @dataclass(frozen=True)

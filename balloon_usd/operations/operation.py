@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from balloon_usd.operations.caution import Caution
     from balloon_usd.operations.score import Layout, Score
     from balloon_usd.operations.workbench import Place, Workbench
+    from balloon_usd.operations.workpiece import Workpiece
 
 BubbleKind = Literal["bubble", "loop", "fold", "ear", "tulip", "rest", "shape"]
 Lengths = Annotated[dict[Name, Length], Field(min_length=1)]
@@ -112,6 +113,13 @@ class Operation(Entries):
     @classmethod
     def check(cls, value: object, place: Place, bench: Workbench) -> None:
         """Complain of what makes no sense, and do the rest, as far as the value can be read."""
+
+    def held_at(self, piece: Workpiece) -> Mapping[str, int]:
+        """Return at how many places hands hold bubbles, evenly, besides those of their kinds.
+
+        `piece`: the finished figure.
+        """
+        return {}
 
     def refusals(self, layout: Layout) -> Iterator[tuple[tuple[str, ...], str]]:
         """Yield what no hands can do: the keys of this step at which it stands, and why not."""

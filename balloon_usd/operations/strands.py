@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from balloon_usd.language.problem import Path
     from balloon_usd.operations.score import Layout, PlacedBubble, Score
     from balloon_usd.operations.workbench import Place, Workbench
+    from balloon_usd.operations.workpiece import Workpiece
 
 
 UNEQUAL = 0.10
@@ -37,6 +38,10 @@ class OfStrands(Timed, Operation):
     def places(self) -> int:
         """At how many places hands hold each bubble, evenly."""
         raise NotImplementedError
+
+    def held_at(self, piece: Workpiece) -> dict[str, int]:
+        """Return at how many places hands hold its strands."""
+        return dict.fromkeys(self.names, self.places)
 
     @classmethod
     def uses(cls, value: object) -> tuple[str, ...]:

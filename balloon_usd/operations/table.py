@@ -31,6 +31,7 @@ from balloon_usd.operations.tail_ball import TailBall
 from balloon_usd.operations.thread import Thread
 from balloon_usd.operations.tulip import Tulip
 from balloon_usd.operations.wait import Wait
+from balloon_usd.operations.wrap import Wrap
 
 if TYPE_CHECKING:
     from pydantic import GetJsonSchemaHandler
@@ -53,6 +54,7 @@ OPERATIONS: tuple[type[Operation], ...] = (
     Push,
     Roll,
     Thread,
+    Wrap,
     Pop,
     Cut,
     TailBall,

@@ -14,11 +14,12 @@ from balloon_usd.operations.disjoint_sets import DisjointSets
 if TYPE_CHECKING:
     from collections.abc import Container, Iterable, Mapping, Sequence
 
-ContactKind = Literal["roll", "push", "thread"]
+ContactKind = Literal["roll", "push", "thread", "wrap"]
 _BROUGHT: dict[ContactKind, str] = {
-    "roll": "rolls {} between",
-    "push": "pushes {} through",
-    "thread": "threads {} through",
+    "roll": "rolls {0} between {1}",
+    "push": "pushes {0} through {1}",
+    "thread": "threads {0} through {1}",
+    "wrap": "wraps {1} round the neck of {0}",
 }
 
 
@@ -64,7 +65,7 @@ class Contact:
     @property
     def text(self) -> str:
         """What was done, in words: `pushes nose through left_ear, right_ear`."""
-        return f"{_BROUGHT[self.kind].format(self.bubble)} {', '.join(self.others)}"
+        return _BROUGHT[self.kind].format(self.bubble, ", ".join(self.others))
 
 
 @dataclass(frozen=True)
@@ -316,7 +317,17 @@ class Workpiece:
             size = len(part) + len(inner & open_ends)
             if best is None or size < best[0]:
                 best = size, Limb(joint, part)
-        return None if best is None else best[1]
+        return None if best is None else self._with_wrapped(best[1])
+
+    def _with_wrapped(self, limb: Limb) -> Limb:
+        """Return a limb with all that is wrapped round a neck of it, or whose neck it is wrapped round."""
+        parts = limb.bubbles
+        for contact in self.contacts:
+            row = self.row_from(contact.others, contact.bubble) if contact.kind == "wrap" else None
+            ring = contact.others[0]
+            if row and limb.joint == self._ends(ring)[0] and not parts.isdisjoint((ring, row[0])):
+                parts |= self._stiff.beyond(ring, limb.joint) | self._stiff.beyond(row[0], limb.joint)
+        return Limb(limb.joint, parts)
 
     def row_from(self, ring: Iterable[str], bubble: str) -> tuple[str, ...] | None:
         """Return the bubbles of its balloon between a joint of a ring and the start of a bubble, without ears

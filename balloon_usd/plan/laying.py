@@ -12,7 +12,6 @@ from balloon_usd.language.lengths import at_least, at_most, cm
 from balloon_usd.language.problem import RecipeError, quoted
 from balloon_usd.operations.bend import Bend
 from balloon_usd.operations.modifiers import Turned
-from balloon_usd.operations.strands import OfStrands
 from balloon_usd.operations.thread import Thread
 from balloon_usd.plan.capsule import capsule_bubbles
 from balloon_usd.plan.laying_shapes import overlap_problems, shaped_strip
@@ -105,7 +104,7 @@ def _tube(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> Strip
     along, rest_along, drawn_before = 0.0, 0.0, 0.0
     bent = {each for step in recipe.steps if isinstance(step, Bend) for each in step.names}
     bent |= {step.bubble for step in recipe.steps if isinstance(step, Thread)}
-    places = {each: s.places for s in recipe.steps if isinstance(s, OfStrands) for each in s.names}
+    places = {each: count for s in recipe.steps for each, count in s.held_at(recipe.piece).items()}
     for made in _wound(recipe, name, size, rubber):
         index, kind, bubble, length, gas, drawn, slack = made
         shape, left = tube.pinched(made.twisted)

@@ -28,7 +28,7 @@ class RecipeBuilder:
     """Collects balloons and steps; `build` checks them as a file is checked.
 
     Every operation of the recipe language is a method with the same word. Lengths are in metres, angles in
-    degrees, times in seconds. Modifiers (balloon, point, turns, burp, seconds, note) are those of the
+    degrees, times in seconds. Modifiers (balloon, point, turns, burp, spin, seconds, note) are those of the
     language.
     """
 

@@ -18,6 +18,7 @@ from balloon_usd.operations.squeeze import Squeeze
 from balloon_usd.operations.tail_ball import TailBall
 from balloon_usd.operations.thread import Thread
 from balloon_usd.operations.tulip import Tulip
+from balloon_usd.operations.wrap import Wrap
 
 from .balloons import balloons_in
 
@@ -42,6 +43,7 @@ LATEX_STEPS = {
     Push.word: (", whose walls hardly rub", "no such step"),
     Roll.word: (", whose walls hardly rub", "no such step"),
     Thread.word: (", whose walls hardly rub", "no such step"),
+    Wrap.word: (", whose walls hardly rub", "no such step"),
     Braid.word: (", whose walls hardly rub", "no such step"),
     Spiral.word: (", whose walls hardly rub", "no such step"),
     Pop.word: (", whose air particles stay in", "no such step"),

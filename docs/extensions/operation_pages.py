@@ -96,8 +96,13 @@ def _key_rows(operation: type[Operation]) -> Iterator[tuple[str, ...]]:
     keys |= {f"{operation.word}.{name}": key for name, key in inner.items()}
     keys |= {name: own[name] for name in operation.modifiers()}
     for name, key in keys.items():
-        default = f"`{key['default']:g}`" if "default" in key else ""
+        default = _default(key["default"]) if "default" in key else ""
         yield f"`{name}`", _values(key), default, key["description"]
+
+
+def _default(value: str | float) -> str:
+    """Return what a key has where it is not given, in Markdown."""
+    return f"`{value}`" if isinstance(value, str) else f"`{value:g}`"
 
 
 def _values(key: dict[str, Any]) -> str:  # noqa: PLR0911

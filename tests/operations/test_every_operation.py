@@ -23,7 +23,15 @@ from balloon_usd.recipe import Recipe, RecipeError, recipe_schema
 SCHEMA = recipe_schema()
 ROOMS = Path(balloon_usd.__file__).parent
 DOCS = Path(__file__).parents[2] / "docs"
-VALUES = {"balloon": "main", "point": "up", "turns": 2.5, "burp": 20, "seconds": 1.5, "note": "gently"}
+VALUES = {
+    "balloon": "main",
+    "point": "up",
+    "turns": 2.5,
+    "burp": 20,
+    "spin": 90,
+    "seconds": 1.5,
+    "note": "gently",
+}
 
 each_operation = pytest.mark.parametrize("operation", OPERATIONS, ids=WORDS)
 

@@ -99,6 +99,7 @@ VALUES = {
     "point": "up",
     "turns": "2.5",
     "burp": "20.0",
+    "spin": "90.0",
     "seconds": "1.5",
     "note": "gently",
 }

@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 
 from balloon_usd.operations.aim import Aim
+from balloon_usd.operations.moves import Aim as AimMove
 from balloon_usd.plan import plan
 from balloon_usd.quality.crossing_counter import CrossingCounter
+from balloon_usd.quality.ring_corners import RingCorners
 from balloon_usd.quality.walls import walls_of
 from balloon_usd.recipe import Recipe, RecipeError
 from balloon_usd.solver.simulation import simulate_many
@@ -87,6 +89,36 @@ def test_it_stays_there_and_no_wall_goes_through_another(up, between):
         assert each.crossings == 0
 
 
+def test_a_limb_that_is_spun_points_as_said_and_its_loop_lies_across():
+    figure = plan(Recipe.parse(LOOP + "  - aim: {leaf: up}\n    spin: 90\n"))
+    (move,) = (move for move in figure.choreography.moves if isinstance(move, AimMove))
+    simulation = simulate_many([figure], device="cpu")
+    (meshes,) = simulation.meshes
+    rings = [figure.table.ends("leaf")[0], *figure.table.guides("leaf")]
+    corners = [RingCorners.of(figure, meshes, ring) for ring in rings]
+    planes = []
+    for (frame,) in simulation.frames():
+        if frame.time_code in (round(move.start * figure.recipe.fps), round(move.end * figure.recipe.fps)):
+            joint, *leaf = (ring.places(frame).mean(axis=0) for ring in corners)
+            planes.append(np.linalg.svd(leaf - np.mean(leaf, axis=0))[2][2])
+            points = np.mean(leaf, axis=0) - joint
+        if len(planes) == 2:
+            break
+    assert abs(planes[0] @ planes[1]) < np.sin(np.radians(10.0))
+    assert degrees(points / np.linalg.norm(points), np.array([0.0, 0.0, 1.0])) < 12.0
+
+
+def test_a_spin_is_mirrored():
+    spins = []
+    for side in ("left", "right"):
+        text = (
+            LOOP.replace("point: left", f"point: {side}") + f"  - aim: {{leaf: [{side}, up]}}\n    spin: 30\n"
+        )
+        made = plan(Recipe.parse(text))
+        spins.append(next(move.spin for move in made.choreography.moves if isinstance(move, AimMove)))
+    assert spins == pytest.approx([np.radians(30.0), -np.radians(30.0)])
+
+
 def test_what_is_made_to_the_right_is_the_mirror_image(between):
     text = LOOP.replace("point: left", "point: right")
     other = plan(Recipe.parse(text + "  - aim: {leaf: [right, up]}\nphysics: {hold: 2}\n"))
@@ -104,6 +136,9 @@ def test_what_is_made_to_the_right_is_the_mirror_image(between):
         ("aim: {leaf: up}", None),
         ("aim: {leaf: [up, back, left]}", None),
         ("aim: {stalk: [forward, up], leaf: up}", None),
+        ("aim: {leaf: up}\n    spin: -90", None),
+        ("aim: {leaf: up}\n    spin: 400", "spin"),
+        ("aim: {leaf: up}\n    spin: round", "spin"),
         ("aim: {leaf: sideways}", 'unknown direction "sideways"'),
         ("aim: {leaf: upp}", 'unknown direction "upp", did you mean "up"?'),
         ("aim: {leaf: [up, down]}", "up and down cancel each other, expected one of"),

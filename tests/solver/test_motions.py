@@ -136,6 +136,7 @@ def test_hands_wait_while_nothing_moves_and_in_model_kosaka_where_nothing_is_blo
         moves.Thread,
         moves.WindRound,
         moves.Plait,
+        moves.Wrap,
         moves.Invert,
     }
     assert waits == {moves.Move, *unmoved}

@@ -92,11 +92,15 @@ class ClosingChain:
         far = math.hypot(*flat[-1])
         cosine, sine = flat[-1][0] / far, flat[-1][1] / far
         slack = max(self._gap - far, 0.0) / len(self._sides)
-        turned = self._turn * smooth((share - TURN_ACROSS_FROM) / (1.0 - TURN_ACROSS_FROM))
-        across = math.cos(turned) * self._back + math.sin(turned) * self._across
+        across = self.across(share)
         # Numbers one by one: for so few joints, arrays take three times as long.
         places = [(cosine * x + sine * y + slack * k, cosine * y - sine * x) for k, (x, y) in enumerate(flat)]
         return np.asarray(np.array(places[::-1]) @ np.array([across, self._point]))
+
+    def across(self, progress: float) -> Floats:
+        """Return the unit direction, (3,), across its point, from the held joint to the first one."""
+        turned = self._turn * smooth((progress - TURN_ACROSS_FROM) / (1.0 - TURN_ACROSS_FROM))
+        return math.cos(turned) * self._back + math.sin(turned) * self._across
 
     def _flat(self, share: float) -> list[tuple[float, float]]:
         """Return the joints in the plane of the chain, from the held one on, m.

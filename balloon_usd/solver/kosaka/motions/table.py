@@ -45,6 +45,7 @@ KOSAKA_MOTIONS: Motions = {
     moves.Thread: Wait,
     moves.WindRound: Wait,
     moves.Plait: Wait,
+    moves.Wrap: Wait,
     moves.Invert: Wait,
     moves.Loosen: Wait,
     moves.LetGo: LetGo,

@@ -31,7 +31,7 @@ class Aim(Motion):
         hands.touch(sculpture.bodies)
         # Struts would hold the pose against the hands, which hold all of it now.
         sculpture.struts.loosen(set(joints))
-        base, limb, far = _rings(move, sculpture)
+        base, limb, pointing = _rings(move, sculpture)
         for joint in joints:
             hands.lead(joint, middle)
         hands.grip(base, middle)
@@ -40,18 +40,20 @@ class Aim(Motion):
         self._base: Floats = middle[base].astype(np.float64)
         self._began: Floats = middle[self._limb] - self._base
         """Where the rings of the limb are, away from its joint, (N, 3), m."""
-        arm = middle[far].astype(np.float64) - self._base
+        arm = middle[pointing].mean(axis=0, dtype=np.float64) - self._base
         arm /= max(float(np.linalg.norm(arm)), 1e-9)
+        self._arm, self._spin = arm, move.spin
         self._axis, self._angle = turn_between(arm, np.array(move.toward))
 
     def advance(self, share: float) -> None:
         """Lead it on about its joint."""
-        turn = turn_about(self._axis, smooth(share) * self._angle)
+        gone = smooth(share)
+        turn = turn_about(self._axis, gone * self._angle) @ turn_about(self._arm, gone * self._spin)
         self._hands.goal[self._limb] = self._base + self._began @ turn.T
 
 
-def _rings(move: moves.Aim, sculpture: LatexSculpture) -> tuple[int, list[int], int]:
-    """Return the joint of the scene on which a limb hangs, its others, and the one that points."""
+def _rings(move: moves.Aim, sculpture: LatexSculpture) -> tuple[int, list[int], list[int]]:
+    """Return the joint of the scene on which a limb hangs, its others, and those whose middle points."""
     table, joints = sculpture.plan.table, sculpture.joints
     piece = sculpture.plan.recipe.piece.after(move.step)
     limb = piece.limb(move.bubble)
@@ -66,5 +68,8 @@ def _rings(move: moves.Aim, sculpture: LatexSculpture) -> tuple[int, list[int], 
     own = outer(move.bubble)
     places = sculpture.frame.middle
     at = places[joints[held[0]]]
-    far = max(own, key=lambda joint: float(np.linalg.norm(places[joint] - at)))
-    return joints[held[0]], sorted({joint for bubble in limb.bubbles for joint in outer(bubble)}), far
+    pointing = [max(own, key=lambda joint: float(np.linalg.norm(places[joint] - at)))]
+    if all(end.bubble != move.bubble for end in piece.joint(limb.joint)):
+        # It lies across, on the far side of a ring of others.
+        pointing = own
+    return joints[held[0]], sorted({joint for bubble in limb.bubbles for joint in outer(bubble)}), pointing

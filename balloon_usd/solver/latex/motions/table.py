@@ -27,6 +27,7 @@ from balloon_usd.solver.latex.motions.stretch_tip import StretchTip
 from balloon_usd.solver.latex.motions.thread import Thread
 from balloon_usd.solver.latex.motions.turn_fold import TurnFold
 from balloon_usd.solver.latex.motions.wind_round import WindRound
+from balloon_usd.solver.latex.motions.wrap import Wrap
 from balloon_usd.solver.motions.bring import Bring
 from balloon_usd.solver.motions.gather import Gather
 from balloon_usd.solver.motions.wait import Wait
@@ -41,6 +42,7 @@ LATEX_MOTIONS: Motions = {
     moves.Pinch: Pinch,
     moves.Spin: Spin,
     moves.Gather: Gather,
+    moves.Wrap: Wrap,
     moves.LeadIn: LatexLeadIn,
     moves.Bring: Bring,
     moves.SetNet: LatexSetNet,
