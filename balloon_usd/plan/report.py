@@ -127,7 +127,8 @@ def _graph_lines(plan: Plan) -> Iterator[str]:
     led_in = _led_in(plan)
     for event in plan.recipe.piece.history:
         if isinstance(event, Contact):
-            yield f"  step {event.step + 1} {event.text}, which hold it"
+            hold = "holds" if len(event.others) == 1 else "hold"
+            yield f"  step {event.step + 1} {event.text}, which {hold} it"
         if isinstance(event, Popped):
             yield f"  step {event.step + 1} pops {event.bubble}"
         if isinstance(event, Joined):
