@@ -262,10 +262,7 @@ class Score:
         corners = tuple(joints)
         cheeks: tuple[tuple[int, int], ...] = ()
         if fold is not None:
-            inside = layout.guides(fold)
-            quarter = len(inside) // 4
-            corners = (first, inside[len(inside) // 2], last)
-            cheeks = ((inside[quarter], 0), (inside[-1 - quarter], 1))
+            corners, cheeks = folded(layout, fold, first, last)
         elif len(joints) == 2:
             corners = (first, *layout.guides(layout.ring(last).bubble), last)
         elif len(joints) == 3:
@@ -343,3 +340,15 @@ class Score:
                 start = begin + scale * (move.start - begin)
                 self.moves[k] = replace(move, start=start, seconds=scale * move.seconds)
             self.now = begin + seconds
+
+
+def folded(
+    layout: Layout, bubble: str, first: int, last: int
+) -> tuple[tuple[int, int, int], tuple[tuple[int, int], ...]]:
+    """Return the corners of a chain of the two halves of a bubble between two rings, and its cheeks: none
+    where hands hold it at its middle alone.
+    """
+    inside = layout.guides(bubble)
+    quarter = len(inside) // 4
+    cheeks = ((inside[quarter], 0), (inside[-1 - quarter], 1)) if len(inside) > 1 else ()
+    return (first, inside[len(inside) // 2], last), cheeks

@@ -12,7 +12,7 @@ from balloon_usd.operations.caution import Caution
 from balloon_usd.operations.closing import too_round
 from balloon_usd.operations.modifiers import Entries, OnBalloon, Pointed, Timed, Turned
 from balloon_usd.operations.operation import Operation
-from balloon_usd.operations.score import GATHER_LEAST, HAND_SPEED, SETTLE_SECONDS
+from balloon_usd.operations.score import GATHER_LEAST, HAND_SPEED, SETTLE_SECONDS, folded
 from balloon_usd.operations.workpiece import ContactKind
 
 if TYPE_CHECKING:
@@ -167,15 +167,14 @@ steps:
         text = f"{self.word}: {self.wrap.bubble}"
         score.refuse_haste(index, self.seconds, calm + SETTLE_SECONDS, f"wrap {self.wrap.bubble} round")
         point = self.point or "up"
-        inside = layout.guides(self.wrap.bubble)
-        quarter = len(inside) // 4
+        corners, cheeks = folded(layout, self.wrap.bubble, start, end)
         move = moves.Wrap(
             score.now,
             calm / score.pace.leading,
             index,
             text,
-            corners=(start, inside[len(inside) // 2], end),
-            cheeks=((inside[quarter], 0), (inside[-1 - quarter], 1)) if quarter else (),
+            corners=corners,
+            cheeks=cheeks,
             point=score.towards(point),
             across=score.sided(moves.ACROSS[point]),
             bubble=behind,
