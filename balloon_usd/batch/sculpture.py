@@ -124,7 +124,8 @@ class Sculpture:
         """Say at the end what has not held that must; nothing where all has."""
         told = []
         if unkept := list(self._quality.unkept()):
-            told.append(f"{all_of(unkept)}, and must hold: wind locks with more turns, or change must_hold")
+            remedy = "lock twists, wind locks with more turns, or change must_hold"
+            told.append(f"{all_of(unkept)}, and must hold: {remedy}")
         stuck, slipped = self._quality.stuck_and_slipped()
         if stuck:
             what = f"{all_of(stuck)} did not come into {'its ring' if len(stuck) == 1 else 'their rings'}"

@@ -45,6 +45,7 @@ steps:
   - bend: {neck: 90}
     point: up
   - rest: body
+must_hold: planned
 """
     sources: ClassVar[tuple[str, ...]] = (
         "Kosaka 2008, fig. 2.2: the bend",

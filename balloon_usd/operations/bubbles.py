@@ -25,6 +25,7 @@ balloons:
 steps:
   - bubbles: {head: 6, first: 4, second: 4, third: 4}
   - rest: tail
+must_hold: planned
 """
     sources: ClassVar[tuple[str, ...]] = (
         "Kosaka 2008, fig. 2.2: the bubble twist",

@@ -43,6 +43,7 @@ steps:
     burp: 30 %
   - squeeze: {bubble: soft, by: 40 %}
     point: down
+must_hold: planned
 """
     sources: ClassVar[tuple[str, ...]] = (
         "Kosaka 2008, 4.2.2: a force from above; here from both sides",

@@ -28,6 +28,7 @@ steps:
   - bubbles: {head: 7, neck: 5}
   - wait: 1.5
   - rest: body
+must_hold: planned
 """
     sources: ClassVar[tuple[str, ...]] = (
         "howstuffworks.com: first and last bubbles are held until a lock closes",

@@ -20,6 +20,7 @@ from balloon_usd.plan.long_sides import long_sides
 from balloon_usd.plan.open_tube import MILLIMETRE, roomy_share, shortened, softened, tail_range
 from balloon_usd.plan.room import room_cautions
 from balloon_usd.plan.wall_load import wall_loads
+from balloon_usd.recipe.held_words import EVERY, MUST_HOLD, PLANNED
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -72,7 +73,7 @@ def _of_latex(
     yield from _short_bubbles(strips)
     yield from chain.from_iterable(_burst(recipe, strips[name], it, graph) for name, it in budgets.items())
     yield from _softening(recipe)
-    yield from _unwinding(strips, graph)
+    yield from _unwinding(recipe, strips, graph)
 
 
 def _turns(recipe: Recipe) -> Iterator[Caution]:
@@ -203,7 +204,10 @@ def _softening(recipe: Recipe) -> Iterator[Caution]:
         )
 
 
-def _unwinding(strips: Mapping[str, Strip], graph: SculptureGraph) -> Iterator[Caution]:
+def _unwinding(recipe: Recipe, strips: Mapping[str, Strip], graph: SculptureGraph) -> Iterator[Caution]:
+    remedy = "lock it to another joint, or make one of its neighbours an ear"
+    if recipe.must_hold == EVERY:
+        remedy += f"; a run fails where it comes undone, but with {MUST_HOLD}: {PLANNED}"
     steps = {bubble.name: bubble.step for strip in strips.values() for bubble in strip.bubbles}
     for joint in graph.joints:
         if graph.springs_back(joint.index):
@@ -211,7 +215,7 @@ def _unwinding(strips: Mapping[str, Strip], graph: SculptureGraph) -> Iterator[C
                 steps[joint.ends[0].bubble],
                 f"the twist between {_neighbours(joint)} will unwind",
                 "nothing holds it: both bubbles are free to spin, and no ring closes over it",
-                "lock it to another joint, or make one of its neighbours an ear",
+                remedy,
             )
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from balloon_usd.quality.ring_corners import RingCorners
+from balloon_usd.recipe.held_words import EVERY, PLANNED
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -78,12 +79,10 @@ def lost_joints(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame) -> tupl
 
 
 def unkept_joints(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame) -> list[tuple[str, list[str]]]:
-    """Return the joints that must hold by the recipe and do not in a frame, by a name and by all their ends;
-    if the recipe says nothing, those that are meant to.
-    """
+    """Return the joints that must hold by the recipe and do not in a frame, by a name and all their ends."""
     wanted = plan.recipe.must_hold
     undone = {told for told in frame.undone if SLIPPED not in told}
-    if wanted is None:
+    if wanted == PLANNED:
         asked = [(joint.name, joint) for joint in joints_of(plan) if joint.holds]
     else:
         undone |= {name for told in frame.undone for name in told.split(SLIPPED)}
@@ -99,7 +98,7 @@ def unkept_joints(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame) -> li
 def _named(joint: PlannedJoint, wanted: str | tuple[Joint, ...]) -> str | None:
     """Return how a joint that is wanted is called: as a recipe does; None for others."""
     if isinstance(wanted, str):
-        return joint.name if wanted == "all" and len(joint.ends) > 1 else None
+        return joint.name if wanted == EVERY and len(joint.ends) > 1 else None
     return next((str(end) for end in wanted if end in joint.ends), None)
 
 

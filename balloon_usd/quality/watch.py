@@ -20,6 +20,7 @@ from balloon_usd.quality.symmetry import symmetry_of
 from balloon_usd.quality.twists import TwistTails
 from balloon_usd.quality.walls import walls_of
 from balloon_usd.quality.wound import WoundSpirals
+from balloon_usd.recipe.held_words import EVERY, PLANNED
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
@@ -107,7 +108,7 @@ class QualityWatch:
     @property
     def _contacts_must_hold(self) -> bool:
         # Where a recipe names joints, only these must hold.
-        return self._end is not None and self._plan.recipe.must_hold in (None, "all")
+        return self._end is not None and self._plan.recipe.must_hold in (EVERY, PLANNED)
 
     def data(self) -> dict[str, Any] | None:
         """Return the quality as plain data, by the keys of `MEASURES`; None before the last frame."""

@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from balloon_usd.operations.workpiece import Workpiece
 
 MUST_HOLD = "must_hold"
+EVERY, PLANNED = "all", "planned"
+"""All joints must hold; those of which the plan expects it."""
 
 
 def held_complaints(data: object, piece: Workpiece) -> Iterator[Complaint]:

@@ -39,7 +39,7 @@ from .translation import validation_complaints
 from .upgrades import upgraded
 from .writer import recipe_entries, recipe_text
 
-ALL, SOME = "all or none of them", "a list of joints"
+ALL, SOME = "all, planned or none of them", "a list of joints"
 """Tags of the forms of `must_hold`, which never occur as keys of a recipe."""
 
 
@@ -50,7 +50,7 @@ def _held(value: object) -> str | None:
 
 
 Held = Annotated[
-    Annotated[Literal["all", "none"], Tag(ALL)]
+    Annotated[Literal["all", "planned", "none"], Tag(ALL)]
     | Annotated[Annotated[tuple[JointEntry, ...], Field(min_length=1)], Tag(SOME)],
     Discriminator(_held),
 ]
@@ -113,9 +113,9 @@ class Recipe(Entries):
     """Which side of the figure, as it is made, is its top, or bubbles there: in the end it is turned up."""
     mirror: StrictBool = False
     """Whether the finished stage is the mirror image of what the recipe says, left and right exchanged."""
-    must_hold: Held | None = None
-    """Joints of which one that comes undone makes the run fail: all, none, or some such as [nose.end]; when
-    absent those that hold as planned."""
+    must_hold: Held = "all"
+    """Joints of which one that comes undone makes the run fail: all, planned for those that hold as planned,
+    none, or some such as [nose.end]."""
     physics: Physics = Physics()
     """How it is simulated."""
 

@@ -60,8 +60,8 @@ def _unfit_held(detail: ErrorDetails) -> Complaint | None:
     """Say what the joints that must hold can be; None of other errors."""
     if detail["loc"][:1] != (MUST_HOLD,) or detail["type"] not in ("union_tag_not_found", "literal_error"):
         return None
-    told = f"{quoted(detail['input'])} does not fit, expected all, none, or joints such as [nose.end]"
-    return Complaint((MUST_HOLD,), told)
+    expected = "all, planned, none, or joints such as [nose.end]"
+    return Complaint((MUST_HOLD,), f"{quoted(detail['input'])} does not fit, expected {expected}")
 
 
 def _complaint(detail: ErrorDetails, data: object, root: type[BaseModel]) -> Complaint:

@@ -252,18 +252,19 @@ def kept(figure, wanted, undone):
     return list(watch.unkept())
 
 
-def test_joints_that_must_hold_are_those_that_are_meant_to_where_a_recipe_names_none(figure):
-    assert kept(figure, "", ()) == []
-    assert kept(figure, "", ("left_ear.end",)) == ["left_ear.end came undone at 1.0 s"]
+def test_joints_that_must_hold_as_planned_are_those_that_are_meant_to(figure):
+    assert kept(figure, "planned", ()) == []
+    assert kept(figure, "planned", ("left_ear.end",)) == ["left_ear.end came undone at 1.0 s"]
     # The twist behind the neck is let go.
-    assert kept(figure, "", ("neck.end",)) == []
+    assert kept(figure, "planned", ("neck.end",)) == []
     # A lock that slips as planned is none of these.
-    assert kept(figure, "", ("nose.end = right_ear.end",)) == []
+    assert kept(figure, "planned", ("nose.end = right_ear.end",)) == []
 
 
 def test_a_recipe_says_which_joints_must_hold(figure):
     both = ("left_ear.end", "neck.end")
     assert kept(figure, "none", both) == []
+    assert kept(figure, "", both) == kept(figure, "all", both)
     assert kept(figure, "all", both) == ["left_ear.end came undone at 1.0 s", "neck.end came undone at 1.0 s"]
     assert kept(figure, "[tail.start]", both) == ["tail.start came undone at 1.0 s"]
     assert kept(figure, "[neck.start]", both) == []

@@ -23,6 +23,7 @@ steps:
     [
         ("all", "all"),
         ("none", "none"),
+        ("planned", "planned"),
         ("[nose.end, left_ear.end]", (Joint("nose", "end"), Joint("left_ear", "end"))),
     ],
 )
@@ -30,16 +31,16 @@ def test_all_none_or_some_joints_must_hold(written, meant):
     recipe = Recipe.parse(f"{HEAD}must_hold: {written}\n")
     assert recipe.must_hold == meant
     assert Recipe.parse(recipe.to_yaml()) == recipe
-    assert Recipe.parse(HEAD).must_hold is None
+    assert Recipe.parse(HEAD).must_hold == "all"
 
 
 @pytest.mark.parametrize(
     ("written", "told"),
     [
-        ("most", '"most" does not fit, expected all, none, or joints such as [nose.end]'),
-        ("nose.end", '"nose.end" does not fit, expected all, none, or joints such as [nose.end]'),
-        ("true", "True does not fit, expected all, none, or joints such as [nose.end]"),
-        ("{joints: [nose.end]}", "does not fit, expected all, none, or joints such as [nose.end]"),
+        ("most", '"most" does not fit, expected all, planned, none, or joints such as [nose.end]'),
+        ("nose.end", '"nose.end" does not fit, expected all, planned, none, or joints such as [nose.end]'),
+        ("true", "True does not fit, expected all, planned, none, or joints such as [nose.end]"),
+        ("{joints: [nose.end]}", "does not fit, expected all, planned, none, or joints such as [nose.end]"),
         ("[]", "must_hold: is empty, expected at least one entry"),
         ("[nose]", '"nose" is no joint, expected a bubble and its end'),
         ("[noes.end]", 'must_hold[0]: unknown bubble "noes", did you mean "nose"?'),
