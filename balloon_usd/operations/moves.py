@@ -367,6 +367,16 @@ class Hold(Move):
 
 
 @dataclass(frozen=True)
+class Level(Move):
+    """Bend the legs of the finished figure until all its feet stand on one plane."""
+
+    front: Facing = "forward"
+    """The side that will be turned to face -x."""
+    top: Facing | None = None
+    """The side that will be turned up; None for as little turned as needed."""
+
+
+@dataclass(frozen=True)
 class SetDown(Move):
     """Carry the finished figure as it is to where it stays."""
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from balloon_usd.operations.moves import LET_GO, OTHER_SIDE, TIPPED, Fall, Move, SetDown
+from balloon_usd.operations.moves import LET_GO, OTHER_SIDE, TIPPED, Fall, Hold, LetGo, Level, Move, SetDown
 from balloon_usd.recipe.recipe import EARTH
 
 if TYPE_CHECKING:
@@ -17,6 +17,10 @@ POSE_SECONDS = 2.0
 """Carrying the finished figure to where it stays, s."""
 POSED_SECONDS = 1.0
 """How long it is shown there, s."""
+LEVEL_SECONDS = 3.0
+"""Bending legs until all feet stand on one plane, s."""
+LEVELLED_SECONDS = 0.75
+"""How long a figure comes to rest then, s."""
 TURN_SECONDS = 4.0
 """The same if its front is turned: the ends of a figure a metre long stay below 1.5 m/s."""
 POSING: dict[str, tuple[str, str]] = {
@@ -53,6 +57,10 @@ def pose(recipe: Recipe, score: Score, *, mirrored: bool) -> None:
     front, top = _sides(recipe, mirrored=mirrored)
     turned = front != "forward" or top is not None
     carried = turned or recipe.pose != "as made"
+    if recipe.pose == "stand" and recipe.gravity > 0.0 and recipe.physics.traits.has_weight:
+        score.add(Level(score.now, LEVEL_SECONDS, last, "level its feet", front=front, top=top))
+        score.add(LetGo(score.now, 0.0, last, "let go"))
+        score.add(Hold(score.now, LEVELLED_SECONDS, last, "level its feet"))
     if carried:
         seconds = TURN_SECONDS if turned else POSE_SECONDS
         height = _height(recipe)

@@ -24,6 +24,10 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 
+TOUCHES = 5.0e-4
+"""Height above the lowest place up to which a bubble touches the ground, m."""
+
+
 class Standing:
     """Takes the frames of one sculpture; keeps the points of that before hands set it down, and the last."""
 
@@ -52,7 +56,14 @@ class Standing:
         middle = held.mean(axis=0)
         facing = turn_facing(self._carry.front, self._carry.top, middle, self._middle)
         up = rotation_onto(stands - stands.mean(axis=0), held - middle) @ facing[2]
-        return {"lean": MEASURES["lean"].result(float(np.degrees(np.arccos(np.clip(up[2], -1.0, 1.0)))))}
+        lean = float(np.degrees(np.arccos(np.clip(up[2], -1.0, 1.0))))
+        return {"lean": MEASURES["lean"].result(lean, {"feet": self._feet()})}
+
+    def _feet(self) -> list[str]:
+        """Return the bubbles that touch the ground in the last frame."""
+        stands = self._kept[self._last]
+        low = {name: float(stands[b][vertices, 2].min()) for name, (b, vertices) in self._bubbles.items()}
+        return [name for name, height in low.items() if height - min(low.values()) <= TOUCHES]
 
     def _middle(self, bubble: str) -> Floats:
         """Return the middle of a bubble before it is set down, (3,), m."""

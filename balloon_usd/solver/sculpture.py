@@ -169,8 +169,8 @@ class Sculpture:
         last = run.stop - (cap if index == len(self.plan.strips[name].bubbles) - 1 else 0)
         return self.body[name], np.arange(first, last)
 
-    def bubble_middle(self, bubble: str) -> NDArray[np.float64]:
-        """Return the middle of the wall of a bubble, (3,), m.
+    def bubble_walls(self, bubble: str) -> NDArray[np.float64]:
+        """Return where the vertices of a bubble are, (V, 3), m.
 
         Raises:
             KeyError: no bubble of this name.
@@ -179,7 +179,16 @@ class Sculpture:
         run, body = self._run(name, index), self.body[name]
         corners = self.scene.bodies[body].quads[run.start : run.stop]
         own = np.unique(corners) + int(self.scene.vertex_start[body])
-        middle: NDArray[np.float64] = self.hands.places[own].mean(axis=0, dtype=np.float64)
+        walls: NDArray[np.float64] = self.hands.places[own].astype(np.float64)
+        return walls
+
+    def bubble_middle(self, bubble: str) -> NDArray[np.float64]:
+        """Return the middle of the wall of a bubble, (3,), m.
+
+        Raises:
+            KeyError: no bubble of this name.
+        """
+        middle: NDArray[np.float64] = self.bubble_walls(bubble).mean(axis=0)
         return middle
 
     def _place(self, bubble: str) -> tuple[str, int]:

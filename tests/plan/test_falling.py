@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from balloon_usd.operations.moves import Fall, SetDown
+from balloon_usd.operations.moves import Fall, Level, SetDown
 from balloon_usd.plan import plan
 from balloon_usd.plan.posing import LANDING_SECONDS, POSED_SECONDS, SLOW_FALL
 from balloon_usd.recipe import Recipe
@@ -19,8 +19,12 @@ steps:
 """
 
 
+def moves_of(end):
+    return plan(Recipe.parse(PAIR + end)).choreography.moves
+
+
 def last_moves(end):
-    return plan(Recipe.parse(PAIR + end)).choreography.moves[-2:]
+    return moves_of(end)[-2:]
 
 
 @pytest.mark.parametrize("end", ["", "pose: hold", "pose: hang", "pose: stand\nphysics: {gravity: 0}"])
@@ -60,6 +64,13 @@ def test_a_figure_stands_by_its_weight():
     _, fall = last_moves("pose: stand")
     assert isinstance(fall, Fall)
     assert (fall.seconds, fall.text) == (POSED_SECONDS, "stand")
+
+
+def test_the_feet_of_a_figure_are_levelled_before_it_is_set_down_to_stand():
+    names = [type(move).__name__ for move in moves_of("pose: stand")]
+    assert names[-6:] == ["Hold", "Level", "LetGo", "Hold", "SetDown", "Fall"]
+    for pose in ("hang", "hold", "drop", "stand\nphysics: {gravity: 0}"):
+        assert not any(isinstance(move, Level) for move in moves_of(f"pose: {pose}"))
 
 
 def test_a_figure_that_stays_where_it_was_made_has_no_ground_to_fall_on():

@@ -485,3 +485,4 @@ def test_a_figure_that_stands_tells_how_far_it_leans(degrees, told):
     assert found["lean"]["value"] == pytest.approx(degrees, abs=0.1)
     assert found["lean"]["verdict"] == ("good" if degrees < 15.0 else "off")
     assert told in quality_line(found)
+    assert found["lean"]["feet"]

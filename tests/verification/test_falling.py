@@ -76,7 +76,7 @@ def test_a_dog_stands_for_five_seconds_on_the_ground_that_carries_its_weight(ver
     legs = [k for k, bubble in enumerate(simulation.plans[0].bubbles) if bubble.name.endswith("leg")]
     mesh = simulation.meshes[0][0]
     feet = [after[mesh.quads[mesh.quad_bubble == k].ravel(), 2].min() for k in legs]
-    # Three carry a rigid figure; the fourth is as near to the ground as legs are equal.
+    # Three carry a rigid figure; the fourth is as near to the ground as hands have levelled them.
     assert len(feet) == 4
     assert sorted(feet)[2] < 0.0
-    assert max(feet) < 5e-3
+    verify("V37", "height of its fourth foot, m", max(feet), 0.0, 2e-4)

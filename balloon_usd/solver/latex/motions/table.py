@@ -14,6 +14,7 @@ from balloon_usd.solver.latex.motions.inflate import Inflate
 from balloon_usd.solver.latex.motions.invert import Invert
 from balloon_usd.solver.latex.motions.lead_in import LatexLeadIn
 from balloon_usd.solver.latex.motions.let_go import LatexLetGo
+from balloon_usd.solver.latex.motions.level import Level
 from balloon_usd.solver.latex.motions.loosen import Loosen
 from balloon_usd.solver.latex.motions.pass_through import PassThrough
 from balloon_usd.solver.latex.motions.pinch import Pinch
@@ -59,6 +60,7 @@ LATEX_MOTIONS: Motions = {
     moves.Invert: Invert,
     moves.Weld: Weld,
     moves.TurnFold: TurnFold,
+    moves.Level: Level,
     moves.SetDown: LatexSetDown,
     moves.Fall: Fall,
     moves.Loosen: Loosen,
