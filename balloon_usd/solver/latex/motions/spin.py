@@ -32,8 +32,6 @@ class Spin(Motion):
         """What lies beyond on the ring's balloon, whose axis is the axis of the turn."""
         self._turning = VertexSet.of(np.concatenate([own, beyond_on_others(sculpture, move.ring)]))
         steady(sculpture, move.ring)
-        # The caps of both bubbles lie against each other from now on.
-        sculpture.hands.touch([sculpture.body[sculpture.plan.table.rings[move.ring].balloon]])
 
     def advance(self, share: float) -> None:
         """Turn as far as the time of the move that is over then asks, with ease in and out."""
