@@ -108,6 +108,8 @@ class FallingFigure:
     def settle(self) -> None:
         """Let it go gently, with hands that take its swing, until it rests."""
         for _ in range(MOST_SETTLING):
+            # What tips past its feet begins slowly, and slower still in hands that take its swing.
+            self._calm = 0.0
             self.advance(SETTLING)
             if self.sleeps:
                 break

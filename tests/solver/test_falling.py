@@ -163,3 +163,16 @@ def test_what_lies_on_many_vertices_is_steady():
         assert np.linalg.norm(fall.velocity) < 0.6
     assert fall.sleeps
     assert fall.push == pytest.approx(fall.weight, rel=1e-3)
+
+
+def test_hands_let_a_figure_tip_that_hardly_begins_to_until_it_lies():
+    # On an edge, its centre a hair beyond it.
+    angle = np.arctan2(SIZE[0], SIZE[2]) - np.radians(0.02)
+    turn = np.array(
+        [[np.cos(angle), 0.0, np.sin(angle)], [0.0, 1.0, 0.0], [-np.sin(angle), 0.0, np.cos(angle)]]
+    )
+    figure = box(turn=turn)
+    fall = FallingFigure(figure, GRAVITY, 0.5, ground=True)
+    fall.settle()
+    assert fall.sleeps
+    assert fall.centre[2] == pytest.approx(0.5 * SIZE[2], abs=1e-3)
