@@ -30,6 +30,7 @@ balloons:
 steps:
   - bubbles: {head: 5}
   - rest: stem
+must_hold: planned
 physics: {hold: 0.5}
 """
 
