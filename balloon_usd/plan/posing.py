@@ -57,7 +57,8 @@ def pose(recipe: Recipe, score: Score, *, mirrored: bool) -> None:
     front, top = _sides(recipe, mirrored=mirrored)
     turned = front != "forward" or top is not None
     carried = turned or recipe.pose != "as made"
-    if recipe.pose == "stand" and recipe.gravity > 0.0 and recipe.physics.traits.has_weight:
+    weighs = recipe.gravity > 0.0 and recipe.physics.traits.has_weight
+    if recipe.pose == "stand" and weighs:
         score.add(Level(score.now, LEVEL_SECONDS, last, "level its feet", front=front, top=top))
         score.add(LetGo(score.now, 0.0, last, "let go"))
         score.add(Hold(score.now, LEVELLED_SECONDS, last, "level its feet"))
@@ -78,7 +79,7 @@ def pose(recipe: Recipe, score: Score, *, mirrored: bool) -> None:
                 gravity=recipe.gravity,
             )
         )
-    if recipe.gravity > 0.0 and recipe.physics.traits.has_weight and recipe.pose in FALLING:
+    if weighs and recipe.pose in FALLING:
         if (seconds := _fall_seconds(recipe)) > 0.0:
             score.add(_fall(recipe, score.now, seconds))
     elif carried:

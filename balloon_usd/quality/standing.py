@@ -9,6 +9,7 @@ import numpy as np
 from balloon_usd.operations.moves import SetDown
 from balloon_usd.quality.bubbles import vertices_of_bubbles
 from balloon_usd.quality.measures import MEASURES
+from balloon_usd.solver.levelling import TOUCHES, feet_of
 from balloon_usd.solver.placement import turn_facing
 from balloon_usd.solver.rotations import rotation_onto
 
@@ -22,10 +23,6 @@ if TYPE_CHECKING:
     from balloon_usd.solver.frame import Frame
 
     Floats = NDArray[np.float64]
-
-
-TOUCHES = 5.0e-4
-"""Height above the lowest place up to which a bubble touches the ground, m."""
 
 
 class Standing:
@@ -62,8 +59,8 @@ class Standing:
     def _feet(self) -> list[str]:
         """Return the bubbles that touch the ground in the last frame."""
         stands = self._kept[self._last]
-        low = {name: float(stands[b][vertices, 2].min()) for name, (b, vertices) in self._bubbles.items()}
-        return [name for name, height in low.items() if height - min(low.values()) <= TOUCHES]
+        walls = {name: stands[balloon][vertices] for name, (balloon, vertices) in self._bubbles.items()}
+        return list(feet_of(walls, (), TOUCHES, TOUCHES))
 
     def _middle(self, bubble: str) -> Floats:
         """Return the middle of a bubble before it is set down, (3,), m."""

@@ -17,6 +17,8 @@ Floats = NDArray[np.float64]
 
 MOST = 0.25
 """Farthest that a leg is bent, rad: beyond it the figure is another one."""
+TOUCHES = 5.0e-4
+"""Height above the lowest place up to which a bubble touches the ground, m."""
 LOOKS = 4
 """How often the plane through the feet is sought: which vertex of a foot is lowest depends on it."""
 
@@ -59,10 +61,9 @@ class Feet(NamedTuple):
             turned = [points @ turn.T for points in walls]
             place = np.array([points[int(np.argmin(points[:, 2]))] for points in turned])
             fit = _plane(place)
-            _, a, b = np.linalg.pinv(fit) @ place[:, 2]
-            height = place[:, 2] - fit @ np.linalg.pinv(fit) @ place[:, 2]
-            normal = np.array([-a, -b, 1.0])
-            found = cls(turn, place, height)
+            plane = np.linalg.pinv(fit) @ place[:, 2]
+            found = cls(turn, place, place[:, 2] - fit @ plane)
+            normal = np.array([-plane[1], -plane[2], 1.0])
             turn = turn_about(*turn_between(normal / np.linalg.norm(normal), UP)) @ turn
         return found
 

@@ -39,8 +39,7 @@ class SetDown(Motion):
 
         `points`: its vertices, (V, 3), m.
         """
-        facing = turn_facing(move.front, move.top, points.mean(axis=0), self._sculpture.bubble_middle)
-        arms = (points - self._centre) @ facing.T
+        facing, arms = faced(move, self._sculpture, points)
         thread = _thread(arms, facing, self._centre, self._sculpture)
         down = DOWN
         if move.pose == "stand":
@@ -60,6 +59,16 @@ class SetDown(Motion):
         turn = turn_about(self._axis, progress * self._angle)
         shift = self._centre + progress * self._way - turn @ self._centre
         self._sculpture.placement = Placement.by(turn, shift)
+
+
+def faced(move: moves.SetDown | moves.Level, sculpture: Sculpture, points: Floats) -> tuple[Floats, Floats]:
+    """Return the turn (3, 3) that brings a figure's front and top where they go, and its vertices so turned,
+    from the centre of its mass, (V, 3), m.
+
+    `points`: these vertices as they are, (V, 3), m.
+    """
+    facing = turn_facing(move.front, move.top, points.mean(axis=0), sculpture.bubble_middle)
+    return facing, (points - sculpture.centre(points)) @ facing.T
 
 
 def _thread(arms: Floats, facing: Floats, centre: Floats, sculpture: Sculpture) -> Floats:
