@@ -367,6 +367,18 @@ class Hold(Move):
 
 
 @dataclass(frozen=True)
+class Straighten(Move):
+    """Set the finished figure straight: twins come to be mirror images of each other, and what lies between
+    them its own.
+    """
+
+    twins: tuple[tuple[str, str], ...] = ()
+    """One on its left and one on its right each."""
+    between: tuple[str, ...] = ()
+    """Other bubbles, which are set straight if they nearly are."""
+
+
+@dataclass(frozen=True)
 class Level(Move):
     """Bend the legs of the finished figure until all its feet stand on one plane."""
 
@@ -419,3 +431,9 @@ class Choreography:
     def let_go(self) -> float:
         """When the hands let go for good, s: at once, and as the last of what they make."""
         return next(move.start for move in self.moves if isinstance(move, LetGo) and move.for_good)
+
+    @property
+    def taken_up(self) -> float:
+        """When hands take up again what they have let go of, or let it fall, s; the end if they do not."""
+        after = (move.start for move in self.moves if isinstance(move, (Straighten, Level, SetDown, Fall)))
+        return next(after, self.seconds)

@@ -22,6 +22,7 @@ from balloon_usd.plan.laid_out import LaidOut
 from balloon_usd.plan.nets import nets_of
 from balloon_usd.plan.posing import pose
 from balloon_usd.plan.setting_nets import set_nets
+from balloon_usd.plan.straightening import straighten
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -77,6 +78,7 @@ def choreograph(recipe: Recipe, strips: Mapping[str, Strip], table: RingTable) -
         score.add(Loosen(score.now, seconds, len(recipe.steps), "loosen the grip"))
     score.add(LetGo(score.now, 0.0, len(recipe.steps), "let go", for_good=True))
     score.add(Hold(score.now, recipe.physics.hold, len(recipe.steps), "hold"))
+    straighten(recipe, strips, score)
     pose(recipe, score, mirrored=mirrored)
     return Choreography(tuple(score.moves), score.now, mirrored)
 

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from balloon_usd.operations.moves import Level
 from balloon_usd.plan.holding import friction_margin
 from balloon_usd.quality.bubbles import vertices_of_bubbles
 from balloon_usd.quality.joints import joints_of, made_joints, together
@@ -46,9 +45,8 @@ class JointHistory:
         ]
         # The time of a frame is (code - 1) / fps.
         self._let_go = min(1 + round(plan.choreography.let_go * self._fps), plan.frame_count)
-        levels = (move.start for move in plan.choreography.moves if isinstance(move, Level))
-        self._last = min(1 + round(next(levels, plan.choreography.seconds) * self._fps), plan.frame_count)
-        """The frame before hands bend legs: that is no slip."""
+        self._last = min(1 + round(plan.choreography.taken_up * self._fps), plan.frame_count)
+        """The frame before hands take the figure up again: what they bend does not slip."""
         self._every = max(round(BETWEEN_LOOKS * self._fps), 1)
 
     def add(self, frame: Frame) -> None:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from balloon_usd.operations.moves import Fall, Level, SetDown
+from balloon_usd.operations.moves import Fall
 from balloon_usd.quality.measures import MEASURES
 from balloon_usd.solver.status import COMES_UNDONE
 
@@ -28,13 +28,12 @@ class Rest:
     def __init__(self, plan: Plan) -> None:
         """Find out when to look."""
         fps, last = plan.recipe.fps, plan.frame_count
-        carried = [m.start for m in plan.choreography.moves if isinstance(m, (Level, SetDown, Fall))]
         self._falls_on = any(isinstance(m, Fall) and not m.ground for m in plan.choreography.moves)
         """Whether the figure still falls in the end, with no ground to land on."""
         # The time of a frame is (code - 1) / fps.
         self._let_go = min(1 + round(plan.choreography.let_go * fps), last)
-        self._rested = min(1 + round(carried[0] * fps), last) if carried else last
-        """The frame before hands level its feet and carry the figure to its pose: that is no creep."""
+        self._rested = min(1 + round(plan.choreography.taken_up * fps), last)
+        """The frame before hands take the figure up again: what they move does not creep."""
         self._half = (self._let_go + self._rested) // 2
         self._late = max(last - max(round(LATE * fps), 1), 1)
         self._fps = fps

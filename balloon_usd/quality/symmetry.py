@@ -1,4 +1,4 @@
-"""Symmetric parts: bubbles `left_...` and `right_...` of equal recipes, which ought to be mirror images."""
+"""Symmetric parts: twins, which ought to be mirror images of each other."""
 
 from __future__ import annotations
 
@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from balloon_usd.operations.moves import OTHER_SIDE
+from balloon_usd.plan.twins import LEFT, twins_of
 from balloon_usd.quality.measures import MEASURES
+from balloon_usd.solver.mirroring import Mirror
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -20,9 +21,6 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-LEFT, RIGHT = "left_", "right_"
-SAME_LENGTH = 1e-6
-"""Largest difference of planned lengths of twins, m."""
 PLACES = 9
 """Places along each bubble that are mirrored."""
 
@@ -42,7 +40,7 @@ def symmetry_of(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame) -> dict
     """Return how far all pairs of a frame are from equal and mirrored, as results by the keys of measures."""
     pairs = {
         left.name.removeprefix(LEFT): (_twin(plan, meshes, frame, left), _twin(plan, meshes, frame, right))
-        for left, right in pairs_of(plan)
+        for left, right in twins_of(plan.recipe, plan.strips)
     }
     found = {
         "symmetric_volume": {name: _share(a.volume, b.volume) for name, (a, b) in pairs.items()},
@@ -50,39 +48,6 @@ def symmetry_of(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame) -> dict
         "symmetric_place": mirrored({name: (a.middle, b.middle) for name, (a, b) in pairs.items()}),
     }
     return {key: MEASURES[key].largest(each) for key, each in found.items()}
-
-
-def pairs_of(plan: Plan) -> list[tuple[PlannedBubble, PlannedBubble]]:
-    """Return the pairs of bubbles of which a recipe says the same, the left one first."""
-    by_name = {bubble.name: bubble for bubble in plan.bubbles if plan.strips[bubble.balloon].shape is None}
-    twins = [
-        (bubble, by_name.get(RIGHT + name.removeprefix(LEFT)))
-        for name, bubble in by_name.items()
-        if name.startswith(LEFT)
-    ]
-    return [(left, right) for left, right in twins if right is not None and _said_equal(plan, left, right)]
-
-
-def _said_equal(plan: Plan, left: PlannedBubble, right: PlannedBubble) -> bool:
-    a, b = plan.strips[left.balloon], plan.strips[right.balloon]
-    rests = {a.bubbles[-1].name, b.bubbles[-1].name}
-    return (
-        left.kind == right.kind
-        and abs(left.length - right.length) < SAME_LENGTH
-        and (a.size, a.rubber) == (b.size, b.rubber)
-        and rests.isdisjoint({left.name, right.name})
-        and _point(plan, right) == _mirrored_point(_point(plan, left))
-    )
-
-
-def _point(plan: Plan, bubble: PlannedBubble) -> str:
-    """Return where the step that makes a bubble points; "" if it does not say so."""
-    return getattr(plan.recipe.steps[bubble.step], "point", None) or ""
-
-
-def _mirrored_point(point: str) -> str:
-    """Return where the right one of a pair points if the left one points there."""
-    return OTHER_SIDE.get(point, point)
 
 
 def mirrored(pairs: Mapping[str, tuple[Floats, Floats]]) -> dict[str, float]:
@@ -96,43 +61,8 @@ def mirrored(pairs: Mapping[str, tuple[Floats, Floats]]) -> dict[str, float]:
     """
     if not pairs:
         return {}
-    middles = [(a.mean(axis=0)[None], b.mean(axis=0)[None]) for a, b in pairs.values()]
-    mirror = _mirror(middles)
-    turned = {name: (a, _turned(a, b, mirror)) for name, (a, b) in pairs.items()}
-    mirror = _mirror(list(turned.values()))
-    return {name: float(_misses(a, b, mirror).max()) for name, (a, b) in turned.items()}
-
-
-def _turned(p: Floats, q: Floats, mirror: _Mirror) -> Floats:
-    """Return the places of a bubble in that order in which they are nearer to the image of its twin."""
-    other = q[::-1]
-    return other if _misses(p, other, mirror).sum() < _misses(p, q, mirror).sum() else q
-
-
-class _Mirror(NamedTuple):
-    """A plane."""
-
-    through: Floats
-    """A place in it, (3,) m."""
-    normal: Floats
-    """Its unit normal, (3,)."""
-
-
-def _mirror(pairs: Sequence[tuple[Floats, Floats]]) -> _Mirror:
-    """Return the plane in which places, (N, 3) m, come nearest to being mirror images of each other.
-
-    For a plane through m with normal n the sum of squared distances is a constant and 4 sum(n.(p-m) n.(q-m)).
-    """
-    p, q = (np.concatenate([pair[side] for pair in pairs]) for side in (0, 1))
-    through = 0.5 * (p + q).mean(axis=0)
-    together = (p - through).T @ (q - through)
-    return _Mirror(through, np.linalg.eigh(together + together.T)[1][:, 0])
-
-
-def _misses(p: Floats, q: Floats, mirror: _Mirror) -> Floats:
-    """Return the distances (m) of the mirror images of some places, (N, 3) m, from others."""
-    image = p - 2.0 * ((p - mirror.through) @ mirror.normal)[:, None] * mirror.normal
-    return np.asarray(np.linalg.norm(image - q, axis=1))
+    mirror = Mirror.of_twins(pairs.values())
+    return {name: float(mirror.misses(a, mirror.ordered(a, b)).max()) for name, (a, b) in pairs.items()}
 
 
 def _twin(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame, bubble: PlannedBubble) -> _Twin:

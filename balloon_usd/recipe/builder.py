@@ -46,6 +46,7 @@ class RecipeBuilder:
         speed: float | None = None,
         front: str | Sequence[str] | None = None,
         top: str | Sequence[str] | None = None,
+        symmetric: bool = True,
         mirror: bool = False,
         must_hold: str | Sequence[str] | None = None,
     ) -> None:
@@ -57,7 +58,7 @@ class RecipeBuilder:
         self._steps: list[Entries] = []
         falling = {"height": None if height is None else self._length(height), "speed": speed}
         self._end = _given({"pose": pose, **falling, "front": _listed(front), "top": _listed(top)})
-        self._end |= _given({"mirror": mirror or None})
+        self._end |= _given({"symmetric": None if symmetric else False, "mirror": mirror or None})
         self._end |= _given({"must_hold": _listed(must_hold)})
         self._physics: Entries = {}
 

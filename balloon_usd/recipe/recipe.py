@@ -111,6 +111,9 @@ class Recipe(Entries):
     """Which side of the figure, as it is made, is its front, or bubbles there: in the end it faces -x."""
     top: FacingEntry | None = None
     """Which side of the figure, as it is made, is its top, or bubbles there: in the end it is turned up."""
+    symmetric: StrictBool = True
+    """Whether hands set the finished figure straight, so that bubbles left_... and right_... of which it says
+    the same are mirror images of each other."""
     mirror: StrictBool = False
     """Whether the finished stage is the mirror image of what the recipe says, left and right exchanged."""
     must_hold: Held = "all"

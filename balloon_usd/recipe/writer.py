@@ -25,7 +25,7 @@ Entries = dict[str, object]
 
 HEAD = ("name", "title", "source", "units", "fps", "tempo")
 """Keys between the format and the balloons, in this order."""
-END = ("pose", "height", "speed", "front", "top", "mirror", "must_hold")
+END = ("pose", "height", "speed", "front", "top", "symmetric", "mirror", "must_hold")
 """Keys behind the steps, in this order."""
 
 _PLAIN_WORD = re.compile(r"[A-Za-z_][A-Za-z0-9_.+ -]*", re.ASCII)

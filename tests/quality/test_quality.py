@@ -19,7 +19,7 @@ from balloon_usd.quality.joints import hang_together, joints_of
 from balloon_usd.quality.line import quality_line
 from balloon_usd.quality.measures import MEASURES
 from balloon_usd.quality.ranking import worst_first
-from balloon_usd.quality.symmetry import mirrored, pairs_of
+from balloon_usd.quality.symmetry import mirrored
 from balloon_usd.quality.watch import QualityWatch, counted_over_time
 from balloon_usd.recipe import Recipe
 from balloon_usd.solver.frame import Frame
@@ -115,7 +115,7 @@ def test_the_creep_is_the_way_since_the_hands_let_go_and_the_second_half_of_it_i
     plan = figure[0]
     let_go = next(m.start for m in plan.choreography.moves if isinstance(m, LetGo) and m.for_good)
     code = 1 + round(let_go * plan.recipe.fps)
-    half = (code + plan.frame_count) // 2
+    half = (code + 1 + round(plan.choreography.taken_up * plan.recipe.fps)) // 2
 
     def creeps(frame):
         far = (
@@ -355,29 +355,6 @@ def test_crossings_are_counted_twice_a_second_and_the_most_are_told_with_their_f
     assert crossings["most_at"] == 25
     assert list(watch.crossings.frames) == sorted(set(counted))
     assert watch.crossings.facts(plan.frame_count) == {"crossings": 0}
-
-
-def test_pairs_are_left_and_right_bubbles_of_equal_recipes(figure):
-    assert [(a.name, b.name) for a, b in pairs_of(figure[0])] == [("left_ear", "right_ear")]
-    other = Recipe.parse(EARS.replace("right_ear: 9", "right_ear: 8"), file="ears.yaml")
-    assert pairs_of(plan_of(other)) == []
-
-
-@pytest.mark.parametrize(
-    ("left", "right", "count"),
-    [("left", "right", 1), ("up", "up", 1), ("up", "down", 0), ("left", "left", 0)],
-)
-def test_what_points_elsewhere_than_its_mirror_image_is_no_pair(left, right, count):
-    steps = f"""\
-steps:
-  - bubbles: {{nose: 8}}
-  - loop: {{left_ring: 30}}
-    point: {left}
-  - loop: {{right_ring: 30}}
-    point: {right}
-"""
-    text = EARS[: EARS.index("steps:")].replace("length: 30, tail: 6", "tail: 12") + steps
-    assert len(pairs_of(plan_of(Recipe.parse(text, file="rings.yaml")))) == count
 
 
 def test_a_loop_of_two_ears_is_its_own_mirror_image_and_an_ear_that_is_turned_is_not(figure, still):

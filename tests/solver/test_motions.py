@@ -118,7 +118,7 @@ def test_every_move_of_a_plan_has_a_motion(motions):
     assert len(motions) > 9
 
 
-def test_hands_wait_while_nothing_moves_and_in_model_kosaka_where_nothing_is_blown_up_wound_popped_levelled_or_falls():
+def test_hands_wait_while_nothing_moves_and_in_model_kosaka_where_nothing_is_blown_up_wound_popped_bent_or_falls():
     assert [kind for kind, motion in LATEX_MOTIONS.items() if motion is Wait] == [moves.Move]
     waits = {kind for kind, motion in KOSAKA_MOTIONS.items() if motion is Wait}
     unmoved = {
@@ -138,6 +138,7 @@ def test_hands_wait_while_nothing_moves_and_in_model_kosaka_where_nothing_is_blo
         moves.Plait,
         moves.Wrap,
         moves.Invert,
+        moves.Straighten,
         moves.Level,
     }
     assert waits == {moves.Move, *unmoved}

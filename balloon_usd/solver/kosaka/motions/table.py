@@ -48,6 +48,7 @@ KOSAKA_MOTIONS: Motions = {
     moves.Wrap: Wait,
     moves.Invert: Wait,
     moves.Loosen: Wait,
+    moves.Straighten: Wait,
     moves.Level: Wait,
     moves.LetGo: LetGo,
     moves.Hold: Wait,

@@ -24,6 +24,7 @@ from balloon_usd.solver.latex.motions.press import LatexPress
 from balloon_usd.solver.latex.motions.set_down import LatexSetDown
 from balloon_usd.solver.latex.motions.set_net import LatexSetNet
 from balloon_usd.solver.latex.motions.spin import Spin
+from balloon_usd.solver.latex.motions.straighten import Straighten
 from balloon_usd.solver.latex.motions.stretch_tip import StretchTip
 from balloon_usd.solver.latex.motions.thread import Thread
 from balloon_usd.solver.latex.motions.turn_fold import TurnFold
@@ -60,6 +61,7 @@ LATEX_MOTIONS: Motions = {
     moves.Invert: Invert,
     moves.Weld: Weld,
     moves.TurnFold: TurnFold,
+    moves.Straighten: Straighten,
     moves.Level: Level,
     moves.SetDown: LatexSetDown,
     moves.Fall: Fall,

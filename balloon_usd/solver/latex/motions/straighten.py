@@ -1,0 +1,84 @@
+"""Setting a finished figure straight, so that its twins are mirror images of each other."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from balloon_usd.solver.latex.led_limb import TURNING, hold_figure
+from balloon_usd.solver.mirroring import ways_to_symmetry
+from balloon_usd.solver.motions.motion import Motion
+from balloon_usd.solver.motions.smooth import smooth
+
+if TYPE_CHECKING:
+    from balloon_usd.operations import moves
+    from balloon_usd.solver.latex.sculpture import LatexSculpture
+
+Floats = NDArray[np.float64]
+
+NEARLY = 0.04
+"""Distance from its own mirror image up to which what lies between twins is set straight, m."""
+ROUNDS = 2
+"""How often hands lead the figure and loosen their grip: of 67 mm by which a mouse was off its mirror image
+28 are left after the first, 12 after the second; of a dog's 22, 4 after the first.
+"""
+LED = 0.5
+"""Share of a round after which it is where it shall be, and hands loosen their grip."""
+DECAYS = 8.0
+"""How often the force of the hands decays by a factor of e in what is left of a round."""
+
+
+class Straighten(Motion):
+    """Hands that lead all of a figure to the middle between where it is and its mirror image."""
+
+    def __init__(self, move: moves.Straighten, sculpture: LatexSculpture) -> None:
+        """See what its twins are; what comes undone is left alone."""
+        self._sculpture, self._joints = sculpture, sculpture.all_joints
+        self._twins = [(_rings(sculpture, left), _rings(sculpture, right)) for left, right in move.twins]
+        self._between = [_rings(sculpture, name) for name in move.between]
+        self._leads = sculpture.unwinding is None and not sculpture.undone
+        self._round, self._loosens = -1, False
+
+    def advance(self, share: float) -> None:
+        """Lead it on, or loosen the grip."""
+        if not self._leads:
+            return
+        number, share = divmod(min(ROUNDS * share, ROUNDS - 1e-9), 1.0)
+        if number > self._round:
+            self._round, self._loosens = int(number), False
+            self._take_hold()
+        hands = self._sculpture.hands
+        hands.goal[self._joints] = self._began + smooth(min(share / LED, 1.0)) * self._ways
+        if share > LED:
+            if not self._loosens:
+                self._loosens = True
+                self._lay()
+            hands.force[self._joints] = TURNING * math.exp(-DECAYS * (share - LED) / (1.0 - LED))
+
+    def _take_hold(self) -> None:
+        """Take hold of the figure and see where it shall lie."""
+        sculpture = self._sculpture
+        hands = sculpture.hands
+        hands.let_go(self._joints)
+        self._began = sculpture.frame.middle[self._joints].astype(np.float64)
+        self._ways = ways_to_symmetry(self._began, self._twins, self._between, NEARLY)
+        hold_figure(sculpture)
+        hands.lead_firmly(self._joints, TURNING)
+
+    def _lay(self) -> None:
+        """Leave the pose to friction."""
+        sculpture = self._sculpture
+        sculpture.struts.hold(sculpture.friction.pairs(sculpture.hands))
+        # What leaks shrinks, and so does not stick.
+        if sculpture.plan.recipe.physics.leak is None:
+            sculpture.hands.lay(list(sculpture.bodies))
+
+
+def _rings(sculpture: LatexSculpture, bubble: str) -> NDArray[np.int64]:
+    """Return the rings of the plan of a bubble, from its start to its end."""
+    table = sculpture.plan.table
+    start, end = table.ends(bubble)
+    return np.array([start, *table.guides(bubble), *(() if end is None else (end,))], dtype=np.int64)
