@@ -31,10 +31,13 @@ class Crossing:
     """The deepest of them, m."""
 
 
-def deepest_crossing(meshes: Sequence[tuple[NDArray[np.float32], NDArray[np.int32]]]) -> Crossing:
+def deepest_crossing(
+    meshes: Sequence[tuple[NDArray[np.float32], NDArray[np.int32]]], asked: NDArray[np.bool_] | None = None
+) -> Crossing:
     """Return how deep any wall of a sculpture lies inside another wall, its own balloon's included.
 
-    `meshes`: (points (V, 3) m, quads (Q, 4)) of every balloon, closed surfaces. A vertex is inside another
+    `meshes`: (points (V, 3) m, quads (Q, 4)) of every balloon, closed surfaces; `asked`: which of all their
+    vertices are looked at, all of them when absent. A vertex is inside another
     wall when the point just above it has a winding number of 1 or more; its depth is the distance to the
     nearest wall that faces it.
     """
@@ -45,7 +48,8 @@ def deepest_crossing(meshes: Sequence[tuple[NDArray[np.float32], NDArray[np.int3
     for k in range(3):
         np.add.at(normal, triangles[:, k], area)
     normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-30)[:, None]
-    inside = np.flatnonzero(inside_walls(points + SKIN * normal, points, triangles))
+    within = inside_walls(points + SKIN * normal, points, triangles)
+    inside = np.flatnonzero(within if asked is None else within & asked)
     worst, place = 0.0, points[0]
     for i in inside:
         # Its own faces count: where a wall is creased, as in a neck, it lies on itself and crosses nothing.

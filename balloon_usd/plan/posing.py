@@ -17,7 +17,7 @@ POSE_SECONDS = 2.0
 """Carrying the finished figure to where it stays, s."""
 POSED_SECONDS = 1.0
 """How long it is shown there, s."""
-LEVEL_SECONDS = 3.0
+LEVEL_SECONDS = 4.5
 """Bending legs until all feet stand on one plane, s."""
 LEVELLED_SECONDS = 0.75
 """How long a figure comes to rest then, s."""

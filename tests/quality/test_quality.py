@@ -115,7 +115,7 @@ def test_the_creep_is_the_way_since_the_hands_let_go_and_the_second_half_of_it_i
     plan = figure[0]
     let_go = next(m.start for m in plan.choreography.moves if isinstance(m, LetGo) and m.for_good)
     code = 1 + round(let_go * plan.recipe.fps)
-    half = (code + 1 + round(plan.choreography.taken_up * plan.recipe.fps)) // 2
+    half = (code + 1 + int(plan.choreography.taken_up * plan.recipe.fps)) // 2
 
     def creeps(frame):
         far = (

@@ -28,7 +28,9 @@ class Made:
     plan: Plan
     simulation: Simulation
     joints: np.ndarray
-    """Middles of all planned rings in every frame after the hands let go, (frames, rings, 3), m."""
+    """Middles of all planned rings in every frame from the let-go until hands set the figure straight,
+    (frames, rings, 3), m.
+    """
     last: Frame
     summary: RunSummary
     quality: dict
@@ -55,7 +57,8 @@ def make(path: Path, folder: Path) -> Made:
     """Make a recipe, keep what its tests look at, and write its stage into a folder."""
     planned = plan(Recipe.load(path))
     simulation = simulate_many([planned], detail="draft", device="cpu")
-    let_go = round(planned.choreography.let_go * simulation.fps)
+    choreography = planned.choreography
+    let_go, taken_up = (int(t * simulation.fps) for t in (choreography.let_go, choreography.taken_up))
     summary, joints = RunSummary(planned, simulation.meshes[0]), []
     quality = QualityWatch(planned, simulation.meshes[0])
     frame = None
@@ -66,7 +69,7 @@ def make(path: Path, folder: Path) -> Made:
             summary.add(frame)
             quality.add(frame)
             writer.write(frame)
-            if frame.time_code > let_go:
+            if let_go < frame.time_code <= taken_up + 1:
                 joints.append(middles(simulation, frame))
         written = writer.finish()
     assert frame is not None

@@ -14,10 +14,14 @@ from tests.crossing import deepest_crossing
 EXAMPLES = Path(__file__).parents[2] / "docs/examples"
 DEEPEST = 1.0e-3
 """Deepest that a wall may lie inside another in the final frame, m."""
+ON_RING = 1.0e-3
+"""Unstressed distance from a joint up to which a vertex is on its ring, in R0: the next ring is far beyond."""
 POSE_KEPT = 0.05
 """Largest change of a distance between two joints in the 2 s after the hands let go, share of the sculpture's size."""
 SETTLED = 2.0e-3
 """Largest change of such a distance in the second of these seconds, m."""
+TWINS_OFF = 0.006
+"""Farthest that a leg or an ear of the dog may lie from the mirror image of the other, m."""
 NECKS_APART = 0.012
 """Farthest that two necks of one twist may lie from each other, m."""
 
@@ -26,10 +30,29 @@ def distances(joints):
     return np.linalg.norm(joints[:, None] - joints[None], axis=2)
 
 
-def test_no_wall_passes_through_another_in_the_final_frame(made):
+def on_necks(made):
+    """Whether each vertex of a sculpture is on the ring of a closed neck."""
+    found = []
+    for strip, mesh in zip(made.plan.strips.values(), made.simulation.meshes[0], strict=True):
+        necks = np.array([bubble.rest_end for bubble in strip.bubbles[:-1]])
+        found.append((np.abs(mesh.along[:, None] - necks) < ON_RING * strip.size.radius).any(axis=1))
+    return np.concatenate(found)
+
+
+def deepest(made, asked):
     meshes = [mesh.quads for mesh in made.simulation.meshes[0]]
-    crossing = deepest_crossing(list(zip(made.last.points, meshes, strict=True)))
+    return deepest_crossing(list(zip(made.last.points, meshes, strict=True)), asked)
+
+
+def test_no_wall_passes_through_another_in_the_final_frame(made):
+    crossing = deepest(made, ~on_necks(made))
     assert crossing.depth < DEEPEST, f"{crossing.depth * 1e3:.2f} mm at {crossing.place}"
+
+
+def test_caps_close_over_necks_no_deeper_than_these_are_wide(made):
+    crossing = deepest(made, on_necks(made))
+    widest = 2.0 * max(body.neck_radius for body in made.simulation.model.scene.bodies)
+    assert crossing.depth < widest, f"{crossing.depth * 1e3:.2f} mm at {crossing.place}"
 
 
 def test_the_pose_is_kept_for_two_seconds_after_the_hands_let_go(made):
@@ -62,6 +85,20 @@ def test_every_bubble_is_full_and_none_has_burst(made):
 def test_tails_are_as_planned_all_joints_hold_and_no_wall_lies_in_another(made):
     verdicts = {key: made.quality[key]["verdict"] for key in ("tail", "joints", "depth")}
     assert verdicts == {"tail": "good", "joints": "good", "depth": "good"}, made.quality
+
+
+def test_twins_are_mirror_images_of_each_other(made):
+    twins = made.quality["symmetric_place"]
+    assert twins["verdict"] == "good", twins
+
+
+def test_the_sides_of_the_dog_are_mirror_images_within_the_gap_between_its_necks(dog):
+    # The two necks of a lock lie side by side, in no mirror.
+    assert dog.quality["symmetric_place"]["value"] < TWINS_OFF
+
+
+def test_the_figure_is_calm_in_the_end(made):
+    assert made.quality["speed"]["verdict"] == "good", made.quality["speed"]
 
 
 def test_every_balloon_has_flat_tail_left(made):

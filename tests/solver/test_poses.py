@@ -25,6 +25,7 @@ steps:
     point: down
   - rest: back
 pose: POSE
+symmetric: false
 physics: {hold: 0.5}
 """
 

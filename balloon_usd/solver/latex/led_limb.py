@@ -8,6 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from balloon_usd.operations.workpiece import Limb, Workpiece
     from balloon_usd.solver.latex.sculpture import LatexSculpture
 
@@ -17,12 +19,12 @@ TURNING = 15.0
 """Largest force of a hand on a ring of the limb, N: half of that with which it pushes one through another."""
 
 
-def hold_figure(sculpture: LatexSculpture) -> None:
-    """Take hold of all rings of a figure where they are."""
+def hold_figure(sculpture: LatexSculpture, joints: Iterable[int] | None = None) -> None:
+    """Take hold of all rings of a figure, or of some joints of the scene, where they are."""
     sculpture.hands.touch(sculpture.bodies)
     # Struts would hold the pose against the hands, which hold all of it now.
     sculpture.struts.loosen(set(sculpture.joints))
-    for joint in sculpture.joints:
+    for joint in sculpture.joints if joints is None else joints:
         sculpture.hands.lead(joint, sculpture.frame.middle)
 
 

@@ -36,7 +36,11 @@ class Straighten(Motion):
 
     def __init__(self, move: moves.Straighten, sculpture: LatexSculpture) -> None:
         """See what its twins are; what comes undone is left alone."""
-        self._sculpture, self._joints = sculpture, sculpture.all_joints
+        self._sculpture, self._all = sculpture, sculpture.all_joints
+        rings = enumerate(sculpture.plan.table.rings)
+        self._led = np.array([k for k, ring in rings if not ring.flat], dtype=np.int64)
+        """Rings of the plan that hands lead: a flat tail that is led aside folds into itself."""
+        self._joints = self._all[self._led]
         self._twins = [(_rings(sculpture, left), _rings(sculpture, right)) for left, right in move.twins]
         self._between = [_rings(sculpture, name) for name in move.between]
         self._leads = sculpture.unwinding is None and not sculpture.undone
@@ -62,11 +66,12 @@ class Straighten(Motion):
         """Take hold of the figure and see where it shall lie."""
         sculpture = self._sculpture
         hands = sculpture.hands
+        places = sculpture.frame.middle[self._all].astype(np.float64)
         hands.let_go(self._joints)
-        self._began = sculpture.frame.middle[self._joints].astype(np.float64)
-        self._ways = ways_to_symmetry(self._began, self._twins, self._between, NEARLY)
-        hold_figure(sculpture)
+        hold_figure(sculpture, map(int, self._joints))
         hands.lead_firmly(self._joints, TURNING)
+        self._began = places[self._led]
+        self._ways = ways_to_symmetry(places, self._twins, self._between, NEARLY)[self._led]
 
     def _lay(self) -> None:
         """Leave the pose to friction."""
