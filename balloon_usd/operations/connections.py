@@ -11,7 +11,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator, Mapping
 
     from balloon_usd.language.joint import Joint
 
@@ -66,6 +66,12 @@ class Connections:
     def at(self, joint: Joint) -> frozenset[str]:
         """Return the bubbles with an end in a joint."""
         return frozenset(self._at[joint])
+
+    def hinges(self) -> Iterator[Joint]:
+        """Yield the joints at which a piece falls apart."""
+        for joint, bubbles in self._at.items():
+            if not self.at(joint) <= self.beyond(bubbles[0], joint):
+                yield joint
 
     @cached_property
     def bridges(self) -> frozenset[str]:

@@ -302,6 +302,11 @@ class Workpiece:
         """Return what hangs on one end of a bubble: all other bubbles that come along when it is moved."""
         return self._stiff.reached(self._joints.root(end), without=end.bubble)
 
+    @property
+    def has_limbs(self) -> bool:
+        """Whether anything hangs on one joint: of a closed net nothing does."""
+        return any(True for _ in self._stiff.hinges())
+
     def limb(self, bubble: str) -> Limb | None:
         """Return the smallest part of a figure that has a bubble and hangs on one joint; None where no joint
         parts it from the rest.

@@ -58,7 +58,7 @@ def pose(recipe: Recipe, score: Score, *, mirrored: bool) -> None:
     turned = front != "forward" or top is not None
     carried = turned or recipe.pose != "as made"
     weighs = recipe.gravity > 0.0 and recipe.physics.traits.has_weight
-    if recipe.pose == "stand" and weighs:
+    if recipe.pose == "stand" and weighs and recipe.piece.has_limbs:
         score.add(Level(score.now, LEVEL_SECONDS, last, "level its feet", front=front, top=top))
         score.add(LetGo(score.now, 0.0, last, "let go"))
         score.add(Hold(score.now, LEVELLED_SECONDS, last, "level its feet"))

@@ -73,6 +73,27 @@ def test_the_feet_of_a_figure_are_levelled_before_it_is_set_down_to_stand():
         assert not any(isinstance(move, Level) for move in moves_of(f"pose: {pose}"))
 
 
+RING = """
+format: 1
+name: ring
+units: cm
+balloons: {main: {size: 260, length: 50, tail: 15}}
+steps:
+  - bubbles: {a: 8, b: 8, c: 8}
+  - lock: {joints: [a.start, c.end]}
+  - rest: spare
+  - cut: spare
+pose: stand
+"""
+
+
+def test_of_a_closed_ring_nothing_hangs_on_one_joint_and_so_no_feet_are_levelled():
+    made = plan(Recipe.parse(RING))
+    assert not made.recipe.piece.has_limbs
+    assert not any(isinstance(move, Level) for move in made.choreography.moves)
+    assert plan(Recipe.parse(PAIR)).recipe.piece.has_limbs
+
+
 def test_a_figure_that_stays_where_it_was_made_has_no_ground_to_fall_on():
     hold, fall = last_moves("physics: {gravity: 9.81, hold: 1.5}")
     assert fall.start == hold.end
