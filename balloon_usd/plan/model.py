@@ -82,6 +82,12 @@ class Plan:
         return 1 + math.ceil(self.choreography.seconds * self.recipe.fps - ROUNDING)
 
     @property
+    def rested_frame(self) -> int:
+        """Last frame before hands take the figure up again: what they move then neither creeps nor slips."""
+        # The time of a frame is (code - 1) / fps.
+        return min(1 + int(self.choreography.taken_up * self.recipe.fps), self.frame_count)
+
+    @property
     def bubbles(self) -> tuple[PlannedBubble, ...]:
         """All bubbles in plan order: balloon after balloon, each from the knot to the tip."""
         return tuple(bubble for strip in self.strips.values() for bubble in strip.bubbles)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from balloon_usd.operations.aim import Aim
 from balloon_usd.operations.bend import Bend
-from balloon_usd.operations.moves import OTHER_SIDE, Hold, LetGo, Straighten
+from balloon_usd.operations.moves import OTHER_SIDE, Hold, Straighten
 from balloon_usd.plan.twins import twins_of
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ def straighten(recipe: Recipe, strips: Mapping[str, Strip], score: Score) -> Non
     between = tuple(b.name for strip in tubes for b in strip.bubbles if b.name not in left_out)
     last = len(recipe.steps)
     score.add(Straighten(score.now, STRAIGHTEN_SECONDS, last, TEXT, twins, between))
-    score.add(LetGo(score.now, 0.0, last, "let go"))
+    score.let_go(last)
     score.add(Hold(score.now, STRAIGHTENED_SECONDS, last, TEXT))
 
 

@@ -45,8 +45,7 @@ class JointHistory:
         ]
         # The time of a frame is (code - 1) / fps.
         self._let_go = min(1 + round(plan.choreography.let_go * self._fps), plan.frame_count)
-        self._last = min(1 + int(plan.choreography.taken_up * self._fps), plan.frame_count)
-        """The last frame before hands take the figure up again: what they bend does not slip."""
+        self._last = plan.rested_frame
         self._every = max(round(BETWEEN_LOOKS * self._fps), 1)
 
     def add(self, frame: Frame) -> None:

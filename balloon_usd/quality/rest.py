@@ -32,8 +32,7 @@ class Rest:
         """Whether the figure still falls in the end, with no ground to land on."""
         # The time of a frame is (code - 1) / fps.
         self._let_go = min(1 + round(plan.choreography.let_go * fps), last)
-        self._rested = min(1 + int(plan.choreography.taken_up * fps), last)
-        """The last frame before hands take the figure up again: what they move does not creep."""
+        self._rested = plan.rested_frame
         self._half = (self._let_go + self._rested) // 2
         self._late = max(last - max(round(LATE * fps), 1), 1)
         self._fps = fps

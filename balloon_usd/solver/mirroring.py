@@ -72,12 +72,16 @@ def ways_to_symmetry(
         near: farthest that one of these may lie from its image, m.
     """
     mirror = Mirror.of_twins([(places[a], places[b]) for a, b in twins])
+
+    def along(a: Ints, b: Ints) -> Ints:
+        return b[::-1] if mirror.runs_back(places[a], places[b]) else b
+
     pairs: list[tuple[Ints, Ints]] = []
     for a, b in twins:
-        image = b[::-1] if mirror.runs_back(places[a], places[b]) else b
+        image = along(a, b)
         pairs += [(a, image), (image, a)]
     for own in between:
-        image = own[::-1] if mirror.runs_back(places[own], places[own]) else own
+        image = along(own, own)
         if mirror.misses(places[own], places[image]).max() <= near:
             pairs.append((own, image))
     at, other = (np.concatenate([pair[side] for pair in pairs]) for side in (0, 1))

@@ -28,6 +28,14 @@ def hold_figure(sculpture: LatexSculpture, joints: Iterable[int] | None = None) 
         sculpture.hands.lead(joint, sculpture.frame.middle)
 
 
+def leave_figure(sculpture: LatexSculpture) -> None:
+    """Leave the pose of a figure to friction, and let it stick to what it lies on."""
+    sculpture.struts.hold(sculpture.friction.pairs(sculpture.hands))
+    # What leaks shrinks, and so does not stick.
+    if sculpture.plan.recipe.physics.leak is None:
+        sculpture.hands.lay(list(sculpture.bodies))
+
+
 class LedLimb:
     """A limb that hands lead as it is, while they hold all the rest."""
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from balloon_usd.solver.latex.led_limb import LedLimb, hold_figure
+from balloon_usd.solver.latex.led_limb import LedLimb, hold_figure, leave_figure
 from balloon_usd.solver.levelling import TOUCHES, Feet, feet_of, levelling_turns
 from balloon_usd.solver.motions.motion import Motion
 from balloon_usd.solver.motions.set_down import DOWN, faced
@@ -88,12 +88,8 @@ class Level(Motion):
 
     def _let_go(self) -> None:
         if self._bent:
-            sculpture = self._sculpture
-            sculpture.hands.let_go(sculpture.all_joints)
-            sculpture.struts.hold(sculpture.friction.pairs(sculpture.hands))
-            # What leaks shrinks, and so does not stick.
-            if sculpture.plan.recipe.physics.leak is None:
-                sculpture.hands.lay(list(sculpture.bodies))
+            self._sculpture.hands.let_go(self._sculpture.all_joints)
+            leave_figure(self._sculpture)
         self._bent = []
 
 

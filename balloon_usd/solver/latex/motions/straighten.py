@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from balloon_usd.solver.latex.led_limb import TURNING, hold_figure
+from balloon_usd.solver.latex.led_limb import TURNING, hold_figure, leave_figure
 from balloon_usd.solver.mirroring import ways_to_symmetry
 from balloon_usd.solver.motions.motion import Motion
 from balloon_usd.solver.motions.smooth import smooth
@@ -59,7 +59,7 @@ class Straighten(Motion):
         if share > LED:
             if not self._loosens:
                 self._loosens = True
-                self._lay()
+                leave_figure(self._sculpture)
             hands.force[self._joints] = TURNING * math.exp(-DECAYS * (share - LED) / (1.0 - LED))
 
     def _take_hold(self) -> None:
@@ -72,14 +72,6 @@ class Straighten(Motion):
         hands.lead_firmly(self._joints, TURNING)
         self._began = places[self._led]
         self._ways = ways_to_symmetry(places, self._twins, self._between, NEARLY)[self._led]
-
-    def _lay(self) -> None:
-        """Leave the pose to friction."""
-        sculpture = self._sculpture
-        sculpture.struts.hold(sculpture.friction.pairs(sculpture.hands))
-        # What leaks shrinks, and so does not stick.
-        if sculpture.plan.recipe.physics.leak is None:
-            sculpture.hands.lay(list(sculpture.bodies))
 
 
 def _rings(sculpture: LatexSculpture, bubble: str) -> NDArray[np.int64]:
