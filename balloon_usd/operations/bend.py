@@ -12,17 +12,15 @@ from balloon_usd.language.names import Name
 from balloon_usd.language.quantities import Angle, angle_entry
 from balloon_usd.operations.caution import Caution
 from balloon_usd.operations.closing import LENIENCE, ROUND
+from balloon_usd.operations.curving import Curves, rings_along
 from balloon_usd.operations.loop import SHORTEST
-from balloon_usd.operations.modifiers import OnBalloon, Pointed, Timed
 from balloon_usd.operations.moves import Bend as BendMove
-from balloon_usd.operations.operation import WorksByBubble
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from balloon_usd.language.quantities import Units
     from balloon_usd.operations.score import Layout, Score
-    from balloon_usd.operations.workbench import Place, Workbench
 
 BEND_SECONDS = 0.9
 """Bending one bubble, s."""
@@ -30,7 +28,7 @@ ROUND_OFF = 1e-6
 """Degrees by which an angle in radians may miss a whole number."""
 
 
-class Bend(OnBalloon, Pointed, Timed, WorksByBubble):
+class Bend(Curves):
     """Bend bubbles by an angle, their ends towards a point."""
 
     word: ClassVar[str] = "bend"
@@ -67,12 +65,6 @@ must_hold: planned
         """Return its value as it stands in a file: angles in degrees."""
         return {**(angles or {}), **more}
 
-    @classmethod
-    def check(cls, value: object, place: Place, bench: Workbench) -> None:
-        """Complain of bubbles that do not exist by now."""
-        for name in cls.uses(value):
-            bench.find_whole(name, place, (*place.path, cls.word, name))
-
     def refusals(self, layout: Layout) -> Iterator[tuple[tuple[str, ...], str]]:
         """Yield bends that take more turns than a bubble has length for."""
         for name, angle in self.bend.items():
@@ -101,12 +93,10 @@ must_hold: planned
         """Lead each bubble onto an arc."""
         point = score.towards(self.point or "up")
         for bubble, angle in self.bend.items():
-            start, end = score.layout.ends(bubble)
-            guides = score.layout.guides(bubble)
-            rings = (start, *guides) if end is None else (start, *guides, end)
-            flat = sum(score.layout.ring(ring).flat for ring in rings)
+            rings, flat = rings_along(score.layout, bubble)
             seconds = BEND_SECONDS / score.pace.leading
-            score.add(BendMove(score.now, seconds, index, f"bend: {bubble}", rings, angle, point, flat))
+            move = BendMove(score.now, seconds, index, f"bend: {bubble}", rings, point, flat, angle)
+            score.add(move)
             score.let_go(index)
 
 

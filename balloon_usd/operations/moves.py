@@ -212,17 +212,35 @@ class SetNet(Move):
 
 
 @dataclass(frozen=True)
-class Bend(Move):
-    """Bend a bubble by leading its rings onto an arc, held at the end on which more hangs."""
+class Curve(Move):
+    """Lead the rings of a bubble onto a curve, held at the end on which more hangs."""
 
     rings: tuple[int, ...] = ()
     """From its start to its end, or to the flat tail."""
-    angle: float = 0.0
-    """Angle between the directions of its ends, radians."""
     point: Vector = (0.0, 0.0, 1.0)
-    """Unit direction in which the end goes that is not held."""
+    """Unit direction in which the end goes that is not held, of a coil along its axis."""
     flat: int = 0
     """How many of the last rings lie on the flat tail, which goes on straight."""
+
+
+@dataclass(frozen=True)
+class Bend(Curve):
+    """Bend a bubble by leading its rings onto an arc."""
+
+    angle: float = 0.0
+    """Angle between the directions of its ends, radians."""
+
+
+@dataclass(frozen=True)
+class Curl(Curve):
+    """Roll a bubble up into a coil, from the end that is not held."""
+
+    turns: float = 0.0
+    """Right-handed, left-handed below 0."""
+    asked: float = 0.0
+    """How many shall stay when hands let go."""
+    rise: float = 0.0
+    """How far it goes on along its axis with each turn, m."""
 
 
 @dataclass(frozen=True)

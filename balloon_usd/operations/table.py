@@ -12,6 +12,7 @@ from balloon_usd.operations.aim import Aim
 from balloon_usd.operations.bend import Bend
 from balloon_usd.operations.braid import Braid
 from balloon_usd.operations.bubbles import Bubbles
+from balloon_usd.operations.curl import Curl
 from balloon_usd.operations.cut import Cut
 from balloon_usd.operations.ear import Ear
 from balloon_usd.operations.fold import Fold
@@ -46,6 +47,7 @@ OPERATIONS: tuple[type[Operation], ...] = (
     Tulip,
     Rest,
     Bend,
+    Curl,
     Aim,
     Spiral,
     Braid,

@@ -10,7 +10,7 @@ from balloon_usd.balloon.tube_theory import gauge_pressure, maxwell_state
 from balloon_usd.balloon.wound_neck import drawn_rubber
 from balloon_usd.language.lengths import at_least, at_most, cm
 from balloon_usd.language.problem import RecipeError, quoted
-from balloon_usd.operations.bend import Bend
+from balloon_usd.operations.curving import Curves
 from balloon_usd.operations.modifiers import Turned
 from balloon_usd.operations.thread import Thread
 from balloon_usd.plan.capsule import capsule_bubbles
@@ -102,7 +102,7 @@ def _tube(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> Strip
     tube = inflated_tube(size, rubber, tail)
     bubbles: list[PlannedBubble] = []
     along, rest_along, drawn_before = 0.0, 0.0, 0.0
-    bent = {each for step in recipe.steps if isinstance(step, Bend) for each in step.names}
+    bent = {each for step in recipe.steps if isinstance(step, Curves) for each in step.names}
     bent |= {step.bubble for step in recipe.steps if isinstance(step, Thread)}
     places = {each: count for s in recipe.steps for each, count in s.held_at(recipe.piece).items()}
     for made in _wound(recipe, name, size, rubber):
@@ -120,7 +120,8 @@ def _tube(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> Strip
         bubbles.append(replace(planned, gas=gas, drawn=drawn_in, slack=slack))
         tube, along, rest_along, drawn_before = left, along + length, rest_end, drawn
     rest = _rest_of_tube(recipe, name, tube, along, rest_along)
-    bubbles.append(replace(rest, bent=rest.name in bent, drawn=(drawn_before, 0.0)))
+    rest = replace(rest, bent=rest.name in bent, places=places.get(rest.name, 0))
+    bubbles.append(replace(rest, drawn=(drawn_before, 0.0)))
     return Strip(name, size, rubber, tail, tuple(bubbles))
 
 

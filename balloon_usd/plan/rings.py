@@ -24,6 +24,8 @@ LEAST_APART = 0.5
 """Least unstressed distance of two places at which hands hold a bubble, in R0: rings stand two thirds of that
 apart beside joints in the coarsest mesh.
 """
+BEYOND_FRONT = 0.3
+"""Flat rubber that hands hold as they hold a tube that they wind, in that of the tube."""
 TIP_GUIDE = 3.0
 """Unstressed distance from the tip at which hands hold the flat tail, in R0."""
 
@@ -144,8 +146,10 @@ def _along_the_bend(bubble: PlannedBubble, strip: Strip, tip: float) -> list[flo
     """Shares of the rubber of a last bubble at which hands hold it to bend it, up to where it is round."""
     until = max(bubble.length - strip.inflated_radius, 0.5 * bubble.length)
     front = min((strip.rest_place(bubble, until) - bubble.rest_start) / bubble.rest_length, 0.5 * (1.0 + tip))
-    count = max(2, math.ceil(until / REST_GUIDE))
-    return [front * k / count for k in range(1, count + 1)]
+    count = max(2, math.ceil(until / REST_GUIDE), bubble.places)
+    # Where it is wound tight, gas goes on into the flat tail.
+    beyond = math.ceil(BEYOND_FRONT * count) if bubble.places else 0
+    return [share for k in range(1, count + beyond + 1) if (share := front * k / count) < tip]
 
 
 def _beyond_front(bubble: PlannedBubble, strip: Strip, share: float) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from balloon_usd.operations.aim import Aim
-from balloon_usd.operations.bend import Bend
+from balloon_usd.operations.curving import Curves
 from balloon_usd.operations.moves import OTHER_SIDE, Hold, Straighten
 from balloon_usd.plan.twins import twins_of
 
@@ -39,9 +39,9 @@ def straighten(recipe: Recipe, strips: Mapping[str, Strip], score: Score) -> Non
 
 
 def _told_aside(recipe: Recipe) -> set[str]:
-    """Return the bubbles that a recipe bends, aims or points to one side."""
+    """Return the bubbles that a recipe bends, curls, aims or points to one side."""
     found: set[str] = set()
     for step in recipe.steps:
-        if isinstance(step, (Aim, Bend)) or getattr(step, "point", None) in OTHER_SIDE:
+        if isinstance(step, (Aim, Curves)) or getattr(step, "point", None) in OTHER_SIDE:
             found.update(step.names)
     return found

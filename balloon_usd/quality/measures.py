@@ -68,7 +68,13 @@ MEASURES = _table(
     Measure("lean", "deg", 15.0, 1, "angle by which a figure that stands leans; none where none is to stand"),
     Measure("joints", "1", 0, 0, "joints that were meant to hold and do not"),
     Measure("passed", "1", 0, 0, "bubbles that were pushed or rolled into a ring and have slipped out of it"),
-    Measure("unwound", "1", 0.5, 3, "largest share of its turns that a spiral has lost; none where none is"),
+    Measure(
+        "unwound",
+        "1",
+        0.5,
+        3,
+        "largest share of its turns that a spiral or coil has lost; none where none is",
+    ),
     Measure("crossings", "1", 0, 0, "pairs of an edge and a face that it pierces, but for those in one neck"),
     Measure("depth", "m", 0.001, 6, "depth of the deepest vertex at such a pair that lies inside a wall"),
     Measure(

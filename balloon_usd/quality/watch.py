@@ -19,7 +19,7 @@ from balloon_usd.quality.standing import Standing
 from balloon_usd.quality.symmetry import symmetry_of
 from balloon_usd.quality.twists import TwistTails
 from balloon_usd.quality.walls import walls_of
-from balloon_usd.quality.wound import WoundSpirals
+from balloon_usd.quality.wound import WoundBubbles
 from balloon_usd.recipe.held_words import EVERY, PLANNED
 
 if TYPE_CHECKING:
@@ -58,7 +58,7 @@ class QualityWatch:
         self._tails = TwistTails(plan, meshes)
         self._joints = JointHistory(plan, meshes)
         self._passed = PassedBubbles(plan, meshes)
-        self._wound = WoundSpirals(plan, meshes)
+        self._wound = WoundBubbles(plan, meshes)
         self._undone: dict[str, int] = {}
         """First time code at which each end of a joint had come undone."""
         self._end: Frame | None = None

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from balloon_usd.language.problem import Complaint
 from balloon_usd.operations.aim import Aim
 from balloon_usd.operations.braid import Braid
+from balloon_usd.operations.curl import Curl
 from balloon_usd.operations.cut import Cut
 from balloon_usd.operations.entries import steps_in
 from balloon_usd.operations.inflate import Inflate
@@ -37,6 +38,7 @@ LATEX_ONLY = {
 """Keys of the physics that the model kosaka does not know, and why."""
 
 LATEX_STEPS = {
+    Curl.word: (", whose balloons do not roll up", "bend"),
     Aim.word: (", whose joints are frozen", "no such step"),
     Inflate.word: (", whose balloons start blown up", "no such step"),
     Squeeze.word: (", whose fingers are forces on patches of a wall", "press, or no such step"),

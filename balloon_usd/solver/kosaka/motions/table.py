@@ -40,6 +40,7 @@ KOSAKA_MOTIONS: Motions = {
     moves.Pop: Wait,
     moves.Cut: Wait,
     moves.StretchTip: Wait,
+    moves.Curl: Wait,
     moves.Aim: Wait,
     moves.PassThrough: Wait,
     moves.Thread: Wait,

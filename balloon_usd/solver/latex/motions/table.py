@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from balloon_usd.operations import moves
 from balloon_usd.solver.latex.motions.aim import Aim
 from balloon_usd.solver.latex.motions.bend import LatexBend
+from balloon_usd.solver.latex.motions.curl import Curl
 from balloon_usd.solver.latex.motions.cut import Cut
 from balloon_usd.solver.latex.motions.fall import Fall
 from balloon_usd.solver.latex.motions.hold import Hold
@@ -49,6 +50,7 @@ LATEX_MOTIONS: Motions = {
     moves.Bring: Bring,
     moves.SetNet: LatexSetNet,
     moves.Bend: LatexBend,
+    moves.Curl: Curl,
     moves.Aim: Aim,
     moves.Press: LatexPress,
     moves.PassThrough: PassThrough,

@@ -1,0 +1,155 @@
+"""`curl`: bubbles rolled up into coils, of which they keep nearly all."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Annotated, ClassVar
+
+from pydantic import Field
+
+from balloon_usd.language.choices import all_of
+from balloon_usd.language.lengths import at_least, cm
+from balloon_usd.language.names import Name
+from balloon_usd.language.quantities import Between
+from balloon_usd.operations import moves
+from balloon_usd.operations.caution import Caution
+from balloon_usd.operations.curving import Curves, rings_along
+from balloon_usd.operations.score import SETTLE_SECONDS
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from balloon_usd.language.quantities import Units
+    from balloon_usd.operations.score import Layout, Score
+    from balloon_usd.operations.workbench import Place, Workbench
+    from balloon_usd.operations.workpiece import Workpiece
+
+LEAST_TURNS = 0.5
+"""Turns below which nothing is a coil."""
+PITCH = 1.15
+"""How far a coil goes on along its axis with each turn, in widths of the tube: walls that touch lie a tenth
+of that farther apart in the coarsest mesh.
+"""
+NARROWEST = 0.6
+"""Radius of the narrowest coil, in the same: its walls touch each other across its axis."""
+TIGHTEST = math.hypot(math.tau * NARROWEST, PITCH)
+"""Length of the tightest turn, in the same."""
+KEPT = 0.92
+"""Share of their turns that coils keep when hands let go: 0.87 to 0.98 of a 160, 0.81 to 0.89 of a 260, the
+tighter the less.
+"""
+PLACES_A_TURN = 8
+"""At how many places hands hold a bubble for each turn."""
+ROLLING_SPEED = 0.1
+"""Speed at which a coil rolls along its bubble, m/s."""
+LEAST_SECONDS = 1.5
+"""Shortest curling of a bubble, s."""
+
+
+class Curl(Curves):
+    """Roll bubbles up into coils, from their free ends."""
+
+    word: ClassVar[str] = "curl"
+    example: ClassVar[str] = """\
+format: 1
+name: snake
+units: cm
+balloons:
+  main: {size: 160, color: green, inflated: 80}
+steps:
+  - bubbles: {head: 4}
+  - ear: {left_eye: 2}
+    point: left
+  - ear: {right_eye: 2}
+    point: right
+  - rest: body
+  - curl: {body: 3}
+    point: down
+"""
+    sources: ClassVar[tuple[str, ...]] = (
+        "professorwonder.com, balloon 2: a tail wound round a finger",
+        "mossieur-ballon.com, 11: air control",
+    )
+
+    curl: Annotated[dict[Name, Annotated[float, Between(-10.0, 10.0, "turns")]], Field(min_length=1)]
+    """Roll bubbles up into so many turns, right-handed or, below 0, left-handed, along an axis to point."""
+
+    @classmethod
+    def value_of(cls, units: Units, turns: Mapping[str, float] | None = None, /, **more: float) -> object:
+        """Return its value as it stands in a file: turns by bubble."""
+        return {**(turns or {}), **more}
+
+    @classmethod
+    def check(cls, value: object, place: Place, bench: Workbench) -> None:
+        """Roll up bubbles that are there and have a free end."""
+        super().check(value, place, bench)
+        for name in cls.uses(value):
+            if bench.knows((name,)) and name not in bench.piece.bridges():
+                what = f"both ends of {name} hang on one figure"
+                bench.complain((*place.path, cls.word, name), f"{what}, expected a bubble with a free end")
+
+    def held_at(self, piece: Workpiece) -> dict[str, int]:
+        """Return at how many places hands hold each bubble."""
+        return {name: math.ceil(PLACES_A_TURN * abs(turns) / KEPT) + 1 for name, turns in self.curl.items()}
+
+    def refusals(self, layout: Layout) -> Iterator[tuple[tuple[str, ...], str]]:
+        """Yield what is no coil, and coils of more turns than a bubble has length for."""
+        for name, turns in self.curl.items():
+            bubble, most = layout.bubble(name), _most_turns(layout, name)
+            if abs(turns) < LEAST_TURNS:
+                text = f"{turns:g} turns are no coil"
+                yield (self.word, name), f"{text}, expected bend, or at least {LEAST_TURNS:g} turns"
+            elif abs(turns) > most:
+                text = f"{cm(bubble.length)} of a {bubble.size} are too short for {abs(turns):g} turns"
+                least = at_least(TIGHTEST * bubble.width * abs(turns))
+                yield (self.word, name), f"{text}, expected at most {_rounded_down(most)}, or {least}"
+
+    def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:
+        """Warn of coils that open, since there is no length to roll them farther than they shall stay."""
+        for name, turns in self.curl.items():
+            bubble, most = layout.bubble(name), _most_turns(layout, name)
+            if KEPT * most < abs(turns) <= most:
+                least = at_least(TIGHTEST * bubble.width * abs(turns) / KEPT)
+                yield Caution(
+                    index,
+                    f"{name} is rolled up as tight as can be, and opens to fewer than {abs(turns):g} turns",
+                    f"{cm(bubble.length)} of a {bubble.size} have no room for more, of which a part is lost",
+                    f"make it {least}, or at most {_rounded_down(KEPT * most)} turns",
+                )
+
+    def perform(self, score: Score, index: int) -> None:
+        """Roll each bubble up, farther than it shall stay where there is length for that."""
+        lengths = {name: score.layout.bubble(name).length for name in self.curl}
+        calm = {name: max(LEAST_SECONDS, length / ROLLING_SPEED) for name, length in lengths.items()}
+        waits = SETTLE_SECONDS * len(calm)
+        score.refuse_haste(index, self.seconds, sum(calm.values()) + waits, f"curl {all_of(self.names)}")
+        for name, asked in self.curl.items():
+            rings, flat = rings_along(score.layout, name)
+            turns = math.copysign(min(abs(asked) / KEPT, _most_turns(score.layout, name)), asked)
+            text = f"{self.word}: {name}"
+            move = moves.Curl(
+                score.now,
+                calm[name] / score.pace.leading,
+                index,
+                text,
+                rings=rings,
+                point=score.sided(moves.FRONTS[self.point or "up"]),
+                flat=flat,
+                turns=-turns if score.mirrored else turns,
+                asked=abs(asked),
+                rise=PITCH * score.layout.bubble(name).width,
+            )
+            score.add(move)
+            score.add(moves.Move(score.now, SETTLE_SECONDS, index, text))
+            score.let_go(index)
+
+
+def _most_turns(layout: Layout, name: str) -> float:
+    """Return how many turns there is length for in a bubble."""
+    bubble = layout.bubble(name)
+    return bubble.length / (TIGHTEST * bubble.width)
+
+
+def _rounded_down(turns: float) -> str:
+    """Return a number of turns for a reader, in twentieths."""
+    return f"{math.floor(20.0 * turns) / 20.0:g}"

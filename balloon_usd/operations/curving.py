@@ -1,0 +1,30 @@
+"""What operations share that lead bubbles onto a curve, of which they keep a part."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from balloon_usd.operations.modifiers import OnBalloon, Pointed, Timed
+from balloon_usd.operations.operation import WorksByBubble
+
+if TYPE_CHECKING:
+    from balloon_usd.operations.score import Layout
+    from balloon_usd.operations.workbench import Place, Workbench
+
+
+class Curves(OnBalloon, Pointed, Timed, WorksByBubble):
+    """An operation that leads bubbles onto a curve, each held at the end on which more hangs."""
+
+    @classmethod
+    def check(cls, value: object, place: Place, bench: Workbench) -> None:
+        """Complain of bubbles that do not exist by now."""
+        for name in cls.uses(value):
+            bench.find_whole(name, place, (*place.path, cls.word, name))
+
+
+def rings_along(layout: Layout, bubble: str) -> tuple[tuple[int, ...], int]:
+    """Return the rings of a bubble from its start to its end, and how many of the last are on a flat tail."""
+    start, end = layout.ends(bubble)
+    guides = layout.guides(bubble)
+    rings = (start, *guides) if end is None else (start, *guides, end)
+    return rings, sum(layout.ring(ring).flat for ring in rings)

@@ -1,0 +1,160 @@
+"""Bubbles that hands roll up: they stay coils, with walls that touch and do not cross."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from balloon_usd.operations.curl import KEPT, PITCH
+from balloon_usd.operations.moves import Curl
+from balloon_usd.plan import plan
+from balloon_usd.quality.ring_corners import RingCorners
+from balloon_usd.quality.watch import QualityWatch
+from balloon_usd.quality.wound import turns_of_coil
+from balloon_usd.recipe import Recipe, RecipeError
+from balloon_usd.solver.latex.motions.curl import Coil
+from balloon_usd.solver.motions.curve import Row
+from balloon_usd.solver.simulation import simulate_many
+
+TUBE = """
+format: 1
+name: spring
+units: cm
+balloons:
+  main: {size: 160, length: 16, tail: 5}
+steps:
+  - ear: {knob: 2}
+"""
+SPRING = TUBE + "  - rest: body\n  - curl: {body: 1.5}\n    point: up\n"
+CHAIN = TUBE + "  - bubbles: {feeler: 20}\n  - loop: {ring: 12}\n"
+
+
+class Coiled:
+    """A figure with a coil: how it lies when hands have rolled it up, and in the end."""
+
+    def __init__(self, recipe):
+        self.plan = plan(Recipe.parse(recipe))
+        self.move = next(move for move in self.plan.choreography.moves if isinstance(move, Curl))
+        simulation = simulate_many([self.plan], device="cpu")
+        (meshes,) = simulation.meshes
+        firm = self.move.rings[: len(self.move.rings) - self.move.flat]
+        rings = [RingCorners.of(self.plan, meshes, ring) for ring in firm]
+        quality = QualityWatch(self.plan, meshes)
+        done = 1 + math.ceil(self.move.end * self.plan.recipe.fps)
+        for (frame,) in simulation.frames():
+            quality.add(frame)
+            if frame.time_code in (done, self.plan.frame_count):
+                middles = np.array([ring.places(frame).mean(axis=0) for ring in rings])
+                if frame.time_code == done:
+                    self.rolled = middles
+        self.kept = middles
+        self.quality = quality.data()
+
+
+def sense(middles):
+    """Return whether a coil goes on along its axis like a right-handed screw (1) or a left-handed one (-1)."""
+    ways = np.diff(middles, axis=0)
+    axis = np.cross(ways[:-1], ways[1:]).sum(axis=0)
+    return np.sign(axis @ (middles[-1] - middles[0]))
+
+
+@pytest.fixture(scope="module")
+def spring():
+    return Coiled(SPRING)
+
+
+def test_hands_roll_a_tail_up_farther_than_the_recipe_says_into_a_round_coil(spring):
+    assert spring.move.turns == pytest.approx(1.5 / KEPT)
+    assert turns_of_coil(spring.rolled) == pytest.approx(spring.move.turns, rel=0.03)
+    assert sense(spring.rolled) == 1.0
+    upward = spring.rolled[-1, 2] - spring.rolled[0, 2]
+    assert upward == pytest.approx(spring.move.rise * spring.move.turns, rel=0.05)
+
+
+def test_what_the_recipe_says_stays_when_hands_let_go_and_no_wall_goes_through_another(spring):
+    turns = turns_of_coil(spring.kept)
+    assert turns == pytest.approx(1.5, abs=0.15)
+    assert spring.quality["unwound"]["turns"] == {"body": [round(turns, 3), 1.5]}
+    assert spring.quality["unwound"]["verdict"] == "good"
+    assert spring.quality["crossings"]["value"] == 0
+    assert spring.quality["crossings"]["most"] == 0
+
+
+def test_the_tail_keeps_its_gas_and_its_flat_tip_while_it_is_rolled_up(spring):
+    assert spring.quality["gas"]["verdict"] == "good"
+    assert spring.quality["tail"]["verdict"] == "good"
+
+
+def test_a_bubble_in_the_middle_takes_along_what_hangs_on_its_free_end_and_a_mirrored_one_is_left_handed():
+    coiled = Coiled("mirror: true\n" + CHAIN + "  - curl: {feeler: 1}\n    point: left\n")
+    assert sense(coiled.kept) == -1.0
+    assert turns_of_coil(coiled.kept) == pytest.approx(1.0, abs=0.2)
+    assert coiled.quality["crossings"]["value"] == 0
+
+
+def test_turns_below_0_are_left_handed():
+    recipe = Recipe.parse(SPRING.replace("1.5}", "-1.5}"))
+    (move,) = (move for move in plan(recipe).choreography.moves if isinstance(move, Curl))
+    assert move.turns == pytest.approx(-1.5 / KEPT)
+    assert move.asked == 1.5
+
+
+@pytest.mark.parametrize("turns", [-2.0, 3.0])
+@pytest.mark.parametrize("axis", [(0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, -1.0, 0.0)])
+def test_a_row_of_rings_is_rolled_up_without_being_stretched(axis, turns):
+    row = np.stack([np.linspace(0.6, 0.0, 49), np.zeros(49), np.zeros(49)], axis=1)
+    coil = Coil(Row(row), turns, np.array(axis), 0.03)
+    assert coil.places(0.0) == pytest.approx(row, abs=1e-9)
+    for progress in (0.2, 0.5, 0.9, 1.0):
+        places = coil.places(progress)
+        assert places[-1] == pytest.approx(row[-1], abs=1e-12)
+        apart = np.linalg.norm(np.diff(places, axis=0), axis=1)
+        assert apart == pytest.approx(np.full(48, 0.6 / 48), rel=0.04)
+    assert turns_of_coil(places) == pytest.approx(abs(turns), rel=1e-3)
+    assert sense(places[::-1]) == np.sign(turns)
+    assert (places[0] - places[-1]) @ np.array(axis) == pytest.approx(0.03 * abs(turns))
+
+
+def test_flat_rubber_is_wound_as_far_as_hands_hold_it_and_its_tip_goes_straight_on():
+    sides = np.array([0.05, *[0.005] * 4, *[0.02] * 20])
+    row = np.zeros((26, 3))
+    row[:, 0] = sides.sum() - np.concatenate([[0.0], np.cumsum(sides)])
+    coil = Coil(Row(row, (5, 0)), 2.0, np.array([0.0, 0.0, 1.0]), 0.03)
+    row[:5, 0] += [0.04, 0.04, 0.03, 0.02, 0.01]
+    coil.measure(row)
+    places = coil.places(1.0)
+    apart = np.linalg.norm(np.diff(places, axis=0), axis=1)
+    assert apart[0] == pytest.approx(0.05)
+    assert apart[1:5] == pytest.approx(np.full(4, 0.015), rel=0.05)
+    assert turns_of_coil(places[5:]) == pytest.approx(2.0, rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("steps", "told"),
+    [
+        (TUBE + "  - rest: body\n  - curl: {body: 12}\n", "12 is out of range, expected -10 to 10 turns"),
+        (TUBE + "  - rest: body\n  - curl: {body: 0.2}\n", "0.2 turns are no coil, expected bend"),
+        (TUBE + "  - rest: body\n  - curl: {body: -7}\n", "are too short for 7 turns, expected at most 4.4"),
+        (
+            CHAIN + "  - curl: {ring: 1}\n",
+            "both ends of ring hang on one figure, expected a bubble with a free end",
+        ),
+        (CHAIN + "  - curl: {feler: 1}\n", 'unknown bubble "feler"'),
+        (SPRING + "    seconds: 0.5\n", "0.5 s are too short a time to curl body"),
+    ],
+)
+def test_what_is_no_coil_or_has_no_length_or_no_free_end_is_refused(steps, told):
+    with pytest.raises(RecipeError, match=told):
+        plan(Recipe.parse(steps))
+
+
+def test_a_coil_as_tight_as_can_be_is_told_to_open():
+    tight = plan(Recipe.parse(SPRING.replace("1.5}", "4.2}")))
+    assert any("opens to fewer than 4.2 turns" in str(caution) for caution in tight.cautions)
+    assert not plan(Recipe.parse(SPRING)).cautions
+
+
+def test_walls_of_neighbouring_turns_lie_apart():
+    assert PITCH > 1.0
