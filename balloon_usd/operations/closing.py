@@ -33,12 +33,10 @@ def too_round(bubble: PlacedBubble, word: str) -> str | None:
     return f"{text}, expected ear instead of {word}, or at least {at_least(least)}"
 
 
-class TwistsClosed(Pointed, Turned, TwistsOff):
+class ClosesOnItself(Pointed, Turned, TwistsOff):
     """An operation that makes bubbles each of which closes on itself."""
 
     closes: ClassVar[bool] = True
-    pulled: ClassVar[float] = 0.0
-    """How far hands pull its bubbles out between their ends, in diameters of their tubes."""
     of_balls: ClassVar[bool] = False
     """Whether hands squeeze the two ends of a ball together through it, and need no length to bend."""
 
@@ -47,6 +45,13 @@ class TwistsClosed(Pointed, Turned, TwistsOff):
         for name in () if self.of_balls else self.lengths:
             if (told := too_round(layout.bubble(name), self.word)) is not None:
                 yield (self.word, name), told
+
+
+class TwistsClosed(ClosesOnItself):
+    """An operation that closes one bubble after another, each with a twist of its own."""
+
+    pulled: ClassVar[float] = 0.0
+    """How far hands pull its bubbles out between their ends, in diameters of their tubes."""
 
     def perform(self, score: Score, index: int) -> None:
         """Twist each bubble off, bring its two ends together and twist them into one."""

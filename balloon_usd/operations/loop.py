@@ -10,7 +10,7 @@ from balloon_usd.operations.closing import TwistsClosed
 from balloon_usd.operations.operation import BubbleKind, Lengths
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from balloon_usd.operations.score import Layout
 
@@ -50,13 +50,18 @@ steps:
 
     def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:
         """Warn of loops that are too short to be bent."""
-        for name in self.loop:
-            bubble = layout.bubble(name)
-            least = SHORTEST * bubble.width
-            if bubble.length < least:
-                yield Caution(
-                    index,
-                    f"{name} ({cm(bubble.length)}) is too short for a loop",
-                    f"a {bubble.size} is {cm(bubble.width)} wide, so its ends meet before it bends",
-                    f"ear instead of loop, or a loop of at least {at_least(least)}",
-                )
+        yield from short_loops(self.loop, index, layout)
+
+
+def short_loops(names: Iterable[str], index: int, layout: Layout) -> Iterator[Caution]:
+    """Yield a caution for each bubble that a step of this index makes a loop of, too short to be bent."""
+    for name in names:
+        bubble = layout.bubble(name)
+        least = SHORTEST * bubble.width
+        if bubble.length < least:
+            yield Caution(
+                index,
+                f"{name} ({cm(bubble.length)}) is too short for a loop",
+                f"a {bubble.size} is {cm(bubble.width)} wide, so its ends meet before it bends",
+                f"ear instead of loop, or a loop of at least {at_least(least)}",
+            )

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from balloon_usd.operations.workbench import Place, Workbench
     from balloon_usd.operations.workpiece import Workpiece
 
-BubbleKind = Literal["bubble", "loop", "fold", "ear", "tulip", "rest", "shape"]
+BubbleKind = Literal["bubble", "loop", "fold", "ear", "petal", "tulip", "rest", "shape"]
 Lengths = Annotated[dict[Name, Length], Field(min_length=1)]
 
 
@@ -36,6 +36,8 @@ class Operation(Entries):
     """Of the bubbles that it makes."""
     closes: ClassVar[bool] = False
     """Whether it twists the two ends of each of them together."""
+    spreads: ClassVar[bool] = False
+    """Whether those roll about their balloon until they push each other aside: no hand holds them then."""
     folds: ClassVar[bool] = False
     """Whether it lays the two halves of each of them side by side."""
     inverts: ClassVar[bool] = False

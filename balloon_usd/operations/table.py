@@ -16,6 +16,7 @@ from balloon_usd.operations.curl import Curl
 from balloon_usd.operations.cut import Cut
 from balloon_usd.operations.ear import Ear
 from balloon_usd.operations.fold import Fold
+from balloon_usd.operations.gather import Gather
 from balloon_usd.operations.inflate import Inflate
 from balloon_usd.operations.lock import Lock
 from balloon_usd.operations.loop import Loop
@@ -44,6 +45,7 @@ OPERATIONS: tuple[type[Operation], ...] = (
     Loop,
     Fold,
     Ear,
+    Gather,
     Tulip,
     Rest,
     Bend,

@@ -207,7 +207,7 @@ class Sculpture:
 
 
 def _tops(plan: Plan) -> set[int]:
-    """Return the rings of a plan in the middle of bubbles that close on themselves."""
-    closing = {kind for kind, operation in BY_KIND.items() if operation.closes}
+    """Return the rings of a plan in the middle of bubbles that close on themselves, if hands hold these."""
+    closing = {kind for kind, operation in BY_KIND.items() if operation.closes and not operation.spreads}
     guides = [plan.table.guides(bubble.name) for bubble in plan.bubbles if bubble.kind in closing]
     return {each[len(each) // 2] for each in guides if each}
