@@ -112,12 +112,16 @@ steps:
         if len(names) == 1 and not piece.is_closed(names):
             what = f"{names[0]} is no loop with two halves to wind"
             bench.complain(path, f"{what}, expected a loop, or {expected}")
-        first, *others = ({piece.joint(Joint(name, end)) for end in ("start", "end")} for name in names)
+        first, *others = ({piece.joint(end) for end in _ends(name)} for name in names)
         for name, ends in zip(names[1:], others, strict=True):
             if len(first) < 2 or ends != first:
                 what = f"{names[0]} and {name} do not begin and end in the same two joints"
                 bench.complain(path, f"{what}, expected {expected}")
                 return
+        between = {name for name in piece.bubbles if {piece.joint(end) for end in _ends(name)} == first}
+        if len(names) > 1 and (left_out := between - piece.popped - set(names)):
+            what = f"{all_of(sorted(left_out))} between the same joints would be wound, too"
+            bench.complain(path, f"{what}, expected all that lie there")
 
     def refusals(self, layout: Layout) -> Iterator[tuple[tuple[str, ...], str]]:
         """Yield more turns than there is length for."""
@@ -188,6 +192,11 @@ steps:
         (loop,) = rows
         middle = len(loop) // 2
         return loop[: middle + 1], loop[middle:][::-1]
+
+
+def _ends(name: str) -> tuple[Joint, Joint]:
+    """Return both ends of a bubble."""
+    return Joint(name, "start"), Joint(name, "end")
 
 
 def _turns(turns: float) -> str:

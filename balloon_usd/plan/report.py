@@ -130,7 +130,7 @@ def _graph_lines(plan: Plan) -> Iterator[str]:
             hold = "holds" if len(event.others) == 1 else "hold"
             yield f"  step {event.step + 1} {event.text}, which {hold} it"
         if isinstance(event, Popped):
-            yield f"  step {event.step + 1} pops {event.bubble}"
+            yield f"  step {event.step + 1} {plan.recipe.steps[event.step].word}s {event.bubble}"
         if isinstance(event, Joined):
             for balloon in (name for name, step in led_in.items() if step == event.step):
                 side = "right" if _aside(plan)[balloon] > 0.0 else "left"

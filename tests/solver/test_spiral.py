@@ -111,6 +111,15 @@ def test_turns_of_helices_are_counted_with_their_sense(turns, strands):
     assert turns_of(ropes) == pytest.approx(turns, rel=1e-3)
 
 
+def test_some_of_the_bubbles_between_two_joints_are_not_wound_without_the_others():
+    three = PAIR.replace("length: 66", "length: 100")
+    three += "  - bubbles: {third: 29}\n  - lock: {joints: [one.end, third.end]}\n"
+    told = "third between the same joints would be wound, too, expected all that lie there"
+    with pytest.raises(RecipeError, match=told):
+        Recipe.parse(three + "  - spiral: {bubbles: [one, other]}\n")
+    Recipe.parse(three + "  - spiral: {bubbles: [one, other, third]}\n")
+
+
 def test_tubes_that_touch_lie_on_a_circle_and_two_take_four_widths_a_turn():
     assert [wound_radius(n) for n in (2, 3, 6)] == pytest.approx([0.5, 1.0 / math.sqrt(3.0), 1.0])
     # Two tubes 1 wide about one axis: helices 1/2 off it, at the pitch at which turns touch each other.
