@@ -13,6 +13,7 @@ from balloon_usd.operations.moves import (
     POINTS,
     Bring,
     Gather,
+    Hold,
     Inflate,
     LeadIn,
     LetGo,
@@ -171,6 +172,12 @@ class Score:
     def let_go(self, index: int) -> None:
         """Take the hands away."""
         self.add(LetGo(self.now, 0.0, index, "let go"))
+
+    def retouch(self, move: Move, seconds: float) -> None:
+        """Let hands work on the finished figure once more, and let it come to rest for some seconds."""
+        self.add(move)
+        self.let_go(move.step)
+        self.add(Hold(self.now, seconds, move.step, move.text))
 
     def refuse(self, index: int, told: Mapping[tuple[str, ...], str]) -> NoReturn:
         """Refuse a step for what is wrong at some of its keys; raises `RecipeError`."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from balloon_usd.operations.moves import LET_GO, OTHER_SIDE, TIPPED, Fall, Hold, Level, Move, SetDown
+from balloon_usd.operations.moves import LET_GO, OTHER_SIDE, TIPPED, Fall, Level, Move, SetDown
 from balloon_usd.recipe.recipe import EARTH
 
 if TYPE_CHECKING:
@@ -59,9 +59,8 @@ def pose(recipe: Recipe, score: Score, *, mirrored: bool) -> None:
     carried = turned or recipe.pose != "as made"
     weighs = recipe.gravity > 0.0 and recipe.physics.traits.has_weight
     if recipe.pose == "stand" and weighs and recipe.piece.has_limbs:
-        score.add(Level(score.now, LEVEL_SECONDS, last, "level its feet", front=front, top=top))
-        score.let_go(last)
-        score.add(Hold(score.now, LEVELLED_SECONDS, last, "level its feet"))
+        level = Level(score.now, LEVEL_SECONDS, last, "level its feet", front=front, top=top)
+        score.retouch(level, LEVELLED_SECONDS)
     if carried:
         seconds = TURN_SECONDS if turned else POSE_SECONDS
         height = _height(recipe)

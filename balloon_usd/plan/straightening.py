@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from balloon_usd.operations.aim import Aim
 from balloon_usd.operations.curving import Curves
-from balloon_usd.operations.moves import OTHER_SIDE, Hold, Straighten
+from balloon_usd.operations.moves import OTHER_SIDE, Straighten
 from balloon_usd.plan.twins import twins_of
 
 if TYPE_CHECKING:
@@ -20,7 +20,6 @@ STRAIGHTEN_SECONDS = 4.0
 """Setting a finished figure straight, s."""
 STRAIGHTENED_SECONDS = 1.0
 """How long it comes to rest then, s."""
-TEXT = "set it straight"
 
 
 def straighten(recipe: Recipe, strips: Mapping[str, Strip], score: Score) -> None:
@@ -33,9 +32,8 @@ def straighten(recipe: Recipe, strips: Mapping[str, Strip], score: Score) -> Non
     tubes = [strip for strip in strips.values() if strip.shape is None]
     between = tuple(b.name for strip in tubes for b in strip.bubbles if b.name not in left_out)
     last = len(recipe.steps)
-    score.add(Straighten(score.now, STRAIGHTEN_SECONDS, last, TEXT, twins, between))
-    score.let_go(last)
-    score.add(Hold(score.now, STRAIGHTENED_SECONDS, last, TEXT))
+    move = Straighten(score.now, STRAIGHTEN_SECONDS, last, "set it straight", twins, between)
+    score.retouch(move, STRAIGHTENED_SECONDS)
 
 
 def _told_aside(recipe: Recipe) -> set[str]:

@@ -11,7 +11,7 @@ from balloon_usd.solver.latex.led_limb import LedLimb, hold_figure, leave_figure
 from balloon_usd.solver.levelling import TOUCHES, Feet, feet_of, levelling_turns
 from balloon_usd.solver.motions.motion import Motion
 from balloon_usd.solver.motions.set_down import DOWN, faced
-from balloon_usd.solver.motions.smooth import smooth
+from balloon_usd.solver.motions.smooth import round_at, smooth
 from balloon_usd.solver.placement import turn_about, turn_between
 from balloon_usd.solver.resting import standing_direction
 from balloon_usd.solver.rotations import rotation
@@ -61,9 +61,9 @@ class Level(Motion):
 
     def advance(self, share: float) -> None:
         """Bend the legs on, or let go of them for a look."""
-        number, share = divmod(min(ROUNDS * share, ROUNDS - 1e-9), 1.0)
+        number, share = round_at(share, ROUNDS)
         if number > self._round:
-            self._round = int(number)
+            self._round = number
             self._begin()
         if share > BENDING:
             self._let_go()

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from balloon_usd.solver.latex.led_limb import TURNING, hold_figure, leave_figure
 from balloon_usd.solver.mirroring import ways_to_symmetry
 from balloon_usd.solver.motions.motion import Motion
-from balloon_usd.solver.motions.smooth import smooth
+from balloon_usd.solver.motions.smooth import round_at, smooth
 
 if TYPE_CHECKING:
     from balloon_usd.operations import moves
@@ -50,9 +50,9 @@ class Straighten(Motion):
         """Lead it on, or loosen the grip."""
         if not self._leads:
             return
-        number, share = divmod(min(ROUNDS * share, ROUNDS - 1e-9), 1.0)
+        number, share = round_at(share, ROUNDS)
         if number > self._round:
-            self._round, self._loosens = int(number), False
+            self._round, self._loosens = number, False
             self._take_hold()
         hands = self._sculpture.hands
         hands.goal[self._joints] = self._began + smooth(min(share / LED, 1.0)) * self._ways
