@@ -147,9 +147,12 @@ def _along_the_bend(bubble: PlannedBubble, strip: Strip, tip: float) -> list[flo
     until = max(bubble.length - strip.inflated_radius, 0.5 * bubble.length)
     front = min((strip.rest_place(bubble, until) - bubble.rest_start) / bubble.rest_length, 0.5 * (1.0 + tip))
     count = max(2, math.ceil(until / REST_GUIDE), bubble.places)
-    # Where it is wound tight, gas goes on into the flat tail.
-    beyond = math.ceil(BEYOND_FRONT * count) if bubble.places else 0
-    return [share for k in range(1, count + beyond + 1) if (share := front * k / count) < tip]
+    shares = [front * k / count for k in range(1, count + 1)]
+    if bubble.places:
+        # Where a tube is wound tight, gas goes on into its flat tail.
+        beyond = (front * k / count for k in range(count + 1, math.ceil((1.0 + BEYOND_FRONT) * count) + 1))
+        shares += [share for share in beyond if share < tip]
+    return shares
 
 
 def _beyond_front(bubble: PlannedBubble, strip: Strip, share: float) -> bool:

@@ -57,3 +57,22 @@ def test_a_bend_of_a_loop_whose_round_ends_reach_its_guides_needs_no_more_rings(
         """).strips.values()
     assert len(guide_places(strip)) == 7 + 2
     assert len(mesh_of(strip, DETAILS["draft"]).ring_along) < 150
+
+
+def test_hands_hold_a_bent_tube_without_flat_tail_up_to_where_it_is_round(planned):
+    tube = "balloons: {a: {size: 260, length: 15, tail: 1}}\nsteps:\n- bubbles: {b: 15, c: 15}\n- rest: end\n"
+    (strip,) = planned(f"{tube}- bend: {{end: 30}}\n").strips.values()
+    rest = strip.bubbles[-1]
+    round_end = strip.rest_place(rest, rest.length - strip.inflated_radius)
+    assert max(guide_places(strip)) == pytest.approx(round_end, abs=0.2 * strip.size.radius)
+
+
+def test_what_is_rolled_up_is_held_beyond_the_front_of_its_gas_too(planned):
+    tube = "balloons: {a: {size: 160, length: 30, tail: 15}}\nsteps:\n- ear: {b: 2}\n- rest: end\n"
+    (bent,) = planned(f"{tube}- bend: {{end: 30}}\n").strips.values()
+    (curled,) = planned(f"{tube}- curl: {{end: 2}}\n").strips.values()
+    front = curled.rest_place(curled.bubbles[-1], curled.bubbles[-1].length)
+    tip = max(guide_places(curled))
+    beyond = [place for place in guide_places(curled) if front < place < tip]
+    assert len(beyond) > 3
+    assert not [place for place in guide_places(bent) if front < place < tip]

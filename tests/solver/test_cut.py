@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 import pytest
 
+from balloon_usd.balloon.detail import DETAILS
+from balloon_usd.operations import moves
 from balloon_usd.operations.cut import Cut
 from balloon_usd.operations.moves import Pop
 from balloon_usd.plan import plan
+from balloon_usd.plan.meshing import mesh_of
 from balloon_usd.quality.watch import QualityWatch
 from balloon_usd.recipe import Recipe, RecipeError
-from balloon_usd.solver.simulation import simulate_many
+from balloon_usd.solver.latex.motions.table import LATEX_MOTIONS
+from balloon_usd.solver.simulation import NOMINAL_RATE, model_named, simulate_many
 
 BOTH = """
 format: 1
@@ -43,6 +49,15 @@ steps:
   - {rest: over, balloon: white}
   - cut: over
 """
+
+
+class Lid(NamedTuple):
+    """What is left of what was cut off."""
+
+    middle: tuple[float, float]
+    """Where it lies across its neck."""
+    put_middle: np.ndarray
+    """Where it lies, (3,), m."""
 
 
 class CutOff:
@@ -145,3 +160,21 @@ def test_a_twist_that_only_the_bubble_holds_is_not_cut_open():
     text = Cut.example.replace("  - loop: {right_leaf: 25}\n    point: right\n", "  - bubbles: {stem: 8}\n")
     with pytest.raises(RecipeError, match="would let the gas of both out"):
         Recipe.parse(text)
+
+
+def test_where_a_lid_lies_does_not_depend_on_other_figures_of_a_batch():
+    cut = plan(Recipe.parse(BOTH + "  - cut: spare\n"))
+    meshes = [mesh_of(strip, DETAILS["draft"]) for strip in cut.strips.values()]
+    lids = []
+    for figures in (1, 2):
+        model = model_named("latex")([cut] * figures, [meshes] * figures, NOMINAL_RATE, 12, "cpu")
+        sculpture, other = model.performers[0].sculpture, model.performers[-1].sculpture
+        if figures == 2:
+            # All figures of a batch lie in the same space.
+            model.hands.places[other.vertices] = lids[0].put_middle
+        LATEX_MOTIONS[moves.Cut](moves.Cut(0.0, 0.0, 5, "cut", bubble="spare"), sculpture)
+        lid = sculpture.severed["spare"].stub
+        walls = sculpture.walls()
+        lid.put(walls)
+        lids.append(Lid(lid.middle, walls[lid.vertices].mean(axis=0)))
+    assert lids[1].middle == lids[0].middle

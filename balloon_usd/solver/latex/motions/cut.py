@@ -32,6 +32,9 @@ class Cut(Motion):
         own = np.zeros(len(hands.places), dtype=bool)
         own[before + np.r_[stub.vertices, stub.neck]] = True
         corners = scene.quads.numpy()
+        walls = sculpture.vertices
+        # Other sculptures of a batch lie in the same space.
+        corners = corners[(corners[:, 0] >= walls.start) & (corners[:, 0] < walls.stop)]
         others = hands.places[corners[~own[corners].any(axis=1)]].mean(axis=1, dtype=np.float64)
         balloon = hands.places[before : int(scene.vertex_start[body + 1])]
         sculpture.severed[move.bubble] = Severed(body - sculpture.bodies[0], stub.clear_of(balloon, others))
