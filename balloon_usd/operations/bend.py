@@ -95,7 +95,8 @@ must_hold: planned
         for bubble, angle in self.bend.items():
             rings, flat = rings_along(score.layout, bubble)
             seconds = BEND_SECONDS / score.pace.leading
-            move = BendMove(score.now, seconds, index, f"bend: {bubble}", rings, point, flat, angle)
+            again = any(isinstance(move, BendMove) and move.rings == rings for move in score.moves)
+            move = BendMove(score.now, seconds, index, f"bend: {bubble}", rings, point, flat, again, angle)
             score.add(move)
             score.let_go(index)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from numbers import Real
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from pydantic import Field
@@ -50,6 +51,7 @@ class Curl(Curves):
     """Roll bubbles up into coils, from their free ends."""
 
     word: ClassVar[str] = "curl"
+    once: ClassVar[bool] = True
     example: ClassVar[str] = """\
 format: 1
 name: snake
@@ -77,7 +79,9 @@ steps:
     @classmethod
     def value_of(cls, units: Units, turns: Mapping[str, float] | None = None, /, **more: float) -> object:
         """Return its value as it stands in a file: turns by bubble."""
-        return {**(turns or {}), **more}
+        # Numbers of NumPy, too.
+        given: dict[str, object] = {**(turns or {}), **more}
+        return {name: float(each) if isinstance(each, Real) else each for name, each in given.items()}
 
     @classmethod
     def check(cls, value: object, place: Place, bench: Workbench) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from balloon_usd.operations.modifiers import OnBalloon, Pointed, Timed
 from balloon_usd.operations.operation import WorksByBubble
@@ -15,11 +15,14 @@ if TYPE_CHECKING:
 class Curves(OnBalloon, Pointed, Timed, WorksByBubble):
     """An operation that leads bubbles onto a curve, each held at the end on which more hangs."""
 
+    once: ClassVar[bool] = False
+    """Whether what it curves was straight before, and is curved no more."""
+
     @classmethod
     def check(cls, value: object, place: Place, bench: Workbench) -> None:
-        """Complain of bubbles that do not exist by now."""
+        """Complain of bubbles that do not exist by now, or are curved already."""
         for name in cls.uses(value):
-            bench.find_whole(name, place, (*place.path, cls.word, name))
+            bench.curve(cls.word, name, place, once=cls.once)
 
 
 def rings_along(layout: Layout, bubble: str) -> tuple[tuple[int, ...], int]:

@@ -53,7 +53,7 @@ steps:
 
     def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:
         """Warn of petals that are too short to be bent."""
-        yield from short_loops(self.gather, index, layout)
+        yield from short_loops(self.word, self.gather, index, layout)
 
     def perform(self, score: Score, index: int) -> None:
         """Twist the bubbles off, bring the two ends of each together, and twist all into one."""

@@ -50,18 +50,18 @@ steps:
 
     def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:
         """Warn of loops that are too short to be bent."""
-        yield from short_loops(self.loop, index, layout)
+        yield from short_loops(self.word, self.loop, index, layout)
 
 
-def short_loops(names: Iterable[str], index: int, layout: Layout) -> Iterator[Caution]:
-    """Yield a caution for each bubble that a step of this index makes a loop of, too short to be bent."""
+def short_loops(word: str, names: Iterable[str], index: int, layout: Layout) -> Iterator[Caution]:
+    """Yield a caution for each bubble that is too short to be bent round by a step of this word and index."""
     for name in names:
         bubble = layout.bubble(name)
         least = SHORTEST * bubble.width
         if bubble.length < least:
             yield Caution(
                 index,
-                f"{name} ({cm(bubble.length)}) is too short for a loop",
+                f"{name} ({cm(bubble.length)}) is too short for a {word}",
                 f"a {bubble.size} is {cm(bubble.width)} wide, so its ends meet before it bends",
-                f"ear instead of loop, or a loop of at least {at_least(least)}",
+                f"ear instead of {word}, or at least {at_least(least)}",
             )

@@ -221,6 +221,8 @@ class Curve(Move):
     """Unit direction in which the end goes that is not held, of a coil along its axis."""
     flat: int = 0
     """How many of the last rings lie on the flat tail, which goes on straight."""
+    again: bool = False
+    """Whether it lies on another curve before."""
 
 
 @dataclass(frozen=True)

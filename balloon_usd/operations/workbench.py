@@ -64,6 +64,7 @@ class Workbench:
         self._popped_at: dict[str, Path] = {}
         self._cut_at: dict[str, Path] = {}
         self._tipped_at: dict[str, Path] = {}
+        self._curved_at: dict[str, tuple[str, Path]] = {}
         self._ended: dict[str, Path] = {}
         self._made_ever, self._rests = made_ever, rests
         self._pumped = pumped
@@ -203,6 +204,22 @@ class Workbench:
             at = path_text(self._tipped_at[name])
             self.complain(path, f"the tip of {quoted(name)} was stretched at {at}, expected each tip once")
         self._tipped_at.setdefault(name, path)
+
+    def curve(self, word: str, name: str, place: Place, *, once: bool) -> None:
+        """Lead a bubble that is there onto a curve by a step of a word.
+
+        `once`: what such a step curves is left so, and was straight before.
+        """
+        path = (*place.path, word, name)
+        known = len(self.complaints)
+        self.find_whole(name, place, path)
+        if len(self.complaints) > known:
+            return
+        before, at = self._curved_at.get(name, (word, None))
+        if at is not None and (once or before != word):
+            expected = "that once" if before == word else f"{before} or {word} alone"
+            self.complain(path, f"bubble {quoted(name)} was curved at {path_text(at)}, expected {expected}")
+        self._curved_at.setdefault(name, (word, path))
 
     def find_firm(self, name: str, path: Path, rests: Iterable[str] = ()) -> bool:
         """Say whether a bubble exists by now and has its gas, and complain if it does not; as `find`."""

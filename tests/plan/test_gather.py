@@ -75,4 +75,4 @@ def test_what_makes_no_petals_is_refused(petals, told):
 
 def test_petals_too_short_to_bend_are_told():
     short = plan(Recipe.parse(HEAD + "  - gather: {a: 15, b: 8}\n"))
-    assert any("b (8 cm) is too short for a loop" in str(caution) for caution in short.cautions)
+    assert any("b (8 cm) is too short for a gather" in str(caution) for caution in short.cautions)

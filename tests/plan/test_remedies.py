@@ -151,7 +151,7 @@ SHORTER = r"\| make the bubbles shorter by ([\d.]+) cm in all, and "
     ),
     (
         ONE % ("tail: 2", "[loop: {b: 6}]"),
-        r"too short for a loop \| ear instead of loop, or a loop of at least ([\d.]+ cm)",
+        r"too short for a loop \| ear instead of loop, or at least ([\d.]+ cm)",
         {"steps.0.loop.b": "<1>"},
     ),
     (

@@ -13,7 +13,7 @@ from balloon_usd.plan import plan
 from balloon_usd.quality.ring_corners import RingCorners
 from balloon_usd.quality.watch import QualityWatch
 from balloon_usd.quality.wound import turns_of_coil
-from balloon_usd.recipe import Recipe, RecipeError
+from balloon_usd.recipe import Recipe, RecipeBuilder, RecipeError
 from balloon_usd.solver.latex.motions.curl import Coil
 from balloon_usd.solver.motions.curve import Row
 from balloon_usd.solver.simulation import simulate_many
@@ -142,12 +142,28 @@ def test_flat_rubber_is_wound_as_far_as_hands_hold_it_and_its_tip_goes_straight_
             "both ends of ring hang on one figure, expected a bubble with a free end",
         ),
         (CHAIN + "  - curl: {feler: 1}\n", 'unknown bubble "feler"'),
+        (SPRING + "  - curl: {body: 1}\n", r"was curved at steps\[2\].curl.body, expected that once"),
+        (
+            SPRING + "  - bend: {body: 30}\n",
+            r"was curved at steps\[2\].curl.body, expected curl or bend alone",
+        ),
+        (
+            SPRING.replace("curl: {body: 1.5}", "bend: {body: 60}") + "  - curl: {body: 1}\n",
+            "bend or curl alone",
+        ),
         (SPRING + "    seconds: 0.5\n", "0.5 s are too short a time to curl body"),
     ],
 )
 def test_what_is_no_coil_or_has_no_length_or_no_free_end_is_refused(steps, told):
     with pytest.raises(RecipeError, match=told):
         plan(Recipe.parse(steps))
+
+
+def test_turns_may_be_numbers_of_numpy():
+    for turns in (np.float32(1.5), np.int64(1), np.float64(1.5)):
+        builder = RecipeBuilder("spring").balloon("main", size=160, length=0.16, tail=0.05)
+        recipe = builder.ear(knob=0.02).rest("body").curl(body=turns).build()
+        assert recipe.steps[2].curl == {"body": float(turns)}
 
 
 def test_a_coil_as_tight_as_can_be_is_told_to_open():

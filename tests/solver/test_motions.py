@@ -316,6 +316,17 @@ def bend_fully(room, point, *names, flat=0):
     bend.advance(1.0)
 
 
+def test_a_bubble_that_is_bent_again_is_led_from_where_it_lies():
+    room = Room()
+    rings = tuple(room.ring(name) for name in ("right.end", "red_rest.0", "red_rest.1"))
+    room.middle[[room.joint(name) for name in ("red_rest.0", "red_rest.1")]] += [0.0, 0.01, 0.03]
+    move = moves.Bend(**DONE, rings=rings, angle=1.0, again=True)
+    bend = LATEX_MOTIONS[moves.Bend](move, room.sculpture)
+    bend.advance(0.0)
+    for name in ("right.end", "red_rest.0", "red_rest.1"):
+        assert room.moved(name) == pytest.approx(np.zeros(3), abs=1e-6)
+
+
 @pytest.mark.parametrize("point", ["up", "down", "left", "right"])
 @pytest.mark.parametrize(
     ("rings", "goes", "stays"),

@@ -68,6 +68,8 @@ class Curve(Motion, ABC, Generic[AMove]):
         self._carried = sculpture.carry(rings)
         self._began = sculpture.frame.middle[self._joints].astype(np.float64)
         self._path = self.path(move, flat)
+        self._before = self._began - self._path.places(0.0) if move.again else np.zeros(3)
+        """How its rings lie beside the straight line from which a path begins, m."""
 
     def _rubber_on(self, ring: int, rings: Sequence[int]) -> float:
         """Return the unstressed length of all bubbles that hang on one of the bubble's rings, m."""
@@ -90,7 +92,8 @@ class Curve(Motion, ABC, Generic[AMove]):
 
     def advance(self, share: float) -> None:
         """Lead the rings of the bubble along, and let it keep its curve in the end."""
-        goal = self._path.places(smooth(share))
+        progress = smooth(share)
+        goal = self._path.places(progress) + (1.0 - progress) * self._before
         self._hands.goal[self._joints] = goal
         self._hands.goal[self._carried.joints] = self._carried.goals(goal - self._began)
         if share >= 1.0:
