@@ -12,7 +12,8 @@ if TYPE_CHECKING:
 
 _WORD_COMPARED = 64
 _CHOICES_COMPARED = 1000
-_CHOICES_LISTED = 24
+_CHOICES_LISTED = 32
+"""As many as there are operations, and some."""
 _ALIKE = 0.6
 """Share of letters in common from which a word counts as a slip of the pen (difflib's own default)."""
 

@@ -76,7 +76,8 @@ class StepEntry:
         for word in self.words:
             BY_WORD[word].check(self.entries[word], place, bench)
         bench.require_blown_up(place, place.balloon if self.makes else None, self.uses)
-        bench.check_owner(self.path, self.balloon, self.uses)
+        if not any(BY_WORD[word].across for word in self.words):
+            bench.check_owner(self.path, self.balloon, self.uses)
 
 
 def steps_in(data: object) -> list[StepEntry]:

@@ -52,6 +52,8 @@ class Operation(Entries):
     """Where hands lead each of them, as shares of its length."""
     by_bubble: ClassVar[bool] = False
     """Whether its value has an entry for each bubble."""
+    across: ClassVar[bool] = False
+    """Whether what it works on may be of other balloons than the one that it names."""
     value_model: ClassVar[type[Entries] | None] = None
     """Of the keys of its value, where that has any."""
     keeps_time: ClassVar[bool] = False
@@ -169,13 +171,17 @@ class LengthsByBubble(Operation):
         return {name: written_length(length, units) for name, length in {**(lengths or {}), **more}.items()}
 
 
-class TwistsOff(OnBalloon, Burped, Timed, LengthsByBubble):
-    """An operation that twists bubbles off, one after another."""
+class MakesBubbles(OnBalloon, Burped, Timed, Operation):
+    """An operation that twists bubbles off, from each of which hands may press gas on."""
 
     @property
     def gas_left(self) -> float:
         """Share of the gas of its length that hands leave in each bubble: without what they press on."""
         return self.gas * (1.0 - 0.01 * (self.burp or 0.0))
+
+
+class TwistsOff(MakesBubbles, LengthsByBubble):
+    """An operation that twists bubbles off, one after another."""
 
     @property
     def lengths(self) -> dict[str, float]:

@@ -33,6 +33,7 @@ from balloon_usd.operations.tail_ball import TailBall
 from balloon_usd.operations.thread import Thread
 from balloon_usd.operations.tulip import Tulip
 from balloon_usd.operations.wait import Wait
+from balloon_usd.operations.weave import Weave
 from balloon_usd.operations.wrap import Wrap
 
 if TYPE_CHECKING:
@@ -47,6 +48,7 @@ OPERATIONS: tuple[type[Operation], ...] = (
     Ear,
     Gather,
     Tulip,
+    Weave,
     Rest,
     Bend,
     Curl,
@@ -68,8 +70,8 @@ OPERATIONS: tuple[type[Operation], ...] = (
 
 BY_WORD: dict[str, type[Operation]] = {operation.word: operation for operation in OPERATIONS}
 WORDS: tuple[str, ...] = tuple(BY_WORD)
-BY_KIND = {operation.bubble_kind: operation for operation in OPERATIONS if operation.bubble_kind is not None}
-"""Operations that make bubbles, by the kind of these."""
+BY_KIND = {each.bubble_kind: each for each in reversed(OPERATIONS) if each.bubble_kind is not None}
+"""Operations that make bubbles, by the kind of these: the first of the table, where several do."""
 
 
 class NoOperation(OnBalloon, Pointed, Turned, Burped, Timed, Operation):

@@ -132,7 +132,8 @@ def _graph_lines(plan: Plan) -> Iterator[str]:
         if isinstance(event, Popped):
             yield f"  step {event.step + 1} {plan.recipe.steps[event.step].word}s {event.bubble}"
         if isinstance(event, Joined):
-            for balloon in (name for name, step in led_in.items() if step == event.step):
+            for balloon in [name for name, step in led_in.items() if step == event.step]:
+                del led_in[balloon]
                 side = "right" if _aside(plan)[balloon] > 0.0 else "left"
                 yield f"  step {event.step + 1} leads in {balloon} from the {side}"
         if isinstance(event, Joined) and not plan.recipe.steps[event.step].closes:
