@@ -59,6 +59,7 @@ class Coil:
         self._tail = slice(firm - 1, self._last)
         """Sides of the flat tail that are wound, too."""
         self._most = (row.end - row.begin) / max(firm - 1, 1)
+        """How far apart rings lie that are blown up, m."""
         length = row.end - row.begin
         self._angle = math.tau * abs(turns) / length
         """By which it goes round along the row, rad/m."""
