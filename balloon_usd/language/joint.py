@@ -40,6 +40,22 @@ def joint(value: object) -> Joint:
     return Joint(found[1], cast("End", found[2]))
 
 
+def ends_of(bubble: str) -> tuple[Joint, Joint]:
+    """Return both ends of a bubble."""
+    return Joint(bubble, "start"), Joint(bubble, "end")
+
+
+def readable_joints(written: object) -> tuple[Joint, ...]:
+    """Return those entries of a list that are joints; none of what is no list."""
+    found = []
+    for entry in written if isinstance(written, (list, tuple)) else ():
+        try:
+            found.append(joint(entry))
+        except ValueError:
+            continue
+    return tuple(found)
+
+
 JointEntry = Annotated[
     Joint,
     BeforeValidator(joint),

@@ -14,7 +14,7 @@ from balloon_usd.language.problem import quoted
 from balloon_usd.language.quantities import Between
 from balloon_usd.operations import moves
 from balloon_usd.operations.modifiers import OnBalloon, Timed
-from balloon_usd.operations.moves import FRONTS, Front, Move
+from balloon_usd.operations.moves import FRONTS, Front
 from balloon_usd.operations.operation import WorksByBubble
 from balloon_usd.operations.score import SETTLE_SECONDS
 
@@ -123,6 +123,4 @@ steps:
             toward = score.sided((x / size, y / size, z / size))
             spin = math.radians(-self.spin if score.mirrored else self.spin)
             move = moves.Aim(score.now, seconds, index, text, bubble=bubble, toward=toward, spin=spin)
-            score.add(move)
-            score.add(Move(score.now, SETTLE_SECONDS, index, text))
-            score.let_go(index)
+            score.settle(move)

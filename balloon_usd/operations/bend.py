@@ -12,7 +12,7 @@ from balloon_usd.language.names import Name
 from balloon_usd.language.quantities import Angle, angle_entry
 from balloon_usd.operations.caution import Caution
 from balloon_usd.operations.closing import LENIENCE, ROUND
-from balloon_usd.operations.curving import Curves, rings_along
+from balloon_usd.operations.curving import Curves
 from balloon_usd.operations.loop import SHORTEST
 from balloon_usd.operations.moves import Bend as BendMove
 
@@ -93,7 +93,7 @@ must_hold: planned
         """Lead each bubble onto an arc."""
         point = score.towards(self.point or "up")
         for bubble, angle in self.bend.items():
-            rings, flat = rings_along(score.layout, bubble)
+            rings, flat = self.rings_along(score.layout, bubble)
             seconds = BEND_SECONDS / score.pace.leading
             again = any(isinstance(move, BendMove) and move.rings == rings for move in score.moves)
             move = BendMove(score.now, seconds, index, f"bend: {bubble}", rings, point, flat, again, angle)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 from pydantic import Field
 
 from balloon_usd.language.choices import all_of
-from balloon_usd.language.joint import Joint
+from balloon_usd.language.joint import Joint, ends_of
 from balloon_usd.language.lengths import at_least, cm
 from balloon_usd.language.names import Name
 from balloon_usd.language.quantities import Between
@@ -106,7 +106,7 @@ steps:
         """Join the free ends of bubbles that hang on one joint."""
         if len(names) < STRANDS:
             return
-        ends = [Ends(*(bench.piece.joint(Joint(name, end)) for end in ("start", "end"))) for name in names]
+        ends = [Ends(*map(bench.piece.joint, ends_of(name))) for name in names]
         common = set.intersection(*map(set, ends))
         expected = "expected three bubbles that a lock has joined at one end"
         if len(common) != 1 or any(each.start == each.end for each in ends):

@@ -12,9 +12,10 @@ from balloon_usd.language.choices import all_of
 from balloon_usd.language.lengths import at_least, cm
 from balloon_usd.language.names import Name
 from balloon_usd.language.quantities import Between
+from balloon_usd.language.turns import most_turns, turns_text
 from balloon_usd.operations import moves
 from balloon_usd.operations.caution import Caution
-from balloon_usd.operations.curving import Curves, rings_along
+from balloon_usd.operations.curving import Curves
 from balloon_usd.operations.score import SETTLE_SECONDS
 
 if TYPE_CHECKING:
@@ -99,26 +100,26 @@ steps:
     def refusals(self, layout: Layout) -> Iterator[tuple[tuple[str, ...], str]]:
         """Yield what is no coil, and coils of more turns than a bubble has length for."""
         for name, turns in self.curl.items():
-            bubble, most = layout.bubble(name), _most_turns(layout, name)
+            bubble, most = layout.bubble(name), _room_for(layout, name)
             if abs(turns) < LEAST_TURNS:
                 text = f"{turns:g} turns are no coil"
                 yield (self.word, name), f"{text}, expected bend, or at least {LEAST_TURNS:g} turns"
             elif abs(turns) > most:
-                text = f"{cm(bubble.length)} of a {bubble.size} are too short for {abs(turns):g} turns"
+                text = f"{cm(bubble.length)} of a {bubble.size} are too short for {turns_text(turns)}"
                 least = at_least(TIGHTEST * bubble.width * abs(turns))
-                yield (self.word, name), f"{text}, expected at most {_rounded_down(most)}, or {least}"
+                yield (self.word, name), f"{text}, expected at most {most_turns(most)}, or {least}"
 
     def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:
         """Warn of coils that open, since there is no length to roll them farther than they shall stay."""
         for name, turns in self.curl.items():
-            bubble, most = layout.bubble(name), _most_turns(layout, name)
+            bubble, most = layout.bubble(name), _room_for(layout, name)
             if KEPT * most < abs(turns) <= most:
                 least = at_least(TIGHTEST * bubble.width * abs(turns) / KEPT)
                 yield Caution(
                     index,
-                    f"{name} is rolled up as tight as can be, and opens to fewer than {abs(turns):g} turns",
+                    f"{name} is rolled up as tight as can be, and opens to fewer than {turns_text(turns)}",
                     f"{cm(bubble.length)} of a {bubble.size} have no room for more, of which a part is lost",
-                    f"make it {least}, or at most {_rounded_down(KEPT * most)} turns",
+                    f"make it {least}, or at most {most_turns(KEPT * most)} turns",
                 )
 
     def perform(self, score: Score, index: int) -> None:
@@ -128,8 +129,8 @@ steps:
         waits = SETTLE_SECONDS * len(calm)
         score.refuse_haste(index, self.seconds, sum(calm.values()) + waits, f"curl {all_of(self.names)}")
         for name, asked in self.curl.items():
-            rings, flat = rings_along(score.layout, name)
-            turns = math.copysign(min(abs(asked) / KEPT, _most_turns(score.layout, name)), asked)
+            rings, flat = self.rings_along(score.layout, name)
+            turns = math.copysign(min(abs(asked) / KEPT, _room_for(score.layout, name)), asked)
             text = f"{self.word}: {name}"
             move = moves.Curl(
                 score.now,
@@ -143,17 +144,10 @@ steps:
                 asked=abs(asked),
                 rise=PITCH * score.layout.bubble(name).width,
             )
-            score.add(move)
-            score.add(moves.Move(score.now, SETTLE_SECONDS, index, text))
-            score.let_go(index)
+            score.settle(move)
 
 
-def _most_turns(layout: Layout, name: str) -> float:
+def _room_for(layout: Layout, name: str) -> float:
     """Return how many turns there is length for in a bubble."""
     bubble = layout.bubble(name)
     return bubble.length / (TIGHTEST * bubble.width)
-
-
-def _rounded_down(turns: float) -> str:
-    """Return a number of turns for a reader, in twentieths."""
-    return f"{math.floor(20.0 * turns) / 20.0:g}"

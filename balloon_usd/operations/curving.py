@@ -24,10 +24,8 @@ class Curves(OnBalloon, Pointed, Timed, WorksByBubble):
         for name in cls.uses(value):
             bench.curve(cls.word, name, place, once=cls.once)
 
-
-def rings_along(layout: Layout, bubble: str) -> tuple[tuple[int, ...], int]:
-    """Return the rings of a bubble from its start to its end, and how many of the last are on a flat tail."""
-    start, end = layout.ends(bubble)
-    guides = layout.guides(bubble)
-    rings = (start, *guides) if end is None else (start, *guides, end)
-    return rings, sum(layout.ring(ring).flat for ring in rings)
+    @staticmethod
+    def rings_along(layout: Layout, bubble: str) -> tuple[tuple[int, ...], int]:
+        """Return the rings of a bubble from start to end, and how many of the last lie on a flat tail."""
+        rings = layout.along(bubble)
+        return rings, sum(layout.ring(ring).flat for ring in rings)

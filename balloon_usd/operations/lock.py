@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from pydantic import Discriminator, Tag
 
-from balloon_usd.language.joint import Joint, JointEntry, joint
+from balloon_usd.language.joint import Joint, JointEntry, readable_joints
 from balloon_usd.language.lengths import cm
 from balloon_usd.language.names import Name
 from balloon_usd.operations.caution import Caution
@@ -141,16 +141,11 @@ steps:
 
     def perform(self, score: Score, index: int) -> None:
         """Bring each joint to the next, and twist all into one."""
-        rings = [score.layout.joint(end) for end in self.ends]
-        found = [ring for ring in rings if ring is not None]
-        if len(found) < len(rings):
-            tip = next(end for end, ring in zip(self.ends, rings, strict=True) if ring is None)
-            text = "is the tip of its balloon and cannot be twisted, expected a joint between two bubbles"
-            score.refuse(index, {(self.word,): f"{tip} {text}"})
+        rings = score.twistable(self.ends, self.word, index)
         text = f"lock twist: {', '.join(str(end.bubble) for end in self.ends)}"
-        for first, last in pairwise(found):
+        for first, last in pairwise(rings):
             score.together(min(first, last), max(first, last), self.point, text, index)
-        score.weld(tuple(found), self.turns, text, index)
+        score.weld(rings, self.turns, text, index)
 
 
 def _names_in(value: object) -> tuple[str, ...] | None:
@@ -161,15 +156,7 @@ def _names_in(value: object) -> tuple[str, ...] | None:
 
 def _joints_in(value: object) -> tuple[Joint, ...] | None:
     written = value.get("joints") if isinstance(value, dict) else None
-    if not isinstance(written, (list, tuple)):
-        return None
-    found = []
-    for entry in written:
-        try:
-            found.append(joint(entry))
-        except ValueError:
-            continue
-    return tuple(found)
+    return readable_joints(written) if isinstance(written, (list, tuple)) else None
 
 
 def _is_read(found: Sequence[object], value: object) -> bool:

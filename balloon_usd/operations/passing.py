@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar
 from pydantic import Field
 
 from balloon_usd.language.choices import all_of
-from balloon_usd.language.joint import Joint
+from balloon_usd.language.joint import Joint, ends_of
 from balloon_usd.language.lengths import at_most, cm
 from balloon_usd.language.names import Name
 from balloon_usd.operations.caution import Caution
@@ -146,7 +146,7 @@ class Passing(OnBalloon, Pointed, Timed, Operation):
             for each in ring
             for end in piece.joint(Joint(each, "start")) + piece.joint(Joint(each, "end"))
         }
-        ends = [end for end in (Joint(name, "start"), Joint(name, "end")) if end not in corners]
+        ends = [end for end in ends_of(name) if end not in corners]
         if len(ends) == 2:
             if not (cls.by_row and piece.row_from(ring, name)):
                 expected = "a bubble that does" + " or hangs on one by a row of bubbles" * cls.by_row

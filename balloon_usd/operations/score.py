@@ -28,7 +28,7 @@ from balloon_usd.operations.moves import (
 from balloon_usd.operations.tempo import PACES, Pace
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Callable, Iterable, Mapping, Sequence
 
     from balloon_usd.language.joint import Joint
     from balloon_usd.language.problem import Path, Problem
@@ -144,6 +144,9 @@ class Layout(Protocol):
     def guides(self, bubble: str) -> tuple[int, ...]:
         """Return the guide rings inside a bubble, from its start to its end."""
 
+    def along(self, bubble: str) -> tuple[int, ...]:
+        """Return all rings of a bubble, from its start to its end; the tip has none."""
+
 
 @dataclass
 class Score:
@@ -182,6 +185,22 @@ class Score:
     def refuse(self, index: int, told: Mapping[tuple[str, ...], str]) -> NoReturn:
         """Refuse a step for what is wrong at some of its keys; raises `RecipeError`."""
         raise RecipeError([self.problem(("steps", index, *keys), text) for keys, text in told.items()])
+
+    def twistable(self, ends: Sequence[Joint], word: str, index: int) -> tuple[int, ...]:
+        """Return the rings of joints that a step of a word twists; refuses the tip of a balloon."""
+        rings = [self.layout.joint(end) for end in ends]
+        found = tuple(ring for ring in rings if ring is not None)
+        if len(found) < len(rings):
+            tip = ends[rings.index(None)]
+            text = "is the tip of its balloon and cannot be twisted, expected a joint between two bubbles"
+            self.refuse(index, {(word,): f"{tip} {text}"})
+        return found
+
+    def settle(self, move: Move) -> None:
+        """Write a move, wait until the rubber is at rest, and take the hands away."""
+        self.add(move)
+        self.add(Move(self.now, SETTLE_SECONDS, move.step, move.text))
+        self.let_go(move.step)
 
     def refuse_haste(self, index: int, given: float | None, calm: float, doing: str) -> None:
         """Refuse a step with too short a time (s) in the recipe; raises `RecipeError`.

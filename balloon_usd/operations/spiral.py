@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Annotated, ClassVar
 from pydantic import Field
 
 from balloon_usd.language.choices import all_of
-from balloon_usd.language.joint import Joint
+from balloon_usd.language.joint import ends_of
 from balloon_usd.language.lengths import at_least, cm
 from balloon_usd.language.names import Name
 from balloon_usd.language.quantities import Between
+from balloon_usd.language.turns import most_turns, turns_text
 from balloon_usd.operations import moves
 from balloon_usd.operations.caution import Caution
 from balloon_usd.operations.modifiers import Entries
-from balloon_usd.operations.moves import Move
 from balloon_usd.operations.score import SETTLE_SECONDS
 from balloon_usd.operations.strands import OfStrands, from_joint
 
@@ -112,13 +112,13 @@ steps:
         if len(names) == 1 and not piece.is_closed(names):
             what = f"{names[0]} is no loop with two halves to wind"
             bench.complain(path, f"{what}, expected a loop, or {expected}")
-        first, *others = ({piece.joint(end) for end in _ends(name)} for name in names)
+        first, *others = ({piece.joint(end) for end in ends_of(name)} for name in names)
         for name, ends in zip(names[1:], others, strict=True):
             if len(first) < 2 or ends != first:
                 what = f"{names[0]} and {name} do not begin and end in the same two joints"
                 bench.complain(path, f"{what}, expected {expected}")
                 return
-        between = {name for name in piece.bubbles if {piece.joint(end) for end in _ends(name)} == first}
+        between = {name for name in piece.bubbles if {piece.joint(end) for end in ends_of(name)} == first}
         if len(names) > 1 and (left_out := between - piece.popped - set(names)):
             what = f"{all_of(sorted(left_out))} between the same joints would be wound, too"
             bench.complain(path, f"{what}, expected all that lie there")
@@ -127,9 +127,9 @@ steps:
         """Yield more turns than there is length for."""
         strand, least = self._strand(layout), self._least(layout)
         if strand < least:
-            most = math.floor(20.0 * self.spiral.turns * strand / least) / 20.0
+            most = most_turns(self.spiral.turns * strand / least)
             text = f"{cm(strand)} of {self.strands} strands of a {self.widest(layout).size} are too short for"
-            text += f" {_turns(self.spiral.turns)}, expected at most {most:g}, or {at_least(least)}"
+            text += f" {turns_text(self.spiral.turns)}, expected at most {most}, or {at_least(least)}"
             yield (self.word, "turns"), text
 
     def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:
@@ -137,10 +137,11 @@ steps:
         yield from super().cautions(index, layout)
         strand, least = self._strand(layout), self._least(layout)
         if least <= strand < EASY * least:
+            turns = turns_text(self.spiral.turns)
             yield Caution(
                 index,
                 f"{all_of(self.names)} {'is' if len(self.names) == 1 else 'are'} wound tight",
-                f"{self.strands} strands of {cm(strand)} take {_turns(self.spiral.turns)} with creases only",
+                f"{self.strands} strands of {cm(strand)} take {turns} with creases only",
                 f"make each {at_least(EASY * least)}, or wind them less",
             )
 
@@ -158,8 +159,8 @@ steps:
         most = self._strand(score.layout) / self._least(score.layout) * turns
         asked = wound + turns
         if wound and asked > most:
-            told = f"wound {_turns(wound)} already, and there is length for {most:.1f} in all, expected fewer"
-            score.refuse(index, {(self.word, "turns"): told})
+            told = f"wound {turns_text(wound)} already, and there is length for {most:.1f} in all"
+            score.refuse(index, {(self.word, "turns"): f"{told}, expected fewer"})
         calm = max(LEAST_SECONDS, TURN_SECONDS * turns)
         turns += max(0.0, min(SPRING_BACK, most / TIGHT - asked))
         score.refuse_haste(index, self.seconds, calm + SETTLE_SECONDS, f"wind {all_of(self.names)}")
@@ -175,9 +176,7 @@ steps:
             asked=asked,
             radius=self.widest(score.layout).width * wound_radius(self.strands),
         )
-        score.add(move)
-        score.add(Move(score.now, SETTLE_SECONDS, index, text))
-        score.let_go(index)
+        score.settle(move)
 
     def _wound_before(self, score: Score) -> float:
         """Return how often earlier steps have wound the same bubbles."""
@@ -192,16 +191,6 @@ steps:
         (loop,) = rows
         middle = len(loop) // 2
         return loop[: middle + 1], loop[middle:][::-1]
-
-
-def _ends(name: str) -> tuple[Joint, Joint]:
-    """Return both ends of a bubble."""
-    return Joint(name, "start"), Joint(name, "end")
-
-
-def _turns(turns: float) -> str:
-    """Return a number of turns in words."""
-    return f"{turns:g} {'turn' if turns == 1.0 else 'turns'}"
 
 
 def tightest_turn(strands: int) -> float:

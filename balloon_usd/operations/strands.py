@@ -96,12 +96,7 @@ class OfStrands(Timed, Operation):
 
     def rows(self, score: Score) -> list[tuple[int, ...]]:
         """Return the rings of each bubble, from its start to its end, which is no tip."""
-        found = []
-        for name in self.names:
-            start, end = score.layout.ends(name)
-            assert end is not None, "what ends in a joint with others ends in no tip"
-            found.append((start, *score.layout.guides(name), end))
-        return found
+        return [score.layout.along(name) for name in self.names]
 
 
 def from_joint(joint: int, rows: Sequence[tuple[int, ...]], score: Score) -> tuple[tuple[int, ...], ...]:

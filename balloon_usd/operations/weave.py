@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from pydantic import Field
 
-from balloon_usd.language.joint import Joint, JointEntry, joint
+from balloon_usd.language.joint import Joint, JointEntry, ends_of, readable_joints
 from balloon_usd.language.quantities import length_entry, written_length
 from balloon_usd.operations.modifiers import Entries, Turned
 from balloon_usd.operations.operation import BubbleKind, Lengths, MakesBubbles
@@ -84,24 +84,25 @@ steps:
     @classmethod
     def uses(cls, value: object) -> tuple[str, ...]:
         """Return the bubbles to whose joints it is woven."""
-        return tuple(each.bubble for each in _joints_in(value) if each is not None)
+        return tuple(each.bubble for each in _joints_in(value))
 
     @classmethod
     def check(cls, value: object, place: Place, bench: Workbench) -> None:
         """Make its bubbles, and let their ends become one with joints that are there."""
         path = (*place.path, cls.word)
         names, joints = cls.makes(value), _joints_in(value)
-        found = [each is not None and bench.find_firm(each.bubble, (*path, "to")) for each in joints]
+        found = [bench.find_firm(each.bubble, (*path, "to")) for each in joints]
         made = [bench.make(name, (*path, "bubbles", name), place.balloon) for name in names]
-        if not (names and joints and all(found) and all(made)):
+        # What is no joint is told where it stands.
+        whole = isinstance(value, dict) and names and joints and len(joints) == len(value["to"])
+        if not whole or not all(found) or not all(made):
             return
         if len(joints) not in (len(names), len(names) + 1):
             counts = f"{len(joints)} joints for {len(names)} bubbles"
             bench.complain((*path, "to"), f"{counts}, expected as many, or one more for the start")
             return
-        known = tuple(each for each in joints if each is not None)
-        if bench.knows([*names, *(each.bubble for each in known)]):
-            for end, other in _pairs(names, known):
+        if bench.knows([*names, *(each.bubble for each in joints)]):
+            for end, other in _pairs(names, joints):
                 bench.join((*path, "to"), [other, end], [str(other), str(end)])
 
     def perform(self, score: Score, index: int) -> None:
@@ -109,18 +110,13 @@ steps:
         pairs = dict(_pairs(tuple(self.lengths), self.weave.to))
         for name in self.lengths:
             score.twist(name, self.turns, index)
-            for end in (Joint(name, "start"), Joint(name, "end")):
+            for end in ends_of(name):
                 if (other := pairs.get(end)) is not None:
                     self._lock(end, other, score, index)
 
     def _lock(self, end: Joint, other: Joint, score: Score, index: int) -> None:
         """Bring two joints together and twist them into one."""
-        rings = score.layout.joint(end), score.layout.joint(other)
-        if rings[0] is None or rings[1] is None:
-            tip = end if rings[0] is None else other
-            text = "is the tip of its balloon and cannot be twisted, expected a joint between two bubbles"
-            score.refuse(index, {(self.word,): f"{tip} {text}"})
-        first, last = sorted((rings[0], rings[1]))
+        first, last = sorted(score.twistable((end, other), self.word, index))
         text = f"{self.word}: {end.bubble}"
         score.together(first, last, None, text, index)
         score.weld((first, last), self.turns, text, index)
@@ -134,16 +130,6 @@ def _pairs(names: Sequence[str], joints: Sequence[Joint]) -> Iterator[tuple[Join
         yield Joint(name, "end"), other
 
 
-def _joints_in(value: object) -> tuple[Joint | None, ...]:
-    """Return the joints that a value names, None for what is none."""
-    written = value.get("to") if isinstance(value, dict) else None
-    if not isinstance(written, (list, tuple)):
-        return ()
-    return tuple(_read(entry) for entry in written)
-
-
-def _read(entry: object) -> Joint | None:
-    try:
-        return joint(entry)
-    except ValueError:
-        return None
+def _joints_in(value: object) -> tuple[Joint, ...]:
+    """Return the joints that a value names, as far as they can be read."""
+    return readable_joints(value.get("to")) if isinstance(value, dict) else ()

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from balloon_usd.language.choices import one_of, unknown
-from balloon_usd.language.joint import Joint
+from balloon_usd.language.joint import Joint, ends_of
 from balloon_usd.language.names import is_name
 from balloon_usd.language.problem import PROBLEMS_SHOWN, Complaint, Path, path_text, quoted
 from balloon_usd.operations.workpiece import Workpiece
@@ -183,7 +183,7 @@ class Workbench:
 
     def _open_twist(self, name: str) -> str | None:
         """Return which twist at an end of a bubble only itself holds, in words; None where all hold."""
-        for end in (Joint(name, "start"), Joint(name, "end")):
+        for end in ends_of(name):
             joint = self.piece.joint(end)
             if self.piece.is_merged(joint):
                 continue
@@ -234,7 +234,7 @@ class Workbench:
     def close(self, name: str, path: Path) -> None:
         """Let the two ends of a new bubble become one."""
         if name in self.piece.bubbles:
-            self.piece.join(int(path[1]), (Joint(name, "start"), Joint(name, "end")))
+            self.piece.join(int(path[1]), ends_of(name))
 
     def find(self, name: str, path: Path, rests: Iterable[str] = ()) -> bool:
         """Say whether a bubble exists by now, and complain if it does not; `rests` could be meant, too."""

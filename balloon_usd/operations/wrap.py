@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar, Literal
 
-from balloon_usd.language.joint import Joint, JointEntry, joint
+from balloon_usd.language.joint import JointEntry, ends_of, joint
 from balloon_usd.language.lengths import at_least, cm
 from balloon_usd.language.names import Name
 from balloon_usd.operations import moves
@@ -108,7 +108,7 @@ steps:
         if not all(found) or not bench.knows(names):
             return
         bubble, behind = names
-        ends = Joint(bubble, "start"), Joint(bubble, "end")
+        ends = ends_of(bubble)
         if bench.piece.are_one(ends):
             bench.complain((*path, "bubble"), f"{bubble} is closed already, expected push")
         elif any(behind == contact.bubble for contact in bench.piece.contacts):

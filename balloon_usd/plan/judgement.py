@@ -9,11 +9,10 @@ from typing import TYPE_CHECKING
 from balloon_usd.balloon.bubble_shape import smallest_ball, softest_ball
 from balloon_usd.balloon.wound_neck import PACKING_TURNS, holding_friction
 from balloon_usd.language.lengths import at_least, at_most, cm
+from balloon_usd.language.turns import turns_text
 from balloon_usd.operations.caution import Caution
-from balloon_usd.operations.closing import TwistsClosed
-from balloon_usd.operations.lock import Lock
 from balloon_usd.operations.modifiers import HOLDING_TURNS, Turned
-from balloon_usd.operations.tulip import Tulip
+from balloon_usd.operations.workpiece import Joined
 from balloon_usd.plan.bent_chains import bends_onto_others
 from balloon_usd.plan.holding import too_slippery
 from balloon_usd.plan.long_sides import long_sides
@@ -83,14 +82,14 @@ def _turns(recipe: Recipe) -> Iterator[Caution]:
         if step.turns < HOLDING_TURNS:
             yield Caution(
                 index,
-                f"a twist of {_turns_text(step.turns)} may unwind",
+                f"a twist of {turns_text(step.turns)} may unwind",
                 "the friction of the wound neck grows with every turn",
                 "turns: 3",
             )
         elif step.turns > MOST_TURNS:
             yield Caution(
                 index,
-                f"a twist of {_turns_text(step.turns)} strains its neck",
+                f"a twist of {turns_text(step.turns)} strains its neck",
                 f"every turn beyond {PACKING_TURNS:g} draws rubber into it, and too many cut it",
                 "turns: 3",
             )
@@ -98,21 +97,18 @@ def _turns(recipe: Recipe) -> Iterator[Caution]:
 
 def _slippery(recipe: Recipe) -> Iterator[Caution]:
     friction = recipe.physics.friction
-    locks = [step for step in recipe.steps if isinstance(step, (Lock, TwistsClosed, Tulip))]
+    joining = sorted({event.step for event in recipe.piece.history if isinstance(event, Joined)})
+    locks = [step for step in map(recipe.steps.__getitem__, joining) if isinstance(step, Turned)]
     slipping = [step for step in locks if step.holds and too_slippery(step, friction)]
     if slipping:
         turns = min(step.turns for step in slipping)
         yield Caution(
             None,
             f"{len(slipping)} of {len(locks)} locks, loops and ears slip when the hands let go",
-            f"a wound neck holds by friction, and {_turns_text(turns)} need {holding_friction(turns):.2f}, "
+            f"a wound neck holds by friction, and {turns_text(turns)} need {holding_friction(turns):.2f}, "
             f"not {friction:g}",
             f"physics: friction: {math.ceil(100.0 * holding_friction(turns)) / 100.0:g}",
         )
-
-
-def _turns_text(turns: float) -> str:
-    return "1 turn" if turns == 1.0 else f"{turns:g} turns"
 
 
 def _short_bubbles(strips: Mapping[str, Strip]) -> Iterator[Caution]:

@@ -111,3 +111,7 @@ class LaidOut:
     def guides(self, bubble: str) -> tuple[int, ...]:
         """Return the guide rings inside a bubble, from its start to its end."""
         return self._table.guides(bubble)
+
+    def along(self, bubble: str) -> tuple[int, ...]:
+        """Return all rings of a bubble, from its start to its end; the tip has none."""
+        return self._table.along(bubble)

@@ -83,6 +83,11 @@ class RingTable:
         """Return the guide rings inside a bubble, from its start to its end."""
         return self._guides.get(bubble, ())
 
+    def along(self, bubble: str) -> tuple[int, ...]:
+        """Return all rings of a bubble, from its start to its end; the tip has none."""
+        start, end = self.ends(bubble)
+        return (start, *self.guides(bubble), *(() if end is None else (end,)))
+
 
 def guide_places(strip: Strip) -> tuple[float, ...]:
     """Return the unstressed distances of the rings that only guide from a strip's knot, m."""

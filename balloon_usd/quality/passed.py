@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from balloon_usd.language.joint import Joint
+from balloon_usd.language.joint import ends_of
 from balloon_usd.operations.moves import PassThrough, Wrap
 from balloon_usd.quality.joints import SLIPPED
 from balloon_usd.quality.measures import MEASURES
@@ -96,7 +96,7 @@ class _Followed(ABC):
     """How far it is through its ring."""
 
     def __init__(self, fps: float, move: PassThrough | Wrap, ring: Sequence[str]) -> None:
-        self._ends = {str(Joint(name, end)) for name in ring for end in ("start", "end")}
+        self._ends = {str(end) for name in ring for end in ends_of(name)}
         """Joints without which the ring is open."""
         # The time of a frame is (code - 1) / fps.
         self._first, self._last = 1 + math.floor(move.start * fps), 1 + math.ceil(move.end * fps)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from balloon_usd.language.choices import all_of
-from balloon_usd.language.joint import Joint
+from balloon_usd.language.joint import ends_of
 from balloon_usd.operations.moves import Curl, WindRound
 from balloon_usd.quality.joints import SLIPPED
 from balloon_usd.quality.measures import MEASURES
@@ -84,7 +84,7 @@ class _Wound(ABC):
         `bubbles`: that are wound; `asked`: turns that shall stay; `since`: time code from which on they are
         counted.
         """
-        self._ends = {str(Joint(name, end)) for name in bubbles for end in ("start", "end")}
+        self._ends = {str(end) for name in bubbles for end in ends_of(name)}
         self._first = since
         self.bubbles, self.name, self.asked = bubbles, all_of(bubbles), asked
         self.turns = 0.0
@@ -166,9 +166,8 @@ def turns_of_coil(middles: Floats) -> float:
     ways /= np.maximum(np.linalg.norm(ways, axis=1), 1e-9)[:, None]
     axis = np.cross(ways[:-1], ways[1:]).sum(axis=0)
     axis /= max(float(np.linalg.norm(axis)), 1e-9)
-    across = ways - (ways @ axis)[:, None] * axis
-    sines = np.cross(across[:-1], across[1:]) @ axis
-    angles = np.arctan2(sines, (across[:-1] * across[1:]).sum(axis=1))
+    across = _across(ways, axis)
+    angles = _turned(across[:-1], across[1:], axis)
     # Half a side at either end turns, too.
     return float(angles.sum() / math.tau * len(ways) / max(len(angles), 1))
 
@@ -184,8 +183,7 @@ def turns_of(strands: Sequence[Floats]) -> float:
     along /= np.maximum(np.linalg.norm(along, axis=1), 1e-9)[:, None]
     beside = rows - middle
     before, behind = (_across(each, along) for each in (beside[:, :-1], beside[:, 1:]))
-    sines = (np.cross(before, behind) * along).sum(axis=2)
-    angles = np.arctan2(sines, (before * behind).sum(axis=2))
+    angles = _turned(before, behind, along)
     return float(angles.sum(axis=1).mean() / math.tau / (SHARES[-1] - SHARES[0]))
 
 
@@ -197,6 +195,12 @@ def _evenly(strand: Floats) -> Floats:
 
 
 def _across(vectors: Floats, along: Floats) -> Floats:
-    """Return what vectors (S, N, 3) have across unit directions, (N, 3)."""
-    across: Floats = vectors - (vectors * along).sum(axis=2, keepdims=True) * along
+    """Return what vectors (..., 3) have across unit directions, (..., 3)."""
+    across: Floats = vectors - (vectors * along).sum(axis=-1, keepdims=True) * along
     return across
+
+
+def _turned(before: Floats, behind: Floats, along: Floats) -> Floats:
+    """Return by what angles vectors are turned about unit directions that they lie across, (...), rad."""
+    sines = (np.cross(before, behind) * along).sum(axis=-1)
+    return np.asarray(np.arctan2(sines, (before * behind).sum(axis=-1)))

@@ -76,3 +76,12 @@ def test_what_makes_no_petals_is_refused(petals, told):
 def test_petals_too_short_to_bend_are_told():
     short = plan(Recipe.parse(HEAD + "  - gather: {a: 15, b: 8}\n"))
     assert any("b (8 cm) is too short for a gather" in str(caution) for caution in short.cautions)
+
+
+@pytest.mark.parametrize(
+    "steps",
+    ["  - gather: {a: 15, b: 20, c: 15}\n    burp: 20 %\n", "  - loop: {a: 15, b: 20}\n    burp: 20 %\n"],
+)
+def test_petals_of_wet_rubber_are_told_to_slip_as_loops_are(steps):
+    wet = plan(Recipe.parse(HEAD + steps + "physics: {friction: 0.05}\nmust_hold: none\n"))
+    assert any("1 locks, loops and ears slip" in str(caution) for caution in wet.cautions)

@@ -76,6 +76,4 @@ class Straighten(Motion):
 
 def _rings(sculpture: LatexSculpture, bubble: str) -> NDArray[np.int64]:
     """Return the rings of the plan of a bubble, from its start to its end."""
-    table = sculpture.plan.table
-    start, end = table.ends(bubble)
-    return np.array([start, *table.guides(bubble), *(() if end is None else (end,))], dtype=np.int64)
+    return np.array(sculpture.plan.table.along(bubble), dtype=np.int64)
