@@ -21,6 +21,9 @@ if TYPE_CHECKING:
     from balloon_usd.operations.operation import Operation
     from balloon_usd.recipe import Recipe
 
+PRESSING = 3.75
+"""Force with which the bubbles about a joint press on each other, N: 7 kPa on two patches of 2.7 cm2."""
+
 
 @dataclass(frozen=True)
 class LooseJoint:
@@ -45,6 +48,11 @@ def slipping_steps(recipe: Recipe) -> frozenset[int]:
 def too_slippery(step: Operation, friction: float) -> bool:
     """Return whether a step winds a neck that does not hold for want of friction."""
     return isinstance(step, Turned) and friction < holding_friction(step.turns)
+
+
+def pose_force(friction: float) -> float:
+    """Return the force up to which the friction of a joint keeps two of its bubbles where they lie, N."""
+    return friction * PRESSING
 
 
 def friction_margin(recipe: Recipe, ends: Iterable[Joint], step: int | None = None) -> float | None:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from balloon_usd.plan.holding import friction_margin
+from balloon_usd.plan.holding import friction_margin, pose_force
 from balloon_usd.quality.bubbles import vertices_of_bubbles
 from balloon_usd.quality.joints import joints_of, made_joints, together
 from balloon_usd.quality.ring_corners import RingCorners
@@ -26,8 +26,8 @@ if TYPE_CHECKING:
 
 BETWEEN_LOOKS = 0.5
 """Time between two frames in which joints are looked at, s."""
-SLIP_DIGITS, TURN_DIGITS, MARGIN_DIGITS = 5, 2, 2
-"""Digits after the point of what is told: m, degrees, and times the friction that is needed."""
+SLIP_DIGITS, TURN_DIGITS, MARGIN_DIGITS, FORCE_DIGITS = 5, 2, 2, 3
+"""Digits after the point of what is told: m, degrees, times the friction that is needed, and N."""
 
 
 class JointHistory:
@@ -90,8 +90,11 @@ class _WatchedJoint:
         self._necks = [RingCorners.of(plan, meshes, ring) for ring in joint.rings]
         self._bubbles = [bubbles[end.bubble] for end in joint.ends]
         self._margin = friction_margin(plan.recipe, joint.ends)
+        number = {bubble.name: k for k, bubble in enumerate(plan.bubbles)}
+        self._ends = [(number[end.bubble], 0 if end.end == "start" else 1) for end in joint.ends]
+        """Its ends, as numbers of bubbles and sides."""
         self._first: _Way | None = None
-        self._slip = self._turn = 0.0
+        self._slip = self._turn = self._force = 0.0
         self._apart: int | None = None
         """First time code at which its necks were open or apart."""
 
@@ -105,6 +108,8 @@ class _WatchedJoint:
         self._slip = max(self._slip, float(np.abs(way.apart - self._first.apart).max()))
         angles = np.arccos(way.cosines) - np.arccos(self._first.cosines)
         self._turn = max(self._turn, float(np.degrees(np.abs(angles).max())))
+        if (force := frame.joint_force) is not None:
+            self._force = max(self._force, *(float(force[end]) for end in self._ends))
 
     def _way(self, frame: Frame) -> _Way:
         necks = np.array([neck.places(frame).mean(axis=0) for neck in self._necks])
@@ -122,9 +127,19 @@ class _WatchedJoint:
             "joint": self._joint.name,
             "ends": ends,
             "meant": self._meant,
-            "margin": None if self._margin is None else round(self._margin, MARGIN_DIGITS),
+            **self._friction(),
             "held": undone is None,
             "undone_at": None if undone is None else round((undone - 1) / fps, 3),
             "slip": round(self._slip, SLIP_DIGITS),
             "turn": round(self._turn, TURN_DIGITS),
+        }
+
+    def _friction(self) -> dict[str, float | None]:
+        """Return what friction does for it; null where no neck is wound about others."""
+        if self._margin is None:
+            return {"margin": None, "force": None, "bears": None}
+        return {
+            "margin": round(self._margin, MARGIN_DIGITS),
+            "force": round(self._force, FORCE_DIGITS),
+            "bears": round(pose_force(self._plan.recipe.physics.friction), FORCE_DIGITS),
         }

@@ -48,6 +48,11 @@ class Frame:
     """How slow every vertex of every balloon is kept that is led out of other walls, (V,) float32, s/m: 0
     where forces alone move it. Empty in the model kosaka.
     """
+    joint_force: NDArray[np.float32] | None = None
+    """Largest force of friction that keeps two bubbles where they lie, of those that meet at the start and at
+    the end of every bubble, (bubbles, 2) float32, N; 0 where no neck is wound about others, None in the model
+    kosaka.
+    """
 
     def forced(self, balloon: int) -> NDArray[np.float32]:
         """Return the stretch at every vertex of a balloon, (V,) float32, and 0 where it is led out of other
@@ -71,4 +76,5 @@ class Frame:
             cluster=tuple([cluster.copy() for cluster in self.cluster]),
             shift=None if self.shift is None else self.shift.copy(),
             slowness=tuple([slowness.copy() for slowness in self.slowness]),
+            joint_force=None if self.joint_force is None else self.joint_force.copy(),
         )

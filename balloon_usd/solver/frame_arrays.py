@@ -45,8 +45,8 @@ class Extent(NamedTuple):
         pressure, volume = (make((self.bubbles,), np.float32) for _ in range(2))
         if self.particles is None:
             contact, shift = (make((self.bubbles,), np.float32) for _ in range(2))
-            slowness = make((self.vertices,), np.float32)
-            return FrameArrays(*walls, pressure, volume, contact, shift=shift, slowness=slowness)
+            slowness, joint_force = make((self.vertices,), np.float32), make((self.bubbles, 2), np.float32)
+            return FrameArrays(*walls, pressure, volume, contact, None, None, shift, slowness, joint_force)
         air, cluster = make((self.particles, 3), np.float32), make((self.particles,), np.int32)
         return FrameArrays(*walls, pressure, volume, None, air, cluster)
 
@@ -97,6 +97,10 @@ class FrameArrays:
     """How slow every vertex is kept that is led out of other walls, (V,) float32, s/m, as in a `Frame`; None
     in the model kosaka.
     """
+    joint_force: NDArray[np.float32] | None = None
+    """Force of friction in the joints of every bubble, (bubbles, 2) float32, N, as in a `Frame`; None in the
+    model kosaka.
+    """
 
     def copy_to(self, other: FrameArrays) -> None:
         """Copy all arrays into others of the same extent."""
@@ -114,7 +118,7 @@ class FrameArrays:
         walls = slice(before.vertices, before.vertices + extent.vertices)
         bubbles = slice(before.bubbles, before.bubbles + extent.bubbles)
         air = slice(before.particles or 0, (before.particles or 0) + (extent.particles or 0))
-        spans = (walls, walls, bubbles, bubbles, bubbles, air, air, bubbles, walls)
+        spans = (walls, walls, bubbles, bubbles, bubbles, air, air, bubbles, walls, bubbles)
         arrays: list[Any] = [
             None if array is None else array[span] for array, span in zip(self._arrays(), spans, strict=True)
         ]
@@ -123,7 +127,7 @@ class FrameArrays:
     def frame(self, place: Place, time_code: int, doing: str = "", undone: tuple[str, ...] = ()) -> Frame:
         """Return the frame of one sculpture: views of these arrays."""
         air, cluster, contact, shift = self.air, self.cluster, self.contact, self.shift
-        slowness = self.slowness
+        slowness, joint_force = self.slowness, self.joint_force
         return Frame(
             time_code,
             tuple([self.points[span] for span in place.walls]),
@@ -137,6 +141,7 @@ class FrameArrays:
             () if cluster is None else tuple([cluster[span] for span in place.air]),
             None if shift is None else shift[place.bubbles],
             () if slowness is None else tuple([slowness[span] for span in place.walls]),
+            None if joint_force is None else joint_force[place.bubbles],
         )
 
     def _arrays(self) -> tuple[Any, ...]:
@@ -150,6 +155,7 @@ class FrameArrays:
             self.cluster,
             self.shift,
             self.slowness,
+            self.joint_force,
         )
 
 

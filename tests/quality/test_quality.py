@@ -189,9 +189,29 @@ def test_every_joint_says_whether_it_held_and_with_how_much_friction(still):
     assert each["nose.end"]["ends"] == ["nose.end", "left_ear.start", "right_ear.end", "neck.start"]
     assert each["nose.end"]["margin"] == pytest.approx(0.8 / holding_friction(3.0), abs=0.01)
     assert each["left_ear.end"]["margin"] is None
+    assert {name: joint["bears"] for name, joint in each.items()} == {
+        "nose.end": pytest.approx(0.8 * 3.75),
+        "left_ear.end": None,
+        "neck.end": None,
+    }
     for joint in each.values():
         assert (joint["held"], joint["undone_at"]) == (True, None)
         assert (joint["slip"], joint["turn"]) == (0.0, 0.0)
+
+
+def test_a_joint_says_the_largest_force_of_its_friction_from_the_let_go_on(figure):
+    plan = figure[0]
+    code = 1 + round(plan.choreography.let_go * plan.recipe.fps)
+
+    def pulled(frame):
+        force = np.zeros((len(plan.bubbles), 2), dtype=np.float32)
+        force[2, 1], force[3, 1] = 1.25, 2.5
+        if frame.time_code < code:
+            force[0, 1] = 3.0
+        return replace(frame, joint_force=force)
+
+    each = by_joint(quality_of(figure, pulled))
+    assert (each["nose.end"]["force"], each["left_ear.end"]["force"]) == (1.25, None)
 
 
 def test_a_joint_says_how_far_its_necks_and_its_bubbles_have_given_way(figure):

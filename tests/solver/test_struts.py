@@ -12,8 +12,10 @@ import pytest
 
 from balloon_usd.operations.moves import LetGo, Pinch, Weld
 from balloon_usd.plan import plan
+from balloon_usd.plan.holding import PRESSING
 from balloon_usd.plan.nets import nets_of
 from balloon_usd.recipe import Recipe
+from balloon_usd.solver.latex.joint_forces import JointForces
 from balloon_usd.solver.latex.struts import CROWD, StrutLaw
 from balloon_usd.solver.simulation import simulate_many
 from tests.solver.test_motions import Room
@@ -63,6 +65,38 @@ def test_struts_that_crowd_at_one_joint_share_what_it_bears(room):
     assert put(crowded, pair, 0.1)[1] == pytest.approx(0.5 * alone)
 
 
+@pytest.fixture
+def welded(room):
+    """A room whose figure has one weld; all its necks are closed, and friction keeps its pose."""
+    hands, sculpture = room.hands, room.sculpture
+    hands.radius_goal[:] = 0.001
+    room.middle[:, 0] = 0.1 * np.arange(len(room.middle))
+    hands.weld((room.joint("nose.end"), room.joint("right.end")))
+    hands.settle()
+    sculpture.hold_pose()
+    sculpture.struts.put(room.middle)
+    return room
+
+
+def test_the_force_of_a_joint_is_the_largest_of_its_struts_at_all_ends_that_meet_in_it(welded):
+    sculpture = welded.sculpture
+    forces = JointForces([sculpture], sculpture.struts)
+    pulls = np.zeros((len(welded.model.scene.strut_joint), 3), dtype=np.float32)
+    pulls[: len(sculpture.struts.pairs)] = [3.0, 0.0, -4.0]
+    pulls[0] = [0.0, 6.0, 0.0]
+    assert not forces.at_ends(pulls).any()
+    forces.renew()
+    names = [bubble.name for bubble in sculpture.plan.bubbles]
+    found = {
+        f"{name}.{end}": float(force)
+        for name, ends in zip(names, forces.at_ends(pulls), strict=True)
+        for end, force in zip(("start", "end"), ends, strict=True)
+        if force
+    }
+    assert set(found) == {"nose.end", "left.start", "right.end", "red_rest.start"}
+    assert set(found.values()) == {6.0}
+
+
 @pytest.fixture(scope="module")
 def icosahedron():
     """A finished icosahedron of three balloons with a centre, in which nothing is simulated: its struts."""
@@ -109,3 +143,29 @@ def test_the_struts_of_a_crowded_net_are_no_stiffer_than_explicit_steps_bear(ico
 def test_a_strut_yields_the_later_the_rougher_the_rubber():
     assert StrutLaw.of_friction(0.8).yielding == pytest.approx(StrutLaw().yielding)
     assert StrutLaw.of_friction(0.0).yielding == 0.0
+
+
+SLIPPERY = """
+format: 1
+name: slippery
+units: cm
+balloons:
+  main: {size: 260, length: 13, tail: 5, color: red}
+steps:
+  - bubbles: {nose: 4, left: 4, right: 4}
+  - lock: [left, right]
+  - rest: tail
+physics: {friction: 0.2, hold: 0.2}
+"""
+
+
+def test_a_joint_of_slippery_rubber_needs_all_the_force_that_its_friction_bears_and_no_more():
+    made = plan(Recipe.parse(SLIPPERY))
+    let_go = 1 + round(made.choreography.let_go * made.recipe.fps)
+    frames = [frame for (frame,) in simulate_many([made], device="cpu").frames() if frame.time_code >= let_go]
+    ends = np.array([frame.joint_force for frame in frames])
+    names = [bubble.name for bubble in made.bubbles]
+    assert ends[:, names.index("left"), 0].max() == pytest.approx(0.2 * PRESSING, rel=0.02)
+    # Two ends of one joint.
+    assert (ends[:, names.index("left"), 0] == ends[:, names.index("nose"), 1]).all()
+    assert not ends[:, names.index("left"), 1].any()

@@ -63,6 +63,10 @@ class Friction:
 
     def pairs(self, hands: Hands) -> set[tuple[int, int]]:
         """Return the pairs of joints (of the scene) whose distance the friction of a weld keeps."""
+        return set().union(*self.kept(hands).values())
+
+    def kept(self, hands: Hands) -> dict[tuple[int, ...], set[tuple[int, int]]]:
+        """Return the pairs of joints (of the scene) whose distance friction keeps, weld by weld."""
         return self._pairs(hands.welds_of(self._rings), lambda ring: hands.radius_goal[ring] > 0.0)
 
     def most_pairs(self) -> set[tuple[int, int]]:
@@ -76,20 +80,25 @@ class Friction:
                 one = {self._rings[ring] for ring in move.rings}
                 beside = [weld for weld in welds if not one.isdisjoint(weld)]
                 welds = [weld for weld in welds if weld not in beside] + [tuple(sorted(one.union(*beside)))]
-                found |= self._pairs(welds, lambda _: True)
+                found.update(*self._pairs(welds, lambda _: True).values())
         return found
 
-    def _pairs(self, groups: Iterable[Sequence[int]], closed: Callable[[int], bool]) -> set[tuple[int, int]]:
-        """Return the pairs of joints that welds keep apart; `closed`: whether a joint is closed by now."""
-        welds = [set(group) for group in groups]
-        meeting = [self._meeting(weld) for weld in welds]
-        ends = [_neighbours(met, closed) for met in meeting]
-        pairs = set()
-        for met, near in zip(meeting, ends, strict=True):
-            pairs |= set(combinations(sorted(near | _cheeks(met, near)), 2)) | _halves(met)
-        for (weld, near), (other, far) in combinations(zip(welds, ends, strict=True), 2):
-            if near & other:
-                pairs |= {(min(a, b), max(a, b)) for a in near - other for b in far - weld if a != b}
+    def _pairs(
+        self, welds: Iterable[tuple[int, ...]], closed: Callable[[int], bool]
+    ) -> dict[tuple[int, ...], set[tuple[int, int]]]:
+        """Return the pairs of joints that each weld keeps; `closed`: whether a joint is closed by now."""
+        met = {weld: self._meeting(set(weld)) for weld in welds}
+        ends = {weld: _neighbours(meeting, closed) for weld, meeting in met.items()}
+        pairs = {
+            weld: set(combinations(sorted(ends[weld] | _cheeks(meeting, ends[weld])), 2)) | _halves(meeting)
+            for weld, meeting in met.items()
+        }
+        for (weld, near), (other, far) in combinations(ends.items(), 2):
+            if near.intersection(other):
+                both = {(min(a, b), max(a, b)) for a in near.difference(other) for b in far.difference(weld)}
+                both = {(a, b) for a, b in both if a != b}
+                pairs[weld] |= both
+                pairs[other] |= both
         return pairs
 
     def _meeting(self, weld: set[int]) -> list[_Met]:

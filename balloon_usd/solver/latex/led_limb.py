@@ -30,7 +30,7 @@ def hold_figure(sculpture: LatexSculpture, joints: Iterable[int] | None = None) 
 
 def leave_figure(sculpture: LatexSculpture) -> None:
     """Leave the pose of a figure to friction, and let it stick to what it lies on."""
-    sculpture.struts.hold(sculpture.friction.pairs(sculpture.hands))
+    sculpture.hold_pose()
     # What leaks shrinks, and so does not stick.
     if sculpture.plan.recipe.physics.leak is None:
         sculpture.hands.lay(list(sculpture.bodies))

@@ -22,6 +22,7 @@ from balloon_usd.solver.latex.body import LatexBody, tube_body
 from balloon_usd.solver.latex.controls import LatexControls
 from balloon_usd.solver.latex.friction import Friction
 from balloon_usd.solver.latex.jams import Jams
+from balloon_usd.solver.latex.joint_forces import JointForces
 from balloon_usd.solver.latex.leak import Leak
 from balloon_usd.solver.latex.motions.table import LATEX_MOTIONS
 from balloon_usd.solver.latex.scene import build_scene
@@ -63,6 +64,7 @@ READ_BACK = (
     "segment_shift",
     "segment_jammed",
     "suspects",
+    "strut_force",
 )
 """Arrays that are read back for every frame."""
 
@@ -112,6 +114,7 @@ class LatexModel(Model):
         readback = Readback(self.scene, READ_BACK)
         super().__init__(self.hands, performers, runs, Layout(self.scene, runs), readback)
         self._jams = Jams(plans, self.layout.places, fps)
+        self._forces = JointForces(self._sculptures, self._struts)
         self._start_readback()
 
     @staticmethod
@@ -122,7 +125,8 @@ class LatexModel(Model):
     def _start_physics(self, begin: float, end: float, middle: NDArray[np.float32]) -> None:
         self._reached = end
         self._leak.advance(begin, end, self._state)
-        self._struts.put(middle)
+        if self._struts.put(middle):
+            self._forces.renew()
         self.hands.upload()
         self.stepper.advance(contact=self.hands.contact, fingers=self.hands.pressing)
         self.hands.arrived()
@@ -150,7 +154,10 @@ class LatexModel(Model):
             state[name][bubbles] for name in ("pressure", "volume", "wall_load", "segment_shift")
         )
         walls = state["x"], state["stretch"]
-        return FrameArrays(*walls, pressure, volume, contact, shift=shift, slowness=state["slowness"])
+        joint_force = self._forces.at_ends(state["strut_force"])
+        return FrameArrays(
+            *walls, pressure, volume, contact, None, None, shift, state["slowness"], joint_force
+        )
 
     def failures(self) -> dict[int, str]:
         """Return failures that the frames do not show, by sculpture."""

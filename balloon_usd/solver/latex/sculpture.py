@@ -35,6 +35,13 @@ class LatexSculpture(Sculpture):
         self.torsion = Torsion(plan, scene, hands, self.joints, self.body, self.friction)
         self.inflated_at: dict[int, float] = {}
         """Time at which each body had its gas, s."""
+        self.pose_kept: dict[tuple[int, ...], set[tuple[int, int]]] = {}
+        """Pairs of joints (of the scene) whose distance friction keeps, by the weld whose it is."""
+
+    def hold_pose(self) -> None:
+        """Let the friction of the welds keep the pose that the figure has."""
+        self.pose_kept = self.friction.kept(self.hands)
+        self.struts.hold(set().union(*self.pose_kept.values()))
 
     def centre(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the centre of the mass of its rubber, (3,), m; `points`: its vertices, (V, 3), m."""

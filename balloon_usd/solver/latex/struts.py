@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from balloon_usd.plan.holding import pose_force
 from balloon_usd.solver.hands import STEP_STIFFNESS
 from balloon_usd.solver.upload import ArrayUpload
 
@@ -29,8 +30,6 @@ ARRAYS = (
     "joint_struts",
 )
 """Device arrays of struts."""
-PRESSING = 3.75
-"""Force with which the bubbles about a joint press on each other, N: 7 kPa on two patches of 2.7 cm2."""
 STRUT_SHARE = 0.6
 """Stiffness of one strut as a share of the largest that a ring bears."""
 CROWD = 18
@@ -51,7 +50,7 @@ class StrutLaw:
     @classmethod
     def of_friction(cls, friction: float) -> Self:
         """Return that of rubber with some friction on rubber."""
-        return cls(yielding=friction * PRESSING)
+        return cls(yielding=pose_force(friction))
 
 
 class Struts:
@@ -95,8 +94,10 @@ class Struts:
                 self._uploads[name].staged()[[self.pairs[pair] for pair in pairs]] = 0.0
                 self._uploads[name].send()
 
-    def put(self, middle: Floats) -> None:
+    def put(self, middle: Floats) -> bool:
         """Put down the struts that were asked for, at the distances that their joints have now.
+
+        Returns whether there were any.
 
         `middle`: of all joints, (J, 3), m.
 
@@ -109,7 +110,7 @@ class Struts:
         if again:
             self._tighten(again, middle)
         if not fresh:
-            return
+            return bool(again)
         before, capacity = len(self.pairs), len(self.scene.strut_joint)
         if before + len(fresh) > capacity:
             raise ValueError(f"{before + len(fresh)} struts but room for {capacity}")
@@ -126,6 +127,7 @@ class Struts:
             else:
                 # Earlier struts may have yielded since: their lengths on the device stay.
                 upload.send(before, len(self.pairs))
+        return True
 
     def _tighten(self, pairs: Sequence[tuple[int, int]], middle: Floats) -> None:
         """Let loosened struts hold the distances that their joints have now."""

@@ -20,7 +20,7 @@ class LatexLetGo(LetGo):
         self._sculpture, self._for_good = sculpture, move.for_good
         if move.for_good:
             sculpture.torsion.let_go(sculpture.struts)
-        sculpture.struts.hold(sculpture.friction.pairs(sculpture.hands))
+        sculpture.hold_pose()
 
     @property
     def ended(self) -> bool:

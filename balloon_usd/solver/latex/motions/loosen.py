@@ -54,7 +54,7 @@ class Loosen(Motion):
         for joint in joints:
             self._hands.lead(int(joint), middle)
         self._joints = joints
-        sculpture.struts.hold(sculpture.friction.pairs(sculpture.hands))
+        sculpture.hold_pose()
         self._bodies = list(sculpture.bodies)
         self._drag = sculpture.scene.settings.drag
         self._puts_down = not sculpture.plan.loose
