@@ -112,7 +112,9 @@ def _step_lines(step: object) -> list[str]:
 
 
 def flow_text(value: object) -> str:
-    """YAML text of plain data on one line, as it may stand anywhere in a recipe."""
+    """YAML text of plain data, or of NumPy's, on one line, as it may stand anywhere in a recipe."""
+    if hasattr(value, "tolist"):
+        return flow_text(value.tolist())
     if isinstance(value, Mapping):
         return "{" + ", ".join(f"{_text(key)}: {flow_text(entry)}" for key, entry in value.items()) + "}"
     if isinstance(value, (list, tuple)):

@@ -7,6 +7,7 @@ from inspect import signature
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -354,3 +355,36 @@ def test_an_unknown_word_and_unknown_arguments_are_refused_at_once() -> None:
         builder.bubble(a=0.1)
     with pytest.raises(TypeError):
         builder.add(dog().build().steps[0], turns=2)
+
+
+def test_numbers_and_arrays_of_numpy_are_written_as_plain_ones():
+    number = np.float32
+    figure = (
+        RecipeBuilder("head", fps=number(30))
+        .balloon("main", size=np.int64(260), tail=number(0.125), color=np.array([1.0, 0.0, 0.5]))
+        .bubbles(nose=number(0.0625), left=0.0625, right=0.0625, seconds=number(2.5))
+        .lock("left", "right", turns=number(3.5))
+        .spiral(["left"], ["right"], turns=number(1.5))
+        .curl(nose=np.float64(0.75))
+        .physics(friction=number(0.5))
+    )
+    assert (
+        figure.to_yaml()
+        == """\
+format: 1
+name: head
+units: cm
+fps: 30
+balloons:
+  main: {size: 260, color: [1, 0, 0.5], tail: 12.5}
+steps:
+  - bubbles: {nose: 6.25, left: 6.25, right: 6.25}
+    seconds: 2.5
+  - lock: [left, right]
+    turns: 3.5
+  - spiral: {bubbles: [[left], [right]], turns: 1.5}
+  - curl: {nose: 0.75}
+physics:
+  friction: 0.5
+"""
+    )
