@@ -28,10 +28,10 @@ if TYPE_CHECKING:
 
 LEAST_HOLE = 1.5
 """Length of a bubble that closes on itself below which it is a ball without a hole, in its widths."""
-STUCK_IN_LOOP, STUCK_IN_RING = 1.0, 1.4
+STUCK_IN_LOOP, STUCK_IN_RING = 0.9, 1.4
 """Length beyond which a bubble gets stuck in a ring of one bubble, or of more, in its depth: in simulations
-of a 260 one of 8 cm stays in a loop of 20 and slips back out of one of 15, and one of 8 goes between two of
-6, one of 9 does not.
+of a 260 one of 7.5 cm stays in a loop of 18 and slips back out of one of 15, one of 6 stays in one of 15 and
+not in one of 12; and one of 8 goes between two of 6, one of 9 does not.
 """
 MOST_SIDES = 64
 """Largest number of bubbles of a ring."""
@@ -187,12 +187,13 @@ class Passing(OnBalloon, Pointed, Timed, Operation):
     def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:
         """Warn of a bubble that gets stuck in its ring."""
         length, depth = layout.bubble(self.bubble).length, depth_of(layout, self.ring)
-        if length > (STUCK_IN_LOOP if len(self.ring) == 1 else STUCK_IN_RING) * depth:
+        most = (STUCK_IN_LOOP if len(self.ring) == 1 else STUCK_IN_RING) * depth
+        if length > most:
             yield Caution(
                 index,
                 f"{self.bubble} ({cm(length)}) may not come through {all_of(self.ring)}",
                 f"the ring is {cm(depth)} deep, and it gets stuck at its far end",
-                f"make it {cm(depth)} long",
+                f"make it {cm(most)} long, or less",
             )
 
     def hand_seconds(self, length: float) -> float:
