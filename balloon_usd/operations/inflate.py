@@ -8,8 +8,10 @@ from pydantic import BeforeValidator, Field, TypeAdapter, WithJsonSchema
 
 from balloon_usd.language.names import Name
 from balloon_usd.language.problem import quoted
+from balloon_usd.language.quantities import Between
 from balloon_usd.operations.modifiers import Timed
 from balloon_usd.operations.operation import Operation
+from balloon_usd.operations.score import STROKE_SECONDS
 
 if TYPE_CHECKING:
     from balloon_usd.language.problem import Path
@@ -17,6 +19,8 @@ if TYPE_CHECKING:
     from balloon_usd.operations.score import Score
     from balloon_usd.operations.workbench import Place, Workbench
 
+MOST_STROKES = 100
+"""Most strokes with which a balloon is blown up."""
 _NAME = TypeAdapter(Name).json_schema()
 _SCHEMA: dict[str, Any] = {"anyOf": [_NAME, {"type": "array", "items": _NAME, "minItems": 1}]}
 
@@ -45,7 +49,7 @@ steps:
   - bubbles: {stalk: 12}
     balloon: stem
   - inflate: leaves
-    seconds: 1.5
+    strokes: 3
   - bubbles: {leaf: 9}
     balloon: leaves
   - lock: {joints: [stalk.end, leaf.end]}
@@ -59,6 +63,8 @@ steps:
         tuple[Name, ...], Field(min_length=1), BeforeValidator(_listed), WithJsonSchema(_SCHEMA)
     ]
     """Blow balloons up now, and not at the beginning: until then they lie there flat."""
+    strokes: Annotated[int, Between(1, MOST_STROKES, "strokes", whole=True)] | None = None
+    """Strokes of a hand pump that blow each of them up; a steady flow when absent."""
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -97,4 +103,7 @@ steps:
 
     def perform(self, score: Score, index: int) -> None:
         """Pump, at all of them at once, and let the rubber come to rest."""
-        score.inflate(self.inflate, index, self.seconds)
+        if self.strokes is not None:
+            calm = self.strokes * STROKE_SECONDS
+            score.refuse_haste(index, self.seconds, calm, f"work the pump {self.strokes} times")
+        score.inflate(self.inflate, index, self.seconds, self.strokes)

@@ -83,11 +83,17 @@ class Move:
         return self.start + self.seconds
 
 
+PUSHING = 0.7
+"""Share of a stroke in which the piston of a pump is pushed in; then it is drawn back."""
+
+
 @dataclass(frozen=True)
 class Inflate(Move):
     """Blow up a balloon with a pump, its knot held."""
 
     balloon: str = ""
+    strokes: int | None = None
+    """Of a hand pump; None for a steady flow."""
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ from balloon_usd.operations.disjoint_sets import DisjointSets
 from balloon_usd.operations.moves import (
     ACROSS,
     POINTS,
+    PUSHING,
     Bring,
     Gather,
     Hold,
@@ -34,6 +35,8 @@ if TYPE_CHECKING:
     from balloon_usd.language.problem import Path, Problem
     from balloon_usd.operations.modifiers import Point
 
+STROKE_SECONDS = 0.7
+"""A stroke of a hand pump, there and back, s."""
 SETTLE_SECONDS = 0.4
 """Pause after inflating, gathering or bending, in which the rubber comes to rest, s."""
 PINCH_SECONDS = 0.55
@@ -212,11 +215,24 @@ class Score:
             told = f"{given:g} s are too short a time to {doing}, expected at least {least:g} s"
             self.refuse(index, {("seconds",): told})
 
-    def inflate(self, balloons: Iterable[str], index: int, seconds: float | None = None) -> None:
-        """Blow balloons up at the same time, each in so long, or as long as a maker takes."""
+    def inflate(
+        self,
+        balloons: Iterable[str],
+        index: int,
+        seconds: float | None = None,
+        strokes: int | None = None,
+    ) -> None:
+        """Blow balloons up at the same time, each in so long, or as long as a maker takes.
+
+        `strokes`: of a hand pump; None for a steady flow.
+        """
         for balloon in balloons:
-            pumping = self.layout.pump_seconds(balloon) if seconds is None else seconds
-            self.moves.append(Inflate(self.now, pumping, index, f"inflate: {balloon}", balloon=balloon))
+            pumping = self.layout.pump_seconds(balloon)
+            if strokes is not None:
+                pumping = max(pumping / PUSHING, strokes * STROKE_SECONDS)
+            pumping = pumping if seconds is None else seconds
+            text = f"inflate: {balloon}"
+            self.moves.append(Inflate(self.now, pumping, index, text, balloon=balloon, strokes=strokes))
         self.now = max(move.end for move in self.moves if isinstance(move, Inflate))
         self.add(Move(self.now, SETTLE_SECONDS, index, "inflated"))
         self.let_go(index)

@@ -10,6 +10,7 @@ from balloon_usd.operations.moves import LeadIn
 from balloon_usd.operations.workpiece import Contact, Joined, Popped
 from balloon_usd.plan.holding import friction_margin
 from balloon_usd.plan.parking import parked
+from balloon_usd.plan.pumping import pumped
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
@@ -31,11 +32,12 @@ def plan_text(plan: Plan) -> str:
     lines = list(head_lines(plan))
     for name, strip in plan.strips.items():
         if strip.shape is not None:
-            lines += ["", *_shape_lines(strip, strip.shape)]
+            lines += ["", *_shape_lines(strip, strip.shape), *_stroke_lines(plan, name)]
         elif strip.capsule:
             lines += ["", *_capsule_lines(strip)]
         else:
             lines += ["", *_strip_lines(strip), *_budget_lines(plan, plan.budgets[name])]
+            lines += _stroke_lines(plan, name)
     graph = [] if plan.of_meshes else ["", *_graph_lines(plan)]
     lines += [*graph, "", *caution_lines(plan.cautions)]
     return "\n".join(lines) + "\n"
@@ -118,6 +120,12 @@ def _budget_lines(plan: Plan, budget: Budget) -> Iterator[str]:
             f"to {at_most(budget.longest_inflation)} "
             f"(tail {at_most(budget.most_tail)} to {at_least(budget.tail_needed)})"
         )
+
+
+def _stroke_lines(plan: Plan, balloon: str) -> Iterator[str]:
+    if (pumping := pumped(plan, balloon)) is not None:
+        each = f"{pumping.air * 1e6:.0f} mL of air"
+        yield f"  {_count(pumping.strokes, 'stroke')} of a pump, {each} each"
 
 
 def _graph_lines(plan: Plan) -> Iterator[str]:

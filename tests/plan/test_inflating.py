@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import math
 import re
 from itertools import product
 
 import pytest
 
-from balloon_usd.operations.moves import Inflate, Pinch
-from balloon_usd.plan import plan
+from balloon_usd.balloon.air import ATMOSPHERE
+from balloon_usd.operations.moves import PUSHING, Inflate, Pinch
+from balloon_usd.operations.score import STROKE_SECONDS
+from balloon_usd.plan import plan, plan_text
+from balloon_usd.plan.pumping import pumped
 from balloon_usd.recipe import Recipe, RecipeError
 
 HEAD = "format: 1\nname: several\nunits: cm\n"
@@ -71,6 +75,34 @@ def test_a_step_blows_up_several_balloons_at_the_same_time_in_the_seconds_that_i
     assert (found["b"].seconds, found["c"].seconds) == (2.5, 2.5)
 
 
+@pytest.mark.parametrize("strokes", [1, 4, 40])
+def test_a_stroke_takes_its_time_and_a_pump_that_is_drawn_back_brings_nothing(strokes):
+    steady = pumps(recipe_of("b", ["{inflate: b}"]))["b"]
+    by_hand = pumps(recipe_of("b", [f"{{inflate: b, strokes: {strokes}}}"]))["b"]
+    assert (steady.strokes, by_hand.strokes) == (None, strokes)
+    assert by_hand.seconds == pytest.approx(max(steady.seconds / PUSHING, strokes * STROKE_SECONDS))
+    hurried = pumps(recipe_of("b", [f"{{inflate: b, strokes: {strokes}, seconds: 30}}"]))["b"]
+    assert hurried.seconds == 30.0
+
+
+def test_a_pump_is_not_worked_faster_than_a_hand_can():
+    (line,) = refusals("{inflate: a, strokes: 10, seconds: 3}")
+    told = "3 s are too short a time to work the pump 10 times, expected at least 3.5 s"
+    assert line.endswith(f"steps[0].seconds: {told}")
+    assert plan(recipe_of("a", ["{inflate: a, strokes: 10, seconds: 3.5}"]))
+
+
+def test_the_plan_tells_how_much_air_each_stroke_brings():
+    made = plan(recipe_of("ab", ["{inflate: a, strokes: 5}", "{inflate: b}"]))
+    budget, size = made.budgets["a"], made.strips["a"].size
+    air = (ATMOSPHERE + budget.pressure) * budget.volume / ATMOSPHERE - math.pi * size.radius**2 * size.length
+    pumping = pumped(made, "a")
+    assert (pumping.strokes, pumping.air) == (5, pytest.approx(air / 5))
+    assert pumped(made, "b") is None
+    (line,) = (line for line in plan_text(made).splitlines() if "stroke" in line)
+    assert line == f"  5 strokes of a pump, {1e6 * pumping.air:.0f} mL of air each"
+
+
 def test_nothing_is_awaited_at_the_beginning_where_every_balloon_has_a_step():
     made = plan(recipe_of("a", ["{wait: 1}", "{inflate: a}"]))
     assert [move.text for move in made.choreography.moves[:2]] == ["wait", "inflate: a"]
@@ -88,8 +120,13 @@ def test_a_recipe_with_the_step_is_written_back_as_it_was():
         ("inflate: e", 'inflate: unknown balloon "e", expected one of a, b'),
         ("inflate: [a, a]", 'balloon "a" is blown up at steps[0].inflate[0], expected each balloon once'),
         ("inflate: []", "inflate: is empty, expected at least one entry"),
+        ("inflate: a, strokes: 0", "0 is out of range, expected 1 to 100 strokes, the nearest is 1"),
+        ("inflate: a, strokes: 2.5", "2.5 is no whole number, expected 1 to 100 strokes"),
         ("inflate: 7", "7 does not fit, expected a balloon, or a list such as [red, blue]"),
-        ("inflate: a, balloon: a", "balloon: makes no sense with inflate, expected one of seconds, note"),
+        (
+            "inflate: a, balloon: a",
+            "balloon: makes no sense with inflate, expected one of strokes, seconds, note",
+        ),
     ],
 )
 def test_what_is_blown_up_is_one_or_several_balloons_that_are_there(step, told):

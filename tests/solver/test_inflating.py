@@ -7,7 +7,8 @@ import re
 import numpy as np
 import pytest
 
-from balloon_usd.operations.moves import Inflate
+from balloon_usd.balloon.air import ATMOSPHERE
+from balloon_usd.operations.moves import PUSHING, Inflate
 from balloon_usd.plan import choreography, plan
 from balloon_usd.recipe import Recipe
 from balloon_usd.solver.errors import SimulationFailed
@@ -79,6 +80,42 @@ def test_it_then_has_its_length_and_its_pressure(frames, planned, pump):
 def test_what_is_made_of_it_holds(frames, planned):
     assert planned.cautions == ()
     assert frames[-1][-1] == ()
+
+
+STROKES = (
+    HEAD
+    + """balloons: {one: {size: 350, length: 9, inflated: 16}}
+steps:
+  - inflate: one
+    strokes: 4
+  - wait: 1
+physics: {hold: 0}
+"""
+)
+
+
+def test_every_stroke_of_a_hand_pump_brings_as_much_and_none_flows_back_between_them():
+    made = plan(Recipe.parse(STROKES))
+    move = next(move for move in made.choreography.moves if isinstance(move, Inflate))
+    gas = np.array(
+        [
+            float(((ATMOSPHERE + frame.pressure) * frame.volume).sum())
+            for frame in simulate(made, device="cpu")
+        ]
+    )
+    frames = made.recipe.fps * (move.start + move.seconds * np.arange(5) / 4.0)
+    after = gas[np.round(frames).astype(int)]
+    assert np.diff(after) == pytest.approx((gas[-1] - gas[0]) / 4.0, rel=0.05)
+    drawn_back = made.recipe.fps * (move.start + move.seconds * (np.arange(4) + PUSHING) / 4.0)
+    assert gas[np.ceil(drawn_back).astype(int)] == pytest.approx(after[1:], rel=0.01)
+    assert np.diff(gas).min() > -0.01 * np.diff(after).mean()
+
+
+def test_a_hand_pump_that_is_worked_as_fast_as_one_can_brings_all_its_air():
+    made = plan(Recipe.parse(STROKES.replace("strokes: 4", "strokes: 4\n    seconds: 1.4")))
+    for frame in simulate(made, device="cpu"):
+        assert frame.volume.min() > 0.0
+    assert frame.volume.sum() == pytest.approx(made.budgets["one"].volume, rel=0.05)
 
 
 def test_a_pump_that_brings_too_little_says_what_to_write_and_that_works(monkeypatch):

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from balloon_usd.balloon.ringed_faces import polygon_share
 from balloon_usd.balloon.tube_theory import pressure_maximum
 from balloon_usd.plan.budget import blown_in
+from balloon_usd.solver.latex.motions.strokes import MOST_FLOW, brought
 from balloon_usd.solver.latex.motions.tail import Tail
 from balloon_usd.solver.motions.motion import Motion
 
@@ -23,6 +24,8 @@ PUMP_RAMP = 0.2
 """Share of that time in which the pump starts, and stops."""
 RAMP_SECONDS = 1.4
 """Time that it takes for that at least, s, if there is as much: the first bulge jumps out of a tube."""
+FIRST_PUSH = 0.3
+"""Time in which the first push of a hand pump grows at least, s: pushed harder, a flat tube folds inwards."""
 BIRTH = 0.5
 """Share of the start in which the first bulge grows: it leans over the knot, and its walls may touch, which
 costs 30 % of the speed of a run; the hand keeps the tail taut.
@@ -36,7 +39,7 @@ class Inflate(Motion):
 
     def __init__(self, move: moves.Inflate, sculpture: LatexSculpture) -> None:
         """Put the pump on."""
-        self._sculpture, self._seconds = sculpture, move.seconds
+        self._sculpture, self._seconds, self._strokes = sculpture, move.seconds, move.strokes
         self._ramp = PUMP_RAMP
         """Share of its time in which the pump starts, and stops."""
         self._body = sculpture.body[move.balloon]
@@ -52,6 +55,13 @@ class Inflate(Motion):
             self._tail = Tail(sculpture, move.balloon)
         else:
             self._pump_shape(shape)
+        self._begun = self._gas
+        """Gas that it has at first, mol."""
+
+    @property
+    def _gas(self) -> float:
+        """Gas that the balloon has when the coming frame begins, mol."""
+        return float(self._sculpture.hands.amount[self._sculpture.scene.bubbles_of(self._body)].sum())
 
     def _hold_tube(self, balloon: str) -> None:
         scene, hands, b = self._sculpture.scene, self._sculpture.hands, self._body
@@ -76,11 +86,10 @@ class Inflate(Motion):
         hands.touch(self._sculpture.bodies)
 
     def advance(self, share: float) -> None:
-        """Pump: it starts and stops gently, as a tube is pushed along by its own front."""
+        """Pump: steadily, or stroke by stroke."""
         hands, b = self._sculpture.hands, self._body
-        gentle = min(1.0, share / self._ramp, (1.0 - share) / self._ramp)
-        flow = hands.pump_goal[b] / (PUMP_TIME * (1.0 - self._ramp) * self._seconds)
-        hands.pump_flow[b] = flow * max(gentle, 0.0)
+        steady = self._strokes is None
+        hands.pump_flow[b] = self._steady_flow(share) if steady else self._stroke_flow(share)
         if self._tail is not None:
             taut = min(max((1.0 - share / self._ramp) / (1.0 - BIRTH), 0.0), 1.0)
             self._tail.lead(float(hands.pump_flow[b]), taut)
@@ -90,9 +99,30 @@ class Inflate(Motion):
         if share >= 1.0:
             self._take_pump_off()
 
+    def _steady_flow(self, share: float) -> float:
+        """Return the flow after a share of the time, mol/s.
+
+        It starts and stops gently, as a tube is pushed along by its own front.
+        """
+        gentle = min(1.0, share / self._ramp, (1.0 - share) / self._ramp)
+        flow: float = self._sculpture.hands.pump_goal[self._body]
+        return flow / (PUMP_TIME * (1.0 - self._ramp) * self._seconds) * max(gentle, 0.0)
+
+    def _stroke_flow(self, share: float) -> float:
+        """Return the flow that brings what is due after a share of the time, mol/s."""
+        if share >= 1.0 or self._strokes is None:
+            return 0.0
+        begin, end, _ = self._sculpture.frame
+        all_of_it = float(self._sculpture.hands.pump_goal[self._body]) - self._begun
+        due = self._begun + brought(share, self._strokes) * all_of_it
+        gentle = min(share * self._seconds / FIRST_PUSH, 1.0)
+        most = gentle * MOST_FLOW * all_of_it / self._seconds
+        return min(max(due - self._gas, 0.0) / (end - begin), most)
+
     def _take_pump_off(self) -> None:
         settings, hands = self._sculpture.scene.settings, self._sculpture.hands
         if self._tail is not None:
+            self._tail.leave()
             hands.set_drag(self._body, settings.drag)
         hands.set_softening(self._body, settings.dt / SOFTENING_SECONDS)
         self._sculpture.inflated_at[self._body] = self._sculpture.frame.end

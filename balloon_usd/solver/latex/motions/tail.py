@@ -59,5 +59,7 @@ class Tail:
         ahead = np.float32(taut) * self._ahead
         start[0] += ahead
         goal[0] += ahead
-        if flow == 0.0:
-            hands.free[tip] = ALONG
+
+    def leave(self) -> None:
+        """Hold it only across from now on: what is blown up lies as long as it is."""
+        self._sculpture.hands.free[self._tip] = ALONG
