@@ -215,6 +215,7 @@ def plan_json(plan: Plan) -> dict[str, Any]:
                 **_balloon_json(strip, plan.budgets.get(name)),
                 "aside": aside.get(name, 0.0),
                 "led_in": led_in.get(name),
+                "pumping": None if (pumping := pumped(plan, name)) is None else pumping._asdict(),
             }
             for name, strip in plan.strips.items()
         ],

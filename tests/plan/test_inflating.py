@@ -11,7 +11,7 @@ import pytest
 from balloon_usd.balloon.air import ATMOSPHERE
 from balloon_usd.operations.moves import PUSHING, Inflate, Pinch
 from balloon_usd.operations.score import STROKE_SECONDS
-from balloon_usd.plan import plan, plan_text
+from balloon_usd.plan import plan, plan_json, plan_text
 from balloon_usd.plan.pumping import pumped
 from balloon_usd.recipe import Recipe, RecipeError
 
@@ -99,6 +99,8 @@ def test_the_plan_tells_how_much_air_each_stroke_brings():
     pumping = pumped(made, "a")
     assert (pumping.strokes, pumping.air) == (5, pytest.approx(air / 5))
     assert pumped(made, "b") is None
+    told = {balloon["name"]: balloon["pumping"] for balloon in plan_json(made)["balloons"]}
+    assert told == {"a": {"strokes": 5, "air": pumping.air}, "b": None}
     (line,) = (line for line in plan_text(made).splitlines() if "stroke" in line)
     assert line == f"  5 strokes of a pump, {1e6 * pumping.air:.0f} mL of air each"
 
