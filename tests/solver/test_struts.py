@@ -85,7 +85,7 @@ def test_the_force_of_a_joint_is_the_largest_of_its_struts_at_all_ends_that_meet
     pulls[: len(sculpture.struts.pairs)] = [3.0, 0.0, -4.0]
     pulls[0] = [0.0, 6.0, 0.0]
     assert not forces.at_ends(pulls).any()
-    forces.renew()
+    forces.follow()
     names = [bubble.name for bubble in sculpture.plan.bubbles]
     found = {
         f"{name}.{end}": float(force)
@@ -95,6 +95,26 @@ def test_the_force_of_a_joint_is_the_largest_of_its_struts_at_all_ends_that_meet
     }
     assert set(found) == {"nose.end", "left.start", "right.end", "red_rest.start"}
     assert set(found.values()) == {6.0}
+
+
+def test_what_a_pop_gives_up_before_it_was_held_has_no_force(room):
+    hands, sculpture = room.hands, room.sculpture
+    hands.radius_goal[:] = 0.001
+    hands.weld((room.joint("nose.end"), room.joint("right.end")))
+    hands.settle()
+    sculpture.hold_pose()
+    sculpture.friction.popped.update({"left", "right"})
+    sculpture.give_up_pose()
+    sculpture.hold_pose()
+    sculpture.friction.popped.clear()
+    sculpture.give_up_pose()
+    sculpture.struts.put(room.middle)
+    forces = JointForces([sculpture], sculpture.struts)
+    forces.follow()
+    kept = set().union(*sculpture.pose_kept.values())
+    assert set(sculpture.struts.pairs) < kept
+    pulls = np.ones((len(room.model.scene.strut_joint), 3), dtype=np.float32)
+    assert np.count_nonzero(forces.at_ends(pulls)) == 4 * bool(sculpture.struts.pairs)
 
 
 @pytest.fixture(scope="module")

@@ -42,13 +42,14 @@ class JointForces:
         self._welds = [_Welds(0, *_no_struts(), _no_ends(sculpture)) for sculpture in sculptures]
         self._join()
 
-    def renew(self) -> None:
-        """Take note of what is held, where struts were put down."""
-        for k, sculpture in enumerate(self._sculptures):
-            if sculpture.pose_kept is not self._kept[k]:
-                self._kept[k] = sculpture.pose_kept
-                self._welds[k] = _welds_of(sculpture, self._struts)
-        self._join()
+    def follow(self) -> None:
+        """Take note of poses that are kept since, once their struts are put down."""
+        changed = [k for k, each in enumerate(self._sculptures) if each.pose_kept is not self._kept[k]]
+        for k in changed:
+            self._kept[k] = self._sculptures[k].pose_kept
+            self._welds[k] = _welds_of(self._sculptures[k], self._struts)
+        if changed:
+            self._join()
 
     def _join(self) -> None:
         first = np.cumsum([0, *(welds.number for welds in self._welds)])
@@ -88,6 +89,7 @@ def _welds_of(sculpture: LatexSculpture, struts: Struts) -> _Welds:
         for side, ring in enumerate(table.ends(bubble.name)):
             if ring is not None:
                 at[side] = number.get(sculpture.joints[ring], NO_WELD)
-    found = [(struts.pairs[pair], k) for k, pairs in enumerate(kept.values()) for pair in sorted(pairs)]
+    put = struts.pairs
+    found = [(put[pair], k) for k, pairs in enumerate(kept.values()) for pair in sorted(pairs) if pair in put]
     strut, holder = np.array(found, dtype=np.int64).reshape(-1, 2).T
     return _Welds(len(kept), strut, holder, ends)

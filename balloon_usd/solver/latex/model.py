@@ -125,8 +125,8 @@ class LatexModel(Model):
     def _start_physics(self, begin: float, end: float, middle: NDArray[np.float32]) -> None:
         self._reached = end
         self._leak.advance(begin, end, self._state)
-        if self._struts.put(middle):
-            self._forces.renew()
+        self._struts.put(middle)
+        self._forces.follow()
         self.hands.upload()
         self.stepper.advance(contact=self.hands.contact, fingers=self.hands.pressing)
         self.hands.arrived()

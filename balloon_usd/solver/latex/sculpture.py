@@ -43,6 +43,11 @@ class LatexSculpture(Sculpture):
         self.pose_kept = self.friction.kept(self.hands)
         self.struts.hold(set().union(*self.pose_kept.values()))
 
+    def give_up_pose(self) -> None:
+        """Let friction keep of the pose only what the welds keep that hold by now."""
+        self.pose_kept = self.friction.kept(self.hands)
+        self.struts.release(set(self.joints), set().union(*self.pose_kept.values()))
+
     def centre(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the centre of the mass of its rubber, (3,), m; `points`: its vertices, (V, 3), m."""
         mass = self.scene.true_mass.numpy()[self.vertices].astype(np.float64)

@@ -94,10 +94,8 @@ class Struts:
                 self._uploads[name].staged()[[self.pairs[pair] for pair in pairs]] = 0.0
                 self._uploads[name].send()
 
-    def put(self, middle: Floats) -> bool:
+    def put(self, middle: Floats) -> None:
         """Put down the struts that were asked for, at the distances that their joints have now.
-
-        Returns whether there were any.
 
         `middle`: of all joints, (J, 3), m.
 
@@ -110,7 +108,7 @@ class Struts:
         if again:
             self._tighten(again, middle)
         if not fresh:
-            return bool(again)
+            return
         before, capacity = len(self.pairs), len(self.scene.strut_joint)
         if before + len(fresh) > capacity:
             raise ValueError(f"{before + len(fresh)} struts but room for {capacity}")
@@ -127,7 +125,6 @@ class Struts:
             else:
                 # Earlier struts may have yielded since: their lengths on the device stay.
                 upload.send(before, len(self.pairs))
-        return True
 
     def _tighten(self, pairs: Sequence[tuple[int, int]], middle: Floats) -> None:
         """Let loosened struts hold the distances that their joints have now."""

@@ -22,7 +22,7 @@ class Pop(Motion):
         self._segment = int(self._hands.beside[sculpture.joints[ring], side])
         self._begun = float(self._hands.pressure[self._segment])
         sculpture.friction.popped.add(move.bubble)
-        sculpture.struts.release(set(sculpture.joints), sculpture.friction.pairs(self._hands))
+        sculpture.give_up_pose()
 
     def advance(self, share: float) -> None:
         """Let its pressure fall to that of the room."""
