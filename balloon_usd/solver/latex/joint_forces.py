@@ -82,8 +82,10 @@ def _no_ends(sculpture: LatexSculpture) -> Integers:
 
 
 def _welds_of(sculpture: LatexSculpture, struts: Struts) -> _Welds:
-    kept = sculpture.pose_kept
-    table, ends = sculpture.plan.table, _no_ends(sculpture)
+    kept, table, ends = sculpture.pose_kept, sculpture.plan.table, _no_ends(sculpture)
+    if not kept:
+        # Balloons from meshes have no rings.
+        return _Welds(0, *_no_struts(), ends)
     number = {joint: k for k, weld in enumerate(kept) for joint in weld}
     for bubble, at in zip(sculpture.plan.bubbles, ends, strict=True):
         for side, ring in enumerate(table.ends(bubble.name)):
