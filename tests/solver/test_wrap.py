@@ -14,6 +14,7 @@ from balloon_usd.quality.passed import solid_angles
 from balloon_usd.quality.ring_corners import RingCorners
 from balloon_usd.quality.watch import QualityWatch
 from balloon_usd.recipe import Recipe, RecipeError
+from balloon_usd.solver.kernels.physics.motion import LYING_SPEED
 from balloon_usd.solver.latex.motions.wrap import half_angle
 from balloon_usd.solver.simulation import simulate_many
 
@@ -54,6 +55,7 @@ def test_the_neck_stays_in_the_bubble_that_is_closed_round_it(wrapped):
     assert quality["passed"]["through"]["nose"] > 0.5
     assert quality["crossings"]["value"] == quality["crossings"]["most"] == 0
     assert quality["creep"]["value"] < 3e-3
+    assert quality["speed"]["value"] < 1.1 * LYING_SPEED, "nothing draws at what lies"
     assert quality["joints"]["held"] == quality["joints"]["meant"] == 2
 
 

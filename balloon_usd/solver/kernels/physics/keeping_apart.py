@@ -101,8 +101,9 @@ def move_together(mesh: Mesh, balloons: Balloons, joints: Joints, hands: Hands, 
     """Write where every vertex goes after a round: what would cross moves as one, what is beside it nearly;
     what would have crossed in an earlier round goes on as it did then, after some rounds.
 
-    What lies does not move at all where it would cross; of a sculpture that sticks nothing does in the last
-    rounds, which always ends. A closed ring moves as those of its vertices that would cross: as
+    What lies does not move at all where it would cross, and is not smoothed: beside a closed ring that joints
+    move every time that was drawn out into spikes of 60 mm. Of a sculpture that sticks nothing moves in the
+    last rounds, which always ends. A closed ring moves as those of its vertices that would cross: as
     the mean of all, it took a hundred rounds. Closed rings stay what they are, and move first as without
     this, longest where hands hold them.
     """
@@ -137,16 +138,16 @@ def move_together(mesh: Mesh, balloons: Balloons, joints: Joints, hands: Hands, 
         beside += beside_one / float(around)
         smoothing = wp.max(smoothing, smoothed)
     smoothing *= SPREAD
+    lies = int_at(balloons.touching, int_at(mesh.vertex_balloon, i)) == LYING
     if crossing > 0.0:
         smoothing = 1.0
         motion = led / crossing
-        lies = int_at(balloons.touching, int_at(mesh.vertex_balloon, i)) == LYING
         stuck = crossings.put_back[int_at(balloons.balloon_world, int_at(mesh.vertex_balloon, i))] > STUCK
         if lies or (stuck and done > MOVED_ROUNDS):
             motion = wp.vec3(0.0)
     elif crossed == 1 and done > SMOOTHED_ROUNDS:
         smoothing = 1.0
-    else:
+    elif not lies:
         motion += wp.min(MORE * float(done), MOST_SMOOTHED) * smoothing * (beside - motion)
     crossings.smoothing_next[i] = smoothing
     crossings.x_coming[i] = vec3_at(crossings.x_safe, i) + motion
