@@ -291,7 +291,7 @@ def move_joint(
         s += kick
         if lies:
             s = wp.vec3(0.0)
-            d = axes * (closed * vec2_at(mesh.ring_cos_sin, i)) - shift
+            d = vec3_at(state.x, i) - old_middle - shift
         elif closed > 0.0:
             arm = axes * (closed * vec2_at(mesh.ring_cos_sin, i))
             s += (c + arm - d) / dt - wp.cross(turn, arm)

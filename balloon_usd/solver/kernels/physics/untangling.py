@@ -7,6 +7,7 @@ import warp as wp
 from balloon_usd.solver.kernels.arrays.latex import Crossings
 from balloon_usd.solver.kernels.arrays.shared import Balloons, Contacts, Hands, Joints, Mesh, State
 from balloon_usd.solver.kernels.device.array_access import float_at, int_at, vec3_at, vec4i_at
+from balloon_usd.solver.kernels.physics.motion import LYING
 from balloon_usd.solver.kernels.physics.piercing_edge import PER_UNIT
 
 NOT_LOOKED = wp.constant(-1)
@@ -39,7 +40,7 @@ LEAST = wp.constant(0.01)
 """Smoothing below which a vertex stays where it is."""
 NEGLIGIBLE = wp.constant(2.0e-6)
 """How far a vertex has to go in a round to be moved at all, and so to be looked at again, m: a tenth of the
-time of a crown of 54 bubbles.
+time of a crown of 54 bubbles. What lies is moved by less: it is put back exactly, or comes nearer for ever.
 """
 
 
@@ -168,7 +169,9 @@ def end_round(mesh: Mesh, balloons: Balloons, crossings: Crossings):
         smoothing = crossings.smoothing_next[i]
         goes = bool(False)
         if smoothing > LEAST:
-            goes = wp.length(crossings.x_coming[i] - crossings.x_apart[i]) > NEGLIGIBLE
+            lies = int_at(balloons.touching, int_at(mesh.vertex_balloon, i)) == LYING
+            least = wp.where(lies, 0.0, NEGLIGIBLE)
+            goes = wp.length(crossings.x_coming[i] - crossings.x_apart[i]) > least
         crossings.restless[i] = wp.where(crossings.way_back[i][3] > 0 or goes, 1, 0)
         crossings.way_back[i] = wp.vec4i(0)
         crossings.smoothing[i] = smoothing
