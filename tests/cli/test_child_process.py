@@ -65,7 +65,7 @@ def stand_still():
 
 
 def get_on():
-    time.sleep(2)
+    time.sleep(5)
     return "done"
 
 
@@ -145,7 +145,7 @@ def test_a_crash_leaves_no_report_of_the_library(child, tmp_path, monkeypatch):
 
 def test_a_child_that_does_not_get_on_is_given_up(child, monkeypatch):
     monkeypatch.setattr(child_process, "GLANCE", 0.1)
-    monkeypatch.setattr(child_process, "STALLED", 1.4)
+    monkeypatch.setattr(child_process, "STALLED", 4.0)
     monkeypatch.setattr(child_process, "GRACE", 0.2)
     with pytest.raises(DamagedError, match="reading it did not get on for"):
         child.call(["no.usdz"], stand_still)

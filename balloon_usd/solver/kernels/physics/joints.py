@@ -21,7 +21,7 @@ from balloon_usd.solver.kernels.device.barrier import warp_barrier
 from balloon_usd.solver.kernels.device.coherent_load import coherent_float, coherent_vec3
 from balloon_usd.solver.kernels.device.warp_reduce import block_lanes, warp_ballot, warp_sum3, warp_sum8
 from balloon_usd.solver.kernels.physics.gas import fan_gradient
-from balloon_usd.solver.kernels.physics.motion import LYING, force_on_vertex, step_of_vertex, sticking
+from balloon_usd.solver.kernels.physics.motion import force_on_vertex, lying, step_of_vertex, sticking
 
 GRIP_MODE = 1
 LEAD_MODE = 2
@@ -212,7 +212,8 @@ def move_joint(
     stiffness = float_at(hands.hand_stiffness, j)
     free = vec3_at(hands.hand_free, j)
     touching = int_at(balloons.touching, int_at(mesh.vertex_balloon, first))
-    lies = closed > 0.0 and touching == LYING and held(mode) == 0
+    # Walls alone move a closed ring that lies: they would move it out again from where it is put here.
+    stays = closed > 0.0 and lying(first, mesh, balloons) and held(mode) == 0
     # The sine of the angle between two corners.
     sine = vec2_at(mesh.ring_cos_sin, first + 1)[1]
     # Prefetch: issued early to hide its latency.
@@ -273,7 +274,7 @@ def move_joint(
     turn = wp.vec3(0.0)
     # A ring that parts nothing is never closed: hands only need its middle.
     if parts == 1:
-        if mode != CLASP and not lies:
+        if mode != CLASP and not stays:
             axes = nearest_axes(sums[3], sums[4])
             if closed > 0.0:
                 own = sums[7] - float(n) * wp.cross(c, w)
@@ -289,10 +290,7 @@ def move_joint(
             s = vec3_at(state.v, i)
         d = p - old_middle
         s += kick
-        if lies:
-            s = wp.vec3(0.0)
-            d = vec3_at(state.x, i) - old_middle - shift
-        elif closed > 0.0:
+        if closed > 0.0:
             arm = axes * (closed * vec2_at(mesh.ring_cos_sin, i))
             s += (c + arm - d) / dt - wp.cross(turn, arm)
             d = c + arm
@@ -300,12 +298,13 @@ def move_joint(
             over = sticking(s, touching)
             s -= over
             d -= over * dt
-        put_vec3(state.x, i, old_middle + (d + shift))
-        put_vec3(state.v, i, s)
+        if not stays:
+            put_vec3(state.x, i, old_middle + (d + shift))
+        put_vec3(state.v, i, wp.where(stays, wp.vec3(0.0), s))
     if lane == 0 and not idle:
-        if not lies:
+        if not stays:
             put_vec3(joints.ring_middle, j, old_middle + (c + shift))
-        put_vec3(joints.ring_velocity, j, wp.where(lies, wp.vec3(0.0), w + kick))
+        put_vec3(joints.ring_velocity, j, wp.where(stays, wp.vec3(0.0), w + kick))
         put_vec3(hands.hand_load, j, load)
         joints.ring_axes[j] = axes
         put_vec3(joints.ring_area, j, area)
@@ -388,8 +387,7 @@ def weld_joint_to_others(
     mine = float_at(joints.joint_mass, j)
     here = vec3_at(joints.ring_middle, j)
     velocity = vec3_at(joints.ring_velocity, j)
-    lies = int_at(balloons.touching, int_at(mesh.vertex_balloon, first)) == LYING
-    free = g >= 0 and held(int_at(hands.hand, j)) == 0 and not lies and not idle
+    free = g >= 0 and held(int_at(hands.hand, j)) == 0 and not lying(first, mesh, balloons) and not idle
     g = wp.max(g, 0)
     size = wp.where(free, int_at(welds.weld_size, g), 0)
     gap = float_at(welds.weld_gap, g)

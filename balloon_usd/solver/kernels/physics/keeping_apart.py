@@ -9,7 +9,7 @@ from balloon_usd.solver.kernels.arrays.latex import Crossings
 from balloon_usd.solver.kernels.arrays.shared import Balloons, Contacts, Hands, Joints, Mesh, State
 from balloon_usd.solver.kernels.device.array_access import int_at, vec3_at
 from balloon_usd.solver.kernels.physics.joints import held
-from balloon_usd.solver.kernels.physics.motion import LYING, SLOW
+from balloon_usd.solver.kernels.physics.motion import SLOW, lying
 from balloon_usd.solver.kernels.physics.piercing_edge import PER_METRE
 from balloon_usd.solver.kernels.physics.reaction import reaction_after
 from balloon_usd.solver.kernels.physics.surface import velocity_of_spin
@@ -138,7 +138,7 @@ def move_together(mesh: Mesh, balloons: Balloons, joints: Joints, hands: Hands, 
         beside += beside_one / float(around)
         smoothing = wp.max(smoothing, smoothed)
     smoothing *= SPREAD
-    lies = int_at(balloons.touching, int_at(mesh.vertex_balloon, i)) == LYING
+    lies = lying(i, mesh, balloons)
     if crossing > 0.0:
         smoothing = 1.0
         motion = led / crossing

@@ -23,6 +23,12 @@ burst. Once hands loosen their grip nothing is slowed: walls that cannot move st
 
 
 @wp.func
+def lying(i: int, mesh: Mesh, balloons: Balloons):
+    """Return whether a vertex is of a balloon that was put down."""
+    return int_at(balloons.touching, int_at(mesh.vertex_balloon, i)) == LYING
+
+
+@wp.func
 def sticking(velocity: wp.vec3, touching: int):
     """Return what a velocity (m/s) has too much where a wall sticks to what it lies on."""
     over = wp.vec3(0.0)

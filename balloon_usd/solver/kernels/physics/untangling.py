@@ -7,7 +7,7 @@ import warp as wp
 from balloon_usd.solver.kernels.arrays.latex import Crossings
 from balloon_usd.solver.kernels.arrays.shared import Balloons, Contacts, Hands, Joints, Mesh, State
 from balloon_usd.solver.kernels.device.array_access import float_at, int_at, vec3_at, vec4i_at
-from balloon_usd.solver.kernels.physics.motion import LYING
+from balloon_usd.solver.kernels.physics.motion import lying
 from balloon_usd.solver.kernels.physics.piercing_edge import PER_UNIT
 
 NOT_LOOKED = wp.constant(-1)
@@ -169,8 +169,7 @@ def end_round(mesh: Mesh, balloons: Balloons, crossings: Crossings):
         smoothing = crossings.smoothing_next[i]
         goes = bool(False)
         if smoothing > LEAST:
-            lies = int_at(balloons.touching, int_at(mesh.vertex_balloon, i)) == LYING
-            least = wp.where(lies, 0.0, NEGLIGIBLE)
+            least = wp.where(lying(i, mesh, balloons), 0.0, NEGLIGIBLE)
             goes = wp.length(crossings.x_coming[i] - crossings.x_apart[i]) > least
         crossings.restless[i] = wp.where(crossings.way_back[i][3] > 0 or goes, 1, 0)
         crossings.way_back[i] = wp.vec4i(0)
