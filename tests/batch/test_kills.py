@@ -63,7 +63,9 @@ def test_every_process_may_be_killed_once_and_everything_is_made(cli, solver, gp
     assert sum(names == ["c"] for names in solver.calls) <= 1
 
 
-@pytest.mark.parametrize("role", ["simulator", "writer", pytest.param("drawer", marks=LONG)])
+@pytest.mark.parametrize(
+    "role", ["simulator", *(pytest.param(role, marks=LONG) for role in ("writer", "drawer"))]
+)
 def test_a_recipe_that_always_kills_is_given_up_and_all_others_are_made(
     role, cli, solver, gpu, write_recipes, tmp_path
 ):
@@ -81,6 +83,7 @@ def test_a_recipe_that_always_kills_is_given_up_and_all_others_are_made(
     assert not [file for file in runs.tree(tmp_path / "out") if file.startswith(".")]
 
 
+@LONG
 def test_two_recipes_that_always_kill_the_one_writer_of_the_cpu_are_found(
     cli, solver, write_recipes, tmp_path
 ):
@@ -111,7 +114,7 @@ def killed_in_between(run, folder, moment, role):
     return process, heard[0], bool(found)
 
 
-@pytest.mark.parametrize(("count", "seed"), [(2, 1), pytest.param(20, 2, marks=LONG)])
+@pytest.mark.parametrize(("count", "seed"), [(1, 1), pytest.param(20, 2, marks=LONG)])
 @pytest.mark.parametrize("role", ["simulator", "writer"])
 def test_a_worker_killed_at_any_moment_changes_nothing(role, count, seed, undisturbed, tmp_path):
     chance = random.Random(seed)
@@ -137,7 +140,7 @@ def killed_whole(start, folder, moment, ending=signal.SIGKILL):
     return process.returncode, err
 
 
-@pytest.mark.parametrize(("count", "seed"), [(2, 3), pytest.param(20, 4, marks=LONG)])
+@pytest.mark.parametrize(("count", "seed"), [(1, 3), pytest.param(20, 4, marks=LONG)])
 def test_a_run_killed_at_any_moment_goes_on_with_the_same_command(count, seed, undisturbed, tmp_path):
     chance = random.Random(seed)
     for number in range(count):

@@ -62,7 +62,8 @@ def lose_a_machine(cluster, run):
     cluster.remove_node(machine, allow_graceful=False)
 
 
-@pytest.mark.parametrize("machines", [1, pytest.param(5, marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("machines", [1, 5])
 def test_a_run_outlives_the_machines_that_it_loses(machines, cluster, tmp_path):
     recipes = write_recipes_into(tmp_path / "recipes", [f"s{number:02}" for number in range(6 * machines)])
     assert runs.run(recipes, "-o", "here", *FORM, cwd=tmp_path)[0] == 0

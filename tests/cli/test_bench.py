@@ -114,6 +114,7 @@ def test_one_ring_can_be_pinched_instead_and_the_same_is_promised_of_it(cli):
     assert rows[1][-2] == "1.00"
 
 
+@pytest.mark.long
 def test_stages_are_written_checked_and_compared(cli):
     result = cli("bench", "--stage", "--frames", 3)
     assert re.match(r"stages of 39674 vertices and 3 frames on cpu \(", result.stdout)

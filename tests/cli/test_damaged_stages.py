@@ -25,7 +25,11 @@ FLIPS = {
 values of a wrong type or size."""
 ENDS = (0.02, 0.5, 0.97)
 """Shares at which files are cut off."""
-EACH = [("usdz", 1239), ("usdz", 1368), ("usdz", 1057), ("usdc", 1138), ("usdc", 1151)]
+EACH = [
+    ("usdz", 1239),
+    ("usdc", 1138),
+    *(pytest.param(*one, marks=pytest.mark.long) for one in (("usdz", 1368), ("usdz", 1057), ("usdc", 1151))),
+]
 """Those that every command opens."""
 
 

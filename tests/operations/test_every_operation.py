@@ -20,7 +20,7 @@ from balloon_usd.operations.table import BY_WORD, OPERATIONS, WORDS
 from balloon_usd.plan import plan, plan_svg, plan_text
 from balloon_usd.recipe import Recipe, RecipeError, recipe_schema
 
-SCHEMA = recipe_schema()
+SCHEMA = jsonschema.Draft202012Validator(recipe_schema())
 ROOMS = Path(balloon_usd.__file__).parent
 DOCS = Path(__file__).parents[2] / "docs"
 VALUES = {
@@ -102,16 +102,16 @@ def test_no_page_and_no_picture_is_of_another_operation(folder: tuple[str, str])
 @each_operation
 def test_the_schema_takes_its_example_and_no_modifier_that_makes_no_sense(operation: type[Operation]) -> None:
     data = yaml.safe_load(operation.example)
-    jsonschema.validate(data, SCHEMA)
+    SCHEMA.validate(data)
     step = next(entry for entry in data["steps"] if operation.word in entry)
     for modifier in MODIFIERS:
         changed = json.loads(json.dumps(data))
         changed["steps"][data["steps"].index(step)][modifier] = VALUES[modifier]
         if modifier in operation.modifiers():
-            jsonschema.validate(changed, SCHEMA)
+            SCHEMA.validate(changed)
         else:
             with pytest.raises(jsonschema.ValidationError):
-                jsonschema.validate(changed, SCHEMA)
+                SCHEMA.validate(changed)
             with pytest.raises(RecipeError, match=f"makes no sense with {operation.word}"):
                 Recipe.parse(yaml.safe_dump(changed, sort_keys=False))
 

@@ -19,6 +19,8 @@ from balloon_usd.stage import StageWriter
 from balloon_usd.staging import describe_stage
 
 RECIPES = sorted((Path(__file__).parents[2] / "recipes").glob("*.yaml"))
+QUICK = ("dog", "flower", "rabbit")
+"""Those that are not left to long tests: one that stands, one that hands hold, one with long ears."""
 
 
 @dataclass(frozen=True)
@@ -81,7 +83,13 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("sculptures")
 
 
-@pytest.fixture(params=RECIPES, ids=lambda path: path.stem, scope="module")
+@pytest.fixture(
+    params=[
+        pytest.param(path, id=path.stem, marks=() if path.stem in QUICK else pytest.mark.long)
+        for path in RECIPES
+    ],
+    scope="module",
+)
 def made(request: pytest.FixtureRequest, folder: Path) -> Made:
     return make(request.param, folder)
 

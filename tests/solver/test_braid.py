@@ -52,6 +52,7 @@ def orders(strands):
     return found
 
 
+@pytest.mark.long
 def test_every_crossing_exchanges_an_outer_strand_with_the_middle_one_from_both_sides_in_turns(plaited):
     found = orders(plaited[0])
     swaps = [
@@ -64,6 +65,7 @@ def test_every_crossing_exchanges_an_outer_strand_with_the_middle_one_from_both_
     assert all(before != after for before, after in pairwise(swaps))
 
 
+@pytest.mark.long
 def test_a_plait_stays_and_no_wall_goes_through_another(plaited):
     quality = plaited[1]
     assert quality["crossings"]["value"] == quality["crossings"]["most"] == 0

@@ -87,6 +87,7 @@ def test_the_tail_keeps_its_gas_and_its_flat_tip_while_it_is_rolled_up(spring):
     assert spring.quality["tail"]["verdict"] == "good"
 
 
+@pytest.mark.long
 def test_a_bubble_in_the_middle_takes_along_what_hangs_on_its_free_end_and_a_mirrored_one_is_left_handed():
     coiled = Coiled("mirror: true\n" + CHAIN + "  - curl: {feeler: 1}\n    point: left\n")
     assert sense(coiled.kept) == -1.0

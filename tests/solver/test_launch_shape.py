@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 import pytest
 import warp as wp
@@ -9,7 +11,6 @@ import warp as wp
 from balloon_usd.plan import plan
 from balloon_usd.recipe import Recipe
 from balloon_usd.solver.flatten import chunks_of
-from balloon_usd.solver.kernels.physics.sculpture import advance_sculptures
 from balloon_usd.solver.latex.kernel_variants import kernel_variant, shared_memory_bytes
 from balloon_usd.solver.latex.launch_shape import RESIDENT_LANES, SINGLE_BLOCK_LANES
 from balloon_usd.solver.simulation import simulate_many
@@ -29,7 +30,8 @@ steps:
   - rest: tail
 physics: {hold: 0.1}
 """
-DEVICES = ["cpu", *(device.alias for device in wp.get_cuda_devices())]
+GPUS = [device.alias for device in wp.get_cuda_devices()]
+DEVICES = ["cpu", *GPUS]
 """Where simulations can run on this machine."""
 
 
@@ -38,7 +40,7 @@ def head():
 
 
 def performed(device, *, copies=1, blocks=None, alone=None):
-    """The last frame of a head, made by so many blocks, or by a single one of so many threads."""
+    """The points of the last frame of a head, made by so many blocks, or by a single one of so many threads."""
     simulation = simulate_many([head()] * copies, device=device)
     launch = simulation.model.stepper._sculptures
     if blocks:
@@ -47,21 +49,23 @@ def performed(device, *, copies=1, blocks=None, alone=None):
         launch.blocks, launch.lanes = 1, alone
         launch._kernel = kernel_on(wp.get_device(device), alone)
     *_, last = simulation.frames()
-    return last[0]
+    return last[0].points[0].tobytes()
+
+
+@cache
+def whole(device, copies=1):
+    """The same by default."""
+    return performed(device, copies=copies)
 
 
 def kernel_on(device, lanes):
-    """The kernel for blocks of so many lanes; on a CPU there is but one."""
-    return (
-        kernel_variant(
-            lanes,
-            shared=False,
-            resident_bytes=shared_memory_bytes(device) if lanes == RESIDENT_LANES else 0,
-            cores=False,
-            fingers=True,
-        )
-        if device.is_cuda
-        else advance_sculptures
+    """The kernel for blocks of so many lanes."""
+    return kernel_variant(
+        lanes,
+        shared=False,
+        resident_bytes=shared_memory_bytes(device) if lanes == RESIDENT_LANES else 0,
+        cores=False,
+        fingers=True,
     )
 
 
@@ -73,18 +77,17 @@ def test_segments_are_cut_into_chunks_that_do_not_cross_their_borders():
 
 @pytest.mark.parametrize("device", DEVICES)
 def test_neither_the_number_of_blocks_nor_other_sculptures_change_a_bit(device):
-    alone, one, batch = performed(device), performed(device, blocks=1), performed(device, copies=3)
-    assert alone.points[0].tobytes() == one.points[0].tobytes() == batch.points[0].tobytes()
+    assert whole(device) == performed(device, blocks=1) == whole(device, 3)
 
 
-@pytest.mark.parametrize("device", DEVICES)
+@pytest.mark.parametrize("device", GPUS)
 @pytest.mark.parametrize("lanes", [SINGLE_BLOCK_LANES, RESIDENT_LANES])
 def test_a_single_block_gives_the_same_bits_with_and_without_shared_memory(device, lanes):
-    assert performed(device, alone=lanes).points[0].tobytes() == performed(device).points[0].tobytes()
+    assert performed(device, alone=lanes) == whole(device)
 
 
 @pytest.mark.parametrize("device", DEVICES)
 def test_halves_that_take_turns_have_the_bits_of_a_whole(device, monkeypatch):
-    whole = performed(device, copies=3)
+    expected = whole(device, 3)
     monkeypatch.setattr("balloon_usd.solver.simulation.MANY", 2)
-    assert performed(device, copies=3).points[0].tobytes() == whole.points[0].tobytes()
+    assert performed(device, copies=3) == expected

@@ -144,6 +144,7 @@ def test_the_twist_behind_a_rolled_bubble_does_not_come_undone(rolled):
     assert np.linalg.norm(neck, axis=1).mean() < 0.15 * rolled.move.width
 
 
+@pytest.mark.long
 def test_a_nose_that_is_longer_than_its_ring_is_deep_gets_stuck_as_the_plan_warns():
     made = IntoRing(LOOP.format(nose=14, hair=15) + HELD)
     assert made.stuck == ["nose"]
@@ -153,6 +154,7 @@ def test_a_nose_that_is_longer_than_its_ring_is_deep_gets_stuck_as_the_plan_warn
     assert "nose (14 cm) may not come through hair" in caution.what
 
 
+@pytest.mark.long
 def test_a_bubble_before_its_ring_is_rolled_with_what_hangs_on_it():
     made = IntoRing(BEFORE + HELD)
     assert made.move.base == made.plan.table.joint(Joint("nose", "end"))
@@ -160,13 +162,18 @@ def test_a_bubble_before_its_ring_is_rolled_with_what_hangs_on_it():
     assert made.result["through"]["nose"] > 0.7
 
 
+@pytest.mark.long
 def test_a_bubble_of_another_balloon_that_was_led_in_from_the_side_goes_through():
     made = IntoRing(OTHER + HELD)
     assert made.stuck == made.slipped == []
     assert made.result["through"]["arm"] > 0.6
 
 
-@pytest.mark.parametrize(("text", "rolled"), [(MARRIED, "a2"), (MEATBALL, "c")], ids=["marriage", "meatball"])
+@pytest.mark.parametrize(
+    ("text", "rolled"),
+    [(MARRIED, "a2"), pytest.param(MEATBALL, "c", marks=pytest.mark.long)],
+    ids=["marriage", "meatball"],
+)
 def test_pairs_are_passed_through_each_other(text, rolled):
     made = IntoRing(text + HELD)
     assert made.stuck == made.slipped == []

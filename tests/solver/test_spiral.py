@@ -80,6 +80,7 @@ def test_what_the_recipe_says_stays_when_hands_let_go_and_no_wall_goes_through_a
     assert pair.quality["creep"]["verdict"] == "good"
 
 
+@pytest.mark.long
 def test_a_mirrored_loop_is_wound_like_a_left_handed_screw():
     loop = """
 format: 1

@@ -90,6 +90,7 @@ def row():
     return Threaded(ROW)
 
 
+@pytest.mark.long
 def test_a_row_of_bubbles_stays_before_the_ring_and_the_rest_goes_through(row):
     assert (row.stuck, row.slipped) == ([], [])
     assert row.result["through"]["blade"] > 0.9
@@ -108,6 +109,7 @@ def test_nothing_unwinds_in_a_row_that_leads_back_into_its_ring(row):
     ]
 
 
+@pytest.mark.long
 def test_one_that_was_bent_before_is_led_on_from_where_it_is():
     bent = Threaded(
         Thread.example.replace("  - thread", "  - bend: {blade: 70}\n    point: left\n  - thread")
@@ -117,6 +119,7 @@ def test_one_that_was_bent_before_is_led_on_from_where_it_is():
     assert steps[:6].max() * bent.plan.recipe.fps < 1.0
 
 
+@pytest.mark.long
 def test_it_goes_where_the_recipe_says():
     up = Threaded(Thread.example.replace("[guard]}", "[guard]}\n    point: up"))
     assert up.stuck == []

@@ -44,7 +44,9 @@ class Wrapped:
         self.quality = quality.data()
 
 
-@pytest.fixture(scope="module", params=[FORWARD, BACK], ids=["forward", "back"])
+@pytest.fixture(
+    scope="module", params=[FORWARD, pytest.param(BACK, marks=pytest.mark.long)], ids=["forward", "back"]
+)
 def wrapped(request):
     return Wrapped(request.param), -1.0 if request.param == FORWARD else 1.0
 

@@ -6,6 +6,7 @@ import math
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from balloon_usd.balloon.air import ATMOSPHERE, OUTSIDE_DENSITY
 from balloon_usd.balloon.rubber import LATEX_DENSITY
@@ -58,6 +59,7 @@ def shadow(points):
     return float(np.trapezoid(widths, middles))
 
 
+@pytest.mark.long
 def test_a_dog_stands_for_five_seconds_on_the_ground_that_carries_its_weight(verify):
     text = DOG.read_text(encoding="utf-8") + "pose: stand\n"
     simulation = simulate_many([plan(Recipe.parse(text))], device="cpu")

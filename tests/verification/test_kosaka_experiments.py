@@ -225,6 +225,7 @@ def bend_angle(run, k):
     return float(np.mean(angles))
 
 
+@pytest.mark.long
 def test_a_larger_force_bends_further(bends, note):
     moves = [run.move(Press) for run in bends]
     pressed = [
@@ -243,6 +244,7 @@ def test_a_larger_force_bends_further(bends, note):
     assert pressed[2] > pressed[1] + 1.0
 
 
+@pytest.mark.long
 def test_bending_neither_tears_nor_empties_a_bubble(verify, bends):
     for run in bends:
         move = run.move(Press)

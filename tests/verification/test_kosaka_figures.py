@@ -18,7 +18,7 @@ from tests.verification.kosaka_experiments import (
     told,
 )
 
-FIGURES = ("lock", "loop", pytest.param("dog", marks=pytest.mark.long))
+FIGURES = ("lock", *(pytest.param(name, marks=pytest.mark.long) for name in ("loop", "dog")))
 NECKS_APART = 12.0
 """Farthest that two necks of one twist may lie from each other, mm."""
 DEEPEST = 1.0
@@ -78,6 +78,7 @@ def test_hardly_any_wall_passes_through_another(verify, name):
     verify("K7d", f"{name}, deepest wall inside another, mm", 1e3 * crossing.depth, 0.0, DEEPEST)
 
 
+@pytest.mark.long
 def test_a_loop_stays_open(verify, loop):
     x = loop.points[-1]
     begin, end = (loop.mesh.ring_at(s) for s in joints(loop))

@@ -65,7 +65,7 @@ def frames(text):
     return np.stack(points), simulation.meshes[0]
 
 
-@pytest.mark.parametrize("step", STEPS)
+@pytest.mark.parametrize("step", ["lock", "bend", pytest.param("fold and lock", marks=pytest.mark.long)])
 def test_what_points_left_is_the_mirror_image_of_what_points_right(verify, step):
     figures = [FIGURE.replace("STEP", STEPS[step]).replace("SIDE", side) for side in ("left", "right")]
     (left, _), (right, meshes) = (frames(text) for text in figures)
@@ -76,7 +76,11 @@ def test_what_points_left_is_the_mirror_image_of_what_points_right(verify, step)
     assert volume_of(right[-1], meshes[0].quads) > 0.0
 
 
-@pytest.mark.parametrize("text", [TWO_BALLOONS, PRESSED], ids=["two balloons that stand", "kosaka"])
+@pytest.mark.parametrize(
+    "text",
+    [pytest.param(TWO_BALLOONS, marks=pytest.mark.long), PRESSED],
+    ids=["two balloons that stand", "kosaka"],
+)
 def test_mirror_exchanges_left_and_right_in_every_frame(text):
     as_it_is, _ = frames(text)
     mirrored, meshes = frames(text + "mirror: true\n")

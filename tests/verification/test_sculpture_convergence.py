@@ -126,6 +126,7 @@ MEASURES = {"gas": gas_apart, "rest": rest_apart, "joints": joints_apart}
 UNITS = {"gas": "gas, rms, %", "rest": "gas of the rest, %", "joints": "joints, rms, mm"}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("detail", ["draft", "preview"])
 @pytest.mark.parametrize("what", MEASURES)
 def test_a_coarser_sculpture_is_that_of_full_detail_within_what_is_stated(verify, case, what, detail):
@@ -135,6 +136,7 @@ def test_a_coarser_sculpture_is_that_of_full_detail_within_what_is_stated(verify
     verify("V27", quantity, found, 0.0, getattr(sculpture, what)[detail])
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("what", ["gas", "joints"])
 def test_a_finer_mesh_is_nearer_to_the_finest(verify, case, what):
     apart = MEASURES[what]
@@ -142,7 +144,7 @@ def test_a_finer_mesh_is_nearer_to_the_finest(verify, case, what):
     verify("V27b", f"{case[0].name}, {what}, preview off full, in draft off full", fine / coarse, 0.0, 1.0)
 
 
-@pytest.mark.parametrize("detail", ["draft", "preview"])
+@pytest.mark.parametrize("detail", ["draft", pytest.param("preview", marks=pytest.mark.long)])
 @pytest.mark.parametrize("what", MEASURES)
 def test_half_a_substep_changes_no_more_than_is_stated_for_the_detail(verify, case, what, detail):
     sculpture, _ = case

@@ -81,6 +81,7 @@ def test_six_twists_fill_as_much_tail_as_their_turns_ask_the_first_like_the_last
         verify("V35", f"twists of {turns} turns, tail of the {name}, mm", 1e3 * measured, 1e3 * theory, 5e-2)
 
 
+@pytest.mark.long
 def test_turns_fill_as_much_tail_in_a_finer_mesh(verify):
     row = twisted(8, 2, "preview")
     used, theory = 0.5 * (row.tails[0] - row.tails[-1]), tail_of_a_twist(row.planned, 8)
