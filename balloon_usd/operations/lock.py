@@ -140,11 +140,21 @@ steps:
         return (starts[0], ends[0]) if behind else None
 
     def perform(self, score: Score, index: int) -> None:
-        """Bring each joint to the next, and twist all into one."""
+        """Bring each joint to the next, and twist all into one.
+
+        Where balloons share several joints, those of each are twisted into one first: brought from one hand
+        to another they would leave the others behind.
+        """
         rings = score.twistable(self.ends, self.word, index)
         text = f"lock twist: {', '.join(str(end.bubble) for end in self.ends)}"
-        for first, last in pairwise(rings):
-            score.together(min(first, last), max(first, last), self.point, text, index)
+        by_balloon = score.by_balloon(rings)
+        for own in by_balloon:
+            for first, last in pairwise(own):
+                score.together(first, last, self.point, text, index)
+            if 1 < len(own) < len(rings):
+                score.weld(own, self.turns, text, index)
+        for one, other in pairwise(by_balloon):
+            score.together(one[-1], other[-1], self.point, text, index)
         score.weld(rings, self.turns, text, index)
 
 

@@ -249,8 +249,20 @@ class Score:
             self.add(Spin(self.now, seconds, index, f"twist: {bubble}", ring=ring, turns=turns))
         self.let_go(index)
 
+    def by_balloon(self, rings: Iterable[int]) -> list[tuple[int, ...]]:
+        """Return rings in the order in which hands bring them together, those of each balloon: first those of
+        the figure, to which others are led in.
+        """
+        found: dict[str, list[int]] = {}
+        for ring in sorted(rings):
+            found.setdefault(self.layout.ring(ring).balloon, []).append(ring)
+        ordered = sorted(found, key=lambda balloon: abs(self.layout.parked(self.pieces.root(balloon))))
+        return [tuple(found[balloon]) for balloon in ordered]
+
     def together(self, first: int, last: int, point: Point | None, text: str, index: int) -> None:
-        """Bring two joints together: along their balloon if it is the same, else straight."""
+        """Bring two joints together: along their balloon if it is the same, the first to the last, else
+        straight, the last to the first where they hang together.
+        """
         if self._same_balloon(first, last):
             self.gather(first, last, point, text, index)
             return
@@ -340,15 +352,22 @@ class Score:
     def _can_turn(self, rings: tuple[int, ...]) -> bool:
         """Tell whether joints of one balloon come together, with a fold between them that is long enough to
         be turned: the wall of a short one would fold over at its ends. A loop would go through what is folded
-        where it hangs.
+        where it hangs, and another balloon that hangs on the fold would be swung round.
         """
-        if len(rings) != 2 or not self._same_balloon(*rings):
+        if len(rings) != 2 or not self._same_balloon(*rings) or self._others_hang_between(*sorted(rings)):
             return False
         bubbles = self._between(*sorted(rings))
         if len(bubbles) == 1 and self._folded_at(rings):
             return False
         shortest = LEAST_TURNED if len(bubbles) > 1 else 2.0 * LEAST_TURNED
         return min(bubble.length / bubble.width for bubble in bubbles) >= shortest
+
+    def _others_hang_between(self, first: int, last: int) -> bool:
+        """Tell whether a joint between two rings of a balloon is one with a joint of another balloon."""
+        between = {self.joints.root(ring) for ring in range(first + 1, last)}
+        welded = {ring for move in self.moves if isinstance(move, Weld) for ring in move.rings}
+        others = {ring for ring in welded if not self._same_balloon(ring, first)}
+        return any(self.joints.root(ring) in between for ring in others)
 
     def _folded_at(self, rings: tuple[int, ...]) -> bool:
         """Tell whether a fold hangs already where one of the rings is."""
