@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from balloon_usd.balloon.bubble_quadrature import bubble_at_stretch
+from balloon_usd.balloon.chebyshev import Series
 from balloon_usd.balloon.tube_theory import inflated_rubber, maxwell_state
 
 if TYPE_CHECKING:
@@ -49,19 +50,17 @@ class Ball(NamedTuple):
     """In pressures of the tube."""
 
 
-@dataclass(frozen=True, eq=False)
-class _Piece:
-    """A part of the balls: polynomials over the length."""
+class _Piece(NamedTuple):
+    """A part of the balls, over their length."""
 
-    least: float
-    most: float
-    polynomial: Floats
-    """Chebyshev coefficients of u, rest length and volume, (nodes, 3)."""
+    u: Series
+    rest_length: Series
+    volume: Series
 
-    def __call__(self, length: float) -> tuple[float, float, float]:
-        x = (length - self.least) / (self.most - self.least) * 2.0 - 1.0
-        u, rest_length, volume = np.asarray(np.polynomial.chebyshev.chebval(x, self.polynomial)).tolist()
-        return u, rest_length, volume
+    @property
+    def least(self) -> float:
+        """Length of its shortest ball."""
+        return self.u.least
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,7 +87,8 @@ class BallFamily:
     def of_length(self, length: float) -> Ball:
         """Return the ball of a length, at most that of the shortest stable bubble."""
         solved = max(length, self.smallest)
-        u, rest_length, volume = (self.soft if solved >= self.softest else self.hard)(solved)
+        piece = self.soft if solved >= self.softest else self.hard
+        u, rest_length, volume = (series(solved) for series in piece)
         copy = length / solved
         return Ball(
             rest_length=rest_length * copy,
@@ -142,5 +142,6 @@ def _by_secants(error: Callable[[Floats], Floats], low: Floats, high: Floats) ->
 
 
 def _piece(lengths: Floats, values: Floats) -> _Piece:
-    polynomial = np.polynomial.chebyshev.chebfit(_CHEBYSHEV, values, _NODES - 1)
-    return _Piece(float(lengths[0]), float(lengths[-1]), np.asarray(polynomial, dtype=float))
+    fit = np.polynomial.chebyshev.chebfit(_CHEBYSHEV, values, _NODES - 1)
+    least, most = float(lengths[0]), float(lengths[-1])
+    return _Piece(*(Series(least, most, column) for column in fit.T.tolist()))

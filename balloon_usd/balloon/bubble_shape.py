@@ -23,6 +23,7 @@ import numpy as np
 
 from balloon_usd.balloon.ball_shape import BallFamily, ball_family
 from balloon_usd.balloon.bubble_quadrature import axial_stretch, bubble_at_stretch, legendre
+from balloon_usd.balloon.chebyshev import Series
 from balloon_usd.balloon.rubber import relaxed_stretches
 from balloon_usd.balloon.tube_theory import inflated_rubber, maxwell_state
 
@@ -223,10 +224,8 @@ class _BubbleFamily:
 
     rubber: Rubber
     tube: TubeState
-    polynomials: dict[str, list[float]]
-    """Chebyshev coefficients of rest length, length and volume over u, `_FAMILY_NODES` each. As plain numbers
-    one of them is summed up in a fifteenth of the time that NumPy takes for all.
-    """
+    measures: dict[str, Series]
+    """Rest length, length and volume over u."""
     start: float
     """u of the bubble with the least rest length."""
 
@@ -239,7 +238,7 @@ class _BubbleFamily:
         return self.at(_FAMILY_END)
 
     def at(self, u: float) -> BubbleShape:
-        rest_length, length, volume = (_series(column, _node(u)) for column in self.polynomials.values())
+        rest_length, length, volume = (series(u) for series in self.measures.values())
         diameter = 2.0 * self.tube.a * (1.0 - math.exp(-u))
         return BubbleShape(rest_length, length, diameter, volume)
 
@@ -262,11 +261,10 @@ class _BubbleFamily:
         if wanted >= getattr(longest, measure):
             return self._lengthened(longest, (wanted - getattr(longest, measure)) / per_rest_length)
 
-        coefficients, low, high = self.polynomials[measure], self.start, _FAMILY_END
+        series, low, high = self.measures[measure], self.start, _FAMILY_END
         for _ in range(_HALVINGS):
             middle = 0.5 * (low + high)
-            short = _series(coefficients, _node(middle)) < wanted
-            low, high = (middle, high) if short else (low, middle)
+            low, high = (middle, high) if series(middle) < wanted else (low, middle)
         return self.at(0.5 * (low + high))
 
     def _lengthened(self, shape: BubbleShape, rest_length: float) -> BubbleShape:
@@ -290,25 +288,10 @@ def _family(rubber: Rubber) -> _BubbleFamily:
             f"a pinched bubble of {rubber.name} bleeds away at the Maxwell pressure: it needs softening"
         )
     fit = np.polynomial.chebyshev.chebfit(nodes, shapes.T, _FAMILY_NODES - 1)
-    columns: list[list[float]] = fit.T.tolist()
-    rest_lengths, lengths, volumes = columns
+    series = [Series(_FAMILY_START, _FAMILY_END, column) for column in fit.T.tolist()]
+    measures = dict(zip(("rest_length", "length", "volume"), series, strict=True))
     fine: list[float] = np.linspace(_FAMILY_START, _FAMILY_END, 2001).tolist()
-    start = min(fine, key=lambda u: _series(rest_lengths, _node(u)))
-    polynomials = {"rest_length": rest_lengths, "length": lengths, "volume": volumes}
-    return _BubbleFamily(rubber, state.bulged, polynomials, start)
-
-
-def _node(u: float) -> float:
-    """Return where a u lies in the interval of Chebyshev polynomials."""
-    return (u - _FAMILY_START) / (_FAMILY_END - _FAMILY_START) * 2.0 - 1.0
-
-
-def _series(coefficients: list[float], x: float) -> float:
-    """Return a sum of Chebyshev polynomials by Clenshaw's recurrence, with the bits of NumPy's `chebval`."""
-    before, last = coefficients[-2], coefficients[-1]
-    for coefficient in reversed(coefficients[:-2]):
-        before, last = coefficient - last, before + last * (2.0 * x)
-    return before + last * x
+    return _BubbleFamily(rubber, state.bulged, measures, min(fine, key=measures["rest_length"]))
 
 
 def _scaled(shape: BubbleShape, factor: float) -> BubbleShape:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
+from itertools import chain
 from typing import TYPE_CHECKING, NoReturn, Protocol
 
 from balloon_usd.language.problem import RecipeError
@@ -29,7 +30,7 @@ from balloon_usd.operations.moves import (
 from balloon_usd.operations.tempo import PACES, Pace
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
     from balloon_usd.language.joint import Joint
     from balloon_usd.language.problem import Path, Problem
@@ -365,16 +366,18 @@ class Score:
     def _others_hang_between(self, first: int, last: int) -> bool:
         """Tell whether a joint between two rings of a balloon is one with a joint of another balloon."""
         between = {self.joints.root(ring) for ring in range(first + 1, last)}
-        welded = {ring for move in self.moves if isinstance(move, Weld) for ring in move.rings}
-        others = {ring for ring in welded if not self._same_balloon(ring, first)}
+        others = (ring for ring in chain(*self._welds()) if not self._same_balloon(ring, first))
         return any(self.joints.root(ring) in between for ring in others)
 
     def _folded_at(self, rings: tuple[int, ...]) -> bool:
         """Tell whether a fold hangs already where one of the rings is."""
         here = {self.joints.root(ring) for ring in rings}
-        welds = (move.rings for move in self.moves if isinstance(move, Weld))
-        folds = (weld for weld in welds if len(weld) == 2 and self._same_balloon(*weld))
+        folds = (weld for weld in self._welds() if len(weld) == 2 and self._same_balloon(*weld))
         return any(self.joints.root(fold[0]) in here for fold in folds)
+
+    def _welds(self) -> Iterator[tuple[int, ...]]:
+        """Yield the rings of every twist so far."""
+        return (move.rings for move in self.moves if isinstance(move, Weld))
 
     def _reach(self, first: int, last: int) -> float:
         """Return about how far what is folded between two rings reaches from the axis of its turn, m:

@@ -21,7 +21,7 @@ from balloon_usd.solver.kernels.device.barrier import warp_barrier
 from balloon_usd.solver.kernels.device.coherent_load import coherent_float, coherent_vec3
 from balloon_usd.solver.kernels.device.warp_reduce import block_lanes, warp_ballot, warp_sum3, warp_sum8
 from balloon_usd.solver.kernels.physics.gas import fan_gradient
-from balloon_usd.solver.kernels.physics.motion import force_on_vertex, lying, step_of_vertex, sticking
+from balloon_usd.solver.kernels.physics.motion import LYING, force_on_vertex, lying, step_of_vertex, sticking
 
 GRIP_MODE = 1
 LEAD_MODE = 2
@@ -213,7 +213,7 @@ def move_joint(
     free = vec3_at(hands.hand_free, j)
     touching = int_at(balloons.touching, int_at(mesh.vertex_balloon, first))
     # Walls alone move a closed ring that lies: they would move it out again from where it is put here.
-    stays = closed > 0.0 and lying(first, mesh, balloons) and held(mode) == 0
+    stays = closed > 0.0 and touching == LYING and held(mode) == 0
     # The sine of the angle between two corners.
     sine = vec2_at(mesh.ring_cos_sin, first + 1)[1]
     # Prefetch: issued early to hide its latency.
