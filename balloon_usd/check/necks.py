@@ -17,12 +17,14 @@ from balloon_usd.balloon.ringed_faces import inner_vertices, ring_starts, ringed
 from balloon_usd.balloon.sizes import NECK_REACH
 from balloon_usd.balloon.tube_mesh import KNOT_LENGTH, LIP_LENGTH, MIRRORED_FACE
 from balloon_usd.quality.joints import APART
-from balloon_usd.quality.walls import CAPSULE_NECK_REACH, NO_NECK
+from balloon_usd.quality.walls import CAPSULE_NECK_REACH, NO_NECK, sides_of_ring
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
+
+    from balloon_usd.quality.walls import Side
 
     Floats = NDArray[np.float64]
     Numbers = NDArray[np.int64]
@@ -45,10 +47,13 @@ class Neck:
     """All of its vertices."""
     rings: Numbers
     """All rings of its balloon, (R, around) vertices."""
+    sides: tuple[Side, ...]
+    """All rubber of its balloon before it, and all behind it."""
 
     def moved(self, before: int) -> Neck:
         """Return it with the numbers of its vertices counted on from some before them."""
-        return Neck(self.ring + before, self.vertices + before, self.rings + before)
+        sides = tuple(side.moved(before) for side in self.sides)
+        return Neck(self.ring + before, self.vertices + before, self.rings + before, sides)
 
 
 def necks_of(quads: Numbers, st: Floats, bubbles: Numbers, first: Floats) -> list[Neck]:
@@ -83,10 +88,11 @@ def necks_of(quads: Numbers, st: Floats, bubbles: Numbers, first: Floats) -> lis
         along, radius = _measured(first, rings)
         start, reach = 0, CAPSULE_NECK_REACH * radius
     reach *= 1.0 + ROUNDING
-    found = [Neck(rings[start], np.flatnonzero(along <= reach), rings)]
+    found = [Neck(rings[start], np.flatnonzero(along <= reach), rings, ())]
     for at in meets.tolist():
-        place = along[rings[at]].mean()
-        found.append(Neck(rings[at], np.flatnonzero(np.abs(along - place) <= reach), rings))
+        beyond = along - along[rings[at]].mean()
+        sides = tuple(sides_of_ring(rings[at], beyond))
+        found.append(Neck(rings[at], np.flatnonzero(np.abs(beyond) <= reach), rings, sides))
     return found
 
 

@@ -110,7 +110,8 @@ class StageWalls:
             before += mesh.vertices
         last = np.concatenate(self.points(self.times[-1])).astype(np.float64)
         joint = joints_between(necks, last, before)
-        return walls_from(np.concatenate(quads), np.concatenate(bubbles), joint, tuple(names))
+        sides = [side for neck in necks for side in neck.sides]
+        return walls_from(np.concatenate(quads), np.concatenate(bubbles), joint, tuple(names), sides)
 
 
 def _wall_mesh(mesh: Any) -> WallMesh | None:

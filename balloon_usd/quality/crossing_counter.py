@@ -39,18 +39,20 @@ class CrossingCounter:
 
     def count(self, points: Sequence[NDArray[np.float32]]) -> Crossings:
         """Return the crossings of a frame; `points`: (V, 3) float32 of every balloon, m."""
-        return crossings_in(self._walls, self._pierced(_joined(points)))
+        joined = _joined(points)
+        return crossings_in(self._walls.cut_off(joined), self._pierced(joined))
 
     def depth(self, points: Sequence[NDArray[np.float32]]) -> float:
         """Return how deep the deepest vertex at a crossing of a frame lies inside a wall, m."""
         joined = _joined(points)
-        return depth_in(self._walls, self._pierced(joined), joined.astype(np.float64))
+        return depth_in(self._walls.cut_off(joined), self._pierced(joined), joined.astype(np.float64))
 
     def in_necks(self, points: Sequence[NDArray[np.float32]]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         """Return the edges of a frame that pierce faces in the neck of one joint, (P, 2) vertices of all
         balloons, and these joints, (P,).
         """
-        return folded_in_necks(self._walls, self._pierced(_joined(points)))
+        joined = _joined(points)
+        return folded_in_necks(self._walls.cut_off(joined), self._pierced(joined))
 
     def _pierced(self, points: NDArray[np.float32]) -> Pierced:
         if self._search is not None:

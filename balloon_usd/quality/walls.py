@@ -22,6 +22,32 @@ if TYPE_CHECKING:
 CAPSULE_NECK_REACH = 0.25
 """The same of a capsule, in radii before it is twisted."""
 NO_NECK = -1
+STUB_REACH = 1.2
+"""How far from the middle of its neck what is left of an end that was cut off lies, at most, in the neck's
+radius: a lid with a nib (`solver.severed`).
+"""
+
+
+class Side(NamedTuple):
+    """Rubber on one side of a neck, up to the end of its balloon: it may be cut off there."""
+
+    ring: Numbers
+    """Vertices of the ring in the middle of the neck."""
+    vertices: Numbers
+    """All vertices beyond it."""
+
+    def moved(self, before: int) -> Side:
+        """Return it with the numbers of its vertices counted on from some before them."""
+        return Side(self.ring + before, self.vertices + before)
+
+    def is_cut_off(self, points: NDArray[np.floating]) -> bool:
+        """Whether all that is beyond lies in the neck; `points`: of all balloons, (V, 3) m."""
+        ring = points[self.ring].astype(np.float64)
+        middle = ring.mean(axis=0)
+        reach = STUB_REACH * _far(ring, middle)
+        # Hardly any is cut off: the farthest tells so first.
+        few = self.vertices[[0, -1]] if len(self.vertices) else self.vertices
+        return bool(len(few)) and all(_far(points[some], middle) <= reach for some in (few, self.vertices))
 
 
 class Walls(NamedTuple):
@@ -39,11 +65,24 @@ class Walls(NamedTuple):
     """Of the bubbles."""
     neck: Numbers
     """Joint in whose neck each vertex lies, (V,); `NO_NECK` of others."""
+    sides: tuple[Side, ...] = ()
+    """Of all necks but those of knots."""
+
+    def cut_off(self, points: NDArray[np.floating]) -> Walls:
+        """Return them as in a frame, (V, 3) m: what was cut off lies in the neck from which it was."""
+        stubs = [side for side in self.sides if side.is_cut_off(points)]
+        if not stubs:
+            return self
+        neck = self.neck.copy()
+        for stub in stubs:
+            neck[stub.vertices] = neck[stub.ring[0]]
+        return self._replace(neck=neck)
 
 
 def walls_of(plan: Plan, meshes: Sequence[BalloonMesh]) -> Walls:
     """Return the walls of a plan; one mesh a balloon, in the order of `Plan.strips`."""
     quads, bubbles, necks = [], [], []
+    sides: list[Side] = []
     vertices = before = 0
     rings = [(ring, joint) for joint, group in enumerate(joints_of(plan)) for ring in group.rings]
     for strip, mesh in zip(plan.strips.values(), meshes, strict=True):
@@ -56,18 +95,46 @@ def walls_of(plan: Plan, meshes: Sequence[BalloonMesh]) -> Walls:
                 near = np.abs(mesh.along - place.along) <= neck_reach(strip)
                 # Knot and lip lie behind their ring.
                 neck[near | (mesh.along < 0.0) if place.along <= 0.0 else near] = joint
+                if place.along > 0.0:
+                    sides += [side.moved(vertices) for side in _sides(mesh, place.along)]
         necks.append(neck)
         vertices += len(mesh.points)
         before += len(strip.bubbles)
     names = tuple(bubble.name for bubble in plan.bubbles)
-    return walls_from(np.concatenate(quads), np.concatenate(bubbles), np.concatenate(necks), names)
+    return walls_from(np.concatenate(quads), np.concatenate(bubbles), np.concatenate(necks), names, sides)
 
 
-def walls_from(quads: Numbers, bubble_of_quad: Numbers, neck: Numbers, names: tuple[str, ...]) -> Walls:
+def walls_from(
+    quads: Numbers,
+    bubble_of_quad: Numbers,
+    neck: Numbers,
+    names: tuple[str, ...],
+    sides: Sequence[Side] = (),
+) -> Walls:
     """Return the walls of quads (F, 4) in bubbles (F,), with the necks of all vertices (V,)."""
     of_vertex = np.zeros(len(neck), dtype=np.int64)
     of_vertex[quads] = bubble_of_quad[:, None]
-    return Walls(quads, halves(quads), np.tile(bubble_of_quad, 2), of_vertex, names, neck)
+    return Walls(quads, halves(quads), np.tile(bubble_of_quad, 2), of_vertex, names, neck, tuple(sides))
+
+
+def _sides(mesh: BalloonMesh, along: float) -> list[Side]:
+    """Return what lies on either side of the ring at a place along a balloon, m."""
+    at = mesh.ring_at(along)
+    ring = np.arange(mesh.around) + int(mesh.ring_start[at])
+    place = mesh.along[ring[0]]
+    return sides_of_ring(ring, mesh.along - place)
+
+
+def sides_of_ring(ring: Numbers, beyond: NDArray[np.floating]) -> list[Side]:
+    """Return what lies on either side of a ring; `beyond`: how far each vertex is behind it, (V,)."""
+    behind = np.ones(len(beyond), dtype=bool)
+    behind[ring] = False
+    return [Side(ring, np.flatnonzero(behind & (side * beyond > 0.0))) for side in (-1.0, 1.0)]
+
+
+def _far(points: NDArray[np.floating], middle: NDArray[np.float64]) -> float:
+    """Return how far the farthest of some points, (N, 3), is from a place, (3,), m."""
+    return float(np.linalg.norm(points - middle, axis=1).max())
 
 
 def halves(quads: Numbers) -> Numbers:

@@ -179,3 +179,5 @@ def test_necks_are_found_in_tubes_and_capsules_and_shapes_have_none(recipe, tmp_
     named = [[each.names[bubble] for bubble in each.bubble_of_triangle] for each in (walls, planned)]
     assert named[0] == named[1]
     assert ((walls.neck >= 0) == (planned.neck >= 0)).all()
+    beyond = [{tuple(side.vertices) for side in each.sides} for each in (walls, planned)]
+    assert beyond[0] == beyond[1]

@@ -15,14 +15,19 @@ from balloon_usd.recipe import Recipe
 from tests.quality.ears import EARS, points_of
 
 
+def ears():
+    """Walls of two ears, and points of theirs."""
+    plan = plan_of(Recipe.parse(EARS, file="ears.yaml"))
+    meshes = meshes_of(plan, detail_named("draft"))
+    return walls_of(plan, meshes), points_of(plan, meshes)
+
+
 @pytest.fixture(scope="module")
 def crumpled():
     """Walls of two ears, and points of theirs that lie in each other."""
-    plan = plan_of(Recipe.parse(EARS, file="ears.yaml"))
-    meshes = meshes_of(plan, detail_named("draft"))
-    points = points_of(plan, meshes)
+    walls, points = ears()
     chance = np.random.default_rng(3)
-    return walls_of(plan, meshes), points + chance.uniform(-4e-3, 4e-3, points.shape).astype(np.float32)
+    return walls, points + chance.uniform(-4e-3, 4e-3, points.shape).astype(np.float32)
 
 
 @pytest.mark.parametrize("has_cpu_backend", [True, False], ids=["Warp", "no backend for CPUs"])
@@ -36,3 +41,20 @@ def test_many_frames_are_counted_as_one_is_with_and_without_a_backend_for_cpus(
     assert many.count([points]) == one
     assert (many._search is None) != has_cpu_backend
     assert one.count > 100
+
+
+@pytest.mark.parametrize("side", [0, -1], ids=["before the first neck", "beyond the last"])
+def test_what_is_left_of_a_cut_end_lies_in_the_neck_and_what_hangs_there_does_not(side):
+    walls, points = ears()
+    cut = sorted(walls.sides, key=lambda side: len(side.vertices))[side]
+    kept = np.setdiff1d(np.arange(len(points)), np.concatenate([cut.vertices, cut.ring]))
+    ring = points[cut.ring]
+    middle = ring.mean(axis=0)
+    across = np.random.default_rng(1).uniform(-0.5, 0.5, (len(cut.vertices), 3))
+    points[kept] += 1.0
+    points[cut.vertices] = middle + across * np.linalg.norm(ring - middle, axis=1).max()
+    found = CrossingCounter(walls, 1).count([points])
+    assert found.count == 0
+    assert found.in_necks > 100
+    points[cut.vertices[-1]] += 0.1
+    assert CrossingCounter(walls, 1).count([points]).count > 100
