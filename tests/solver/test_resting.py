@@ -54,7 +54,7 @@ def test_a_figure_on_three_feet_tips_until_the_shortest_touches():
 @given(st.lists(st.tuples(st.floats(-1.0, 1.0), st.floats(-1.0, 1.0)), min_size=1, max_size=8))
 def test_no_corner_lies_before_the_point_of_a_hull_that_is_nearest_to_the_origin(corners):
     vectors = np.array([(x, y, 0.0) for x, y in corners])
-    nearest = nearest_in_hull(vectors)
+    nearest = nearest_in_hull(vectors, DOWN)
     assert (vectors @ nearest >= nearest @ nearest - 1e-6).all()
 
 
