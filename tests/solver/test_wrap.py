@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from balloon_usd.operations.moves import Wrap as WrapMove
-from balloon_usd.operations.wrap import Wrap
+from balloon_usd.operations.wrap import SWINGING_SPEED, Wrap
 from balloon_usd.plan import plan
 from balloon_usd.quality.passed import solid_angles
 from balloon_usd.quality.ring_corners import RingCorners
@@ -49,6 +49,19 @@ class Wrapped:
 )
 def wrapped(request):
     return Wrapped(request.param), -1.0 if request.param == FORWARD else 1.0
+
+
+@pytest.mark.parametrize("row", ["", "  - bubbles: {eye: 5, forehead: 12}\n"], ids=["a tube", "a chain"])
+def test_a_long_figure_behind_the_neck_is_swung_round_slowly(row):
+    text = FORWARD.replace("length: 8.6", "length: 40")
+    if row:
+        text = text.replace("  - rest: nose", "  - bubbles: {nose: 5}\n" + row + "  - rest: body")
+    figure = plan(Recipe.parse(text))
+    (move,) = (move for move in figure.choreography.moves if isinstance(move, WrapMove))
+    names = [bubble.name for bubble in figure.bubbles]
+    swung = sum(bubble.length for bubble in figure.bubbles[names.index("nose") :])
+    assert swung > 0.8
+    assert np.pi * swung / move.seconds <= SWINGING_SPEED * (1.0 + 1e-9)
 
 
 def test_the_neck_stays_in_the_bubble_that_is_closed_round_it(wrapped):
