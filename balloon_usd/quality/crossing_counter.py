@@ -39,22 +39,24 @@ class CrossingCounter:
 
     def count(self, points: Sequence[NDArray[np.float32]]) -> Crossings:
         """Return the crossings of a frame; `points`: (V, 3) float32 of every balloon, m."""
-        joined = _joined(points)
-        return crossings_in(self._walls.cut_off(joined), self._pierced(joined))
+        return crossings_in(*self._pierced(_joined(points)))
 
     def depth(self, points: Sequence[NDArray[np.float32]]) -> float:
         """Return how deep the deepest vertex at a crossing of a frame lies inside a wall, m."""
         joined = _joined(points)
-        return depth_in(self._walls.cut_off(joined), self._pierced(joined), joined.astype(np.float64))
+        return depth_in(*self._pierced(joined), joined.astype(np.float64))
 
     def in_necks(self, points: Sequence[NDArray[np.float32]]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         """Return the edges of a frame that pierce faces in the neck of one joint, (P, 2) vertices of all
         balloons, and these joints, (P,).
         """
-        joined = _joined(points)
-        return folded_in_necks(self._walls.cut_off(joined), self._pierced(joined))
+        return folded_in_necks(*self._pierced(_joined(points)))
 
-    def _pierced(self, points: NDArray[np.float32]) -> Pierced:
+    def _pierced(self, points: NDArray[np.float32]) -> tuple[Walls, Pierced]:
+        """Return the walls as they are in a frame, and what is pierced there."""
+        return self._walls.cut_off(points), self._search_in(points)
+
+    def _search_in(self, points: NDArray[np.float32]) -> Pierced:
         if self._search is not None:
             return self._search.find(points)
         faces = np.tile(self._walls.quads, (2, 1))

@@ -8,6 +8,7 @@ import numpy as np
 
 from balloon_usd.balloon.sizes import NECK_REACH
 from balloon_usd.quality.joints import joints_of
+from balloon_usd.quality.ring_corners import RingCorners
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -45,9 +46,8 @@ class Side(NamedTuple):
         ring = points[self.ring].astype(np.float64)
         middle = ring.mean(axis=0)
         reach = STUB_REACH * _far(ring, middle)
-        # Hardly any is cut off: the farthest tells so first.
-        few = self.vertices[[0, -1]] if len(self.vertices) else self.vertices
-        return bool(len(few)) and all(_far(points[some], middle) <= reach for some in (few, self.vertices))
+        # Of what hangs there its two ends tell so, without a look at all of it.
+        return all(_far(points[some], middle) <= reach for some in (self.vertices[[0, -1]], self.vertices))
 
 
 class Walls(NamedTuple):
@@ -96,7 +96,9 @@ def walls_of(plan: Plan, meshes: Sequence[BalloonMesh]) -> Walls:
                 # Knot and lip lie behind their ring.
                 neck[near | (mesh.along < 0.0) if place.along <= 0.0 else near] = joint
                 if place.along > 0.0:
-                    sides += [side.moved(vertices) for side in _sides(mesh, place.along)]
+                    corners = np.r_[RingCorners.of(plan, meshes, ring).vertices]
+                    beyond = mesh.along - mesh.along[corners[0]]
+                    sides += [side.moved(vertices) for side in sides_of_ring(corners, beyond)]
         necks.append(neck)
         vertices += len(mesh.points)
         before += len(strip.bubbles)
@@ -117,19 +119,14 @@ def walls_from(
     return Walls(quads, halves(quads), np.tile(bubble_of_quad, 2), of_vertex, names, neck, tuple(sides))
 
 
-def _sides(mesh: BalloonMesh, along: float) -> list[Side]:
-    """Return what lies on either side of the ring at a place along a balloon, m."""
-    at = mesh.ring_at(along)
-    ring = np.arange(mesh.around) + int(mesh.ring_start[at])
-    place = mesh.along[ring[0]]
-    return sides_of_ring(ring, mesh.along - place)
-
-
 def sides_of_ring(ring: Numbers, beyond: NDArray[np.floating]) -> list[Side]:
-    """Return what lies on either side of a ring; `beyond`: how far each vertex is behind it, (V,)."""
-    behind = np.ones(len(beyond), dtype=bool)
-    behind[ring] = False
-    return [Side(ring, np.flatnonzero(behind & (side * beyond > 0.0))) for side in (-1.0, 1.0)]
+    """Return what lies on either side of a ring, if anything does; `beyond`: how far each vertex is behind
+    it, (V,).
+    """
+    others = np.ones(len(beyond), dtype=bool)
+    others[ring] = False
+    found = (np.flatnonzero(others & (side * beyond > 0.0)) for side in (-1.0, 1.0))
+    return [Side(ring, vertices) for vertices in found if len(vertices)]
 
 
 def _far(points: NDArray[np.floating], middle: NDArray[np.float64]) -> float:
