@@ -23,7 +23,8 @@ MODIFIERS = ("balloon", "point", "turns", "burp", "spin", "strokes", "seconds", 
 class Entries(BaseModel):
     """Keys of a recipe, of which none is unknown."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
+    # Models are built when they are first used: all of them at every start take 0.1 s.
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
 
 class OnBalloon(Entries):

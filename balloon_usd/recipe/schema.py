@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+from balloon_usd.operations.modifiers import Entries
 
 from .formula_schema import with_formulas
+from .key_texts import key_texts
 from .recipe import Recipe
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 SCHEMA_DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
@@ -18,7 +24,22 @@ def recipe_schema() -> dict[str, Any]:
 def model_schema() -> dict[str, Any]:
     """Return the same of recipes that are written out, without named values, formulas and repeats."""
     found: dict[str, Any] = _without_null(Recipe.model_json_schema())
+    models = {each.__name__: each for each in _models(Entries)}
+    for name, definition in {Recipe.__name__: found, **found["$defs"]}.items():
+        if name in models:
+            keys, texts = definition["properties"], key_texts(models[name])
+            definition["properties"] = {key: _described(keys[key], texts.get(key)) for key in keys}
     return found
+
+
+def _models(base: type[Entries]) -> Iterator[type[Entries]]:
+    for each in base.__subclasses__():
+        yield each
+        yield from _models(each)
+
+
+def _described(key: dict[str, Any], text: str | None) -> dict[str, Any]:
+    return key if text is None else dict(sorted({**key, "description": text}.items()))
 
 
 def _without_null(schema: Any) -> Any:

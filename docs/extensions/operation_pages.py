@@ -9,6 +9,7 @@ from balloon_usd.operations.moves import LetGo, Move
 from balloon_usd.operations.table import OPERATIONS
 from balloon_usd.plan import plan
 from balloon_usd.recipe import Recipe, RecipeBuilder
+from balloon_usd.recipe.key_texts import key_texts
 from balloon_usd.recipe.schema import model_schema
 from balloon_usd.recipe.writer import flow_text
 
@@ -76,9 +77,8 @@ def modifier_row(key: str) -> tuple[str, ...]:
     words = ", ".join(each.word for each in beside)
     if len(without) < 2:
         words = f"all but {without[0]}" if without else "all"
-    field = beside[0].model_fields[key]
-    usual = "" if field.default is None else f" {field.default:g} if absent."
-    return f"`{key}`", words, (field.description or "") + usual
+    usual = beside[0].model_fields[key].default
+    return f"`{key}`", words, key_texts(beside[0])[key] + ("" if usual is None else f" {usual:g} if absent.")
 
 
 def table(head: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:

@@ -46,6 +46,7 @@ def test_recipes_of_a_device_that_was_asked_for_fail_with_it(cli, solver, gpu, w
     assert not [file for file in runs.tree(tmp_path / "out") if file != "batch.jsonl"]
 
 
+@pytest.mark.long
 def test_other_devices_take_over_from_one_that_is_lost(cli, solver, write_recipes, tmp_path, monkeypatch):
     monkeypatch.setenv("FAKE_GPUS", "cuda:0,cuda:1")
     solver.trouble = {"a": "first device is lost"}

@@ -65,9 +65,9 @@ def test_a_simulation_that_fails_leaves_all_frames_before_that(cli, fails, write
 @pytest.mark.parametrize(
     ("form", "files"),
     [
-        (("--flat",), ["snake.failed.usdc"]),
+        pytest.param(("--flat",), ["snake.failed.usdc"], marks=LONG),
         (("--usdz",), ["snake.failed.usdz"]),
-        (("--flat", "--shot"), ["snake.failed.usdc", "snake.failed_shot.usda"]),
+        pytest.param(("--flat", "--shot"), ["snake.failed.usdc", "snake.failed_shot.usda"], marks=LONG),
         (("--shot", "--look", "stress"), ["snake.failed/snake.failed.usda", "snake.failed_shot.usda"]),
     ],
 )
@@ -95,7 +95,7 @@ def test_a_range_that_is_over_before_the_failure_is_made(cli, fails, write_recip
     assert left() == ["snake.usdc"]
 
 
-@pytest.mark.parametrize("form", [(), ("--flat",)])
+@pytest.mark.parametrize("form", [pytest.param((), marks=LONG), ("--flat",)])
 def test_an_earlier_stage_stays_as_it_was_when_the_recipe_fails(form, cli, solver, write_recipe, tmp_path):
     recipe = write_recipe()
     assert cli("run", recipe, "-o", "out", *form).exit_code == 0

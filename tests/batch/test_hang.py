@@ -46,7 +46,8 @@ def test_no_run_hangs(count, at_once, recipes, solver, tmp_path):
     assert all(runs.tree(tmp_path / str(number)) == expected for number in range(count))
 
 
-@pytest.mark.parametrize("rounds", [1, pytest.param(20, marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("rounds", [1, 20])
 def test_the_same_recipes_run_twice_at_once_end_in_whole_files(rounds, solver, tmp_path):
     recipes = write_recipes_into(tmp_path / "recipes", "abcd")
     once = runs.start(recipes, "-o", "once", "--no-preview", cwd=tmp_path)

@@ -48,6 +48,7 @@ def undisturbed(tmp_path_factory):
         yield SimpleNamespace(start=start, tree=runs.tree(folder / "out"), seconds=time.monotonic() - begin)
 
 
+@LONG
 def test_every_process_may_be_killed_once_and_everything_is_made(cli, solver, gpu, write_recipes, tmp_path):
     solver.trouble = {"a": "kill once", "b": "kill writer once", "c": "kill drawer once"}
     result = cli("run", write_recipes(*NAMES), *ORDER)
@@ -180,7 +181,9 @@ def test_a_run_of_the_real_solver_killed_at_any_moment_goes_on(tmp_path):
 
 
 @pytest.mark.parametrize(("count", "seed"), [(1, 6), pytest.param(20, 7, marks=LONG)])
-@pytest.mark.parametrize(("ending", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+@pytest.mark.parametrize(
+    ("ending", "code"), [(signal.SIGINT, 130), pytest.param(signal.SIGTERM, 143, marks=LONG)]
+)
 def test_a_run_ended_by_hand_at_any_moment_leaves_whole_files_only(
     ending, code, count, seed, undisturbed, tmp_path
 ):

@@ -68,6 +68,7 @@ def test_what_is_there_is_skipped_and_what_is_broken_is_made_anew(again, write_r
     assert runs.tree(out) == first
 
 
+@pytest.mark.long
 def test_what_was_made_of_something_else_is_made_anew(again, write_recipes, tmp_path):
     recipe = write_recipes("a", "b") / "a.yaml"
     assert again(*ORDER, "--no-report") == ["a", "b"]

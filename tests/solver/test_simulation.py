@@ -69,7 +69,7 @@ physics: {model: MODEL, hold: 0.2}
 """
 
 
-@pytest.mark.parametrize("model", ["latex", "kosaka"])
+@pytest.mark.parametrize("model", ["latex", pytest.param("kosaka", marks=pytest.mark.long)])
 def test_a_finger_stays_on_its_balloon_beside_another_sculpture(model):
     pressed = plan(Recipe.parse(PRESSED.replace("MODEL", model)))
     other = plan(Recipe.parse(PRESSED.replace("MODEL", model).replace("depth: 1", "depth: 0.1")))

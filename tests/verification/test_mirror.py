@@ -65,7 +65,9 @@ def frames(text):
     return np.stack(points), simulation.meshes[0]
 
 
-@pytest.mark.parametrize("step", ["lock", "bend", pytest.param("fold and lock", marks=pytest.mark.long)])
+@pytest.mark.parametrize(
+    "step", ["lock", *(pytest.param(step, marks=pytest.mark.long) for step in ("bend", "fold and lock"))]
+)
 def test_what_points_left_is_the_mirror_image_of_what_points_right(verify, step):
     figures = [FIGURE.replace("STEP", STEPS[step]).replace("SIDE", side) for side in ("left", "right")]
     (left, _), (right, meshes) = (frames(text) for text in figures)

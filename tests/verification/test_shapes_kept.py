@@ -105,7 +105,7 @@ def shown(kind, length):
     return Shown(kind, length)
 
 
-@pytest.mark.parametrize("length", [20, 30])
+@pytest.mark.parametrize("length", [20, pytest.param(30, marks=pytest.mark.long)])
 def test_the_halves_of_a_fold_lie_side_by_side(verify, length):
     verify("V28", f"fold of {length} cm, halves apart, in widths", shown("fold", length).apart, 1.08, 0.1)
 

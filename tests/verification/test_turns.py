@@ -72,7 +72,7 @@ def tail_of_a_twist(planned: Any, turns: float) -> float:
     return twist_cost(size, rubber) + drawn_rubber(size, rubber, turns) * bulged / (bulged - thin)
 
 
-@pytest.mark.parametrize("turns", [1, 3, 8])
+@pytest.mark.parametrize("turns", [1, 3, pytest.param(8, marks=pytest.mark.long)])
 def test_six_twists_fill_as_much_tail_as_their_turns_ask_the_first_like_the_last(verify, turns):
     row = twisted(turns, 6, "draft")
     used = [before - after for before, after in zip(row.tails, row.tails[1:], strict=False)]
