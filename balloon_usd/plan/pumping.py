@@ -28,9 +28,8 @@ def pumped(plan: Plan, balloon: str) -> Pumping | None:
         return None
     strip = plan.strips[balloon]
     if strip.shape is not None:
-        filled = (ATMOSPHERE + strip.shape.pressure) * strip.shape.volume / ATMOSPHERE
-        return Pumping(strokes, (filled - strip.shape.surface.volume) / strokes)
-    budget = plan.budgets[balloon]
-    filled = (ATMOSPHERE + budget.pressure) * budget.volume / ATMOSPHERE
-    flat = math.pi * strip.size.radius**2 * strip.size.length
-    return Pumping(strokes, (filled - flat) / strokes)
+        pressure, volume, flat = strip.shape.pressure, strip.shape.volume, strip.shape.surface.volume
+    else:
+        pressure, volume = plan.budgets[balloon].pressure, plan.budgets[balloon].volume
+        flat = math.pi * strip.size.radius**2 * strip.size.length
+    return Pumping(strokes, ((ATMOSPHERE + pressure) * volume / ATMOSPHERE - flat) / strokes)

@@ -12,7 +12,7 @@ from balloon_usd.plan import plan
 from balloon_usd.recipe import Recipe
 from balloon_usd.solver.flatten import chunks_of
 from balloon_usd.solver.latex.kernel_variants import kernel_variant, shared_memory_bytes
-from balloon_usd.solver.latex.launch_shape import RESIDENT_LANES, SINGLE_BLOCK_LANES
+from balloon_usd.solver.latex.launch_shape import RESIDENT_LANES, SINGLE_BLOCK_LANES, shares
 from balloon_usd.solver.simulation import simulate_many
 
 HEAD = """
@@ -40,13 +40,16 @@ def head():
 
 
 def performed(device, *, copies=1, blocks=None, alone=None):
-    """The points of the last frame of a head, made by so many blocks, or by a single one of so many threads."""
+    """The points of the last frame of the first of some heads, made by so many blocks of a GPU each, or by a
+    single one of so many threads.
+    """
     simulation = simulate_many([head()] * copies, device=device)
     launch = simulation.model.stepper._sculptures
-    if blocks:
-        launch.blocks = blocks
+    if blocks and device != "cpu":
+        launch.share_out(np.array(blocks))
     if alone:
-        launch.blocks, launch.lanes = 1, alone
+        launch.share_out(np.ones(copies, int))
+        launch.lanes = alone
         launch._kernel = kernel_on(wp.get_device(device), alone)
     *_, last = simulation.frames()
     return last[0].points[0].tobytes()
@@ -75,9 +78,17 @@ def test_segments_are_cut_into_chunks_that_do_not_cross_their_borders():
     assert first.tolist() == [0, 2, 5, 6]
 
 
+def test_larger_sculptures_get_more_blocks():
+    assert shares(np.array([1600, 1600, 16000, 100]), 132).tolist() == [10, 10, 100, 1]
+    assert shares(np.array([1600, 1600, 16000, 100]), 40).tolist() == [4, 4, 31, 1]
+    assert shares(np.array([1600] * 60), 132).tolist() == [2] * 60
+    assert shares(np.array([1600] * 200 + [9000]), 132).tolist() == [1] * 201
+
+
 @pytest.mark.parametrize("device", DEVICES)
 def test_neither_the_number_of_blocks_nor_other_sculptures_change_a_bit(device):
-    assert whole(device) == performed(device, blocks=1) == whole(device, 3)
+    assert whole(device) == performed(device, blocks=[1]) == whole(device, 3)
+    assert whole(device) == performed(device, copies=2, blocks=[2, 5])
 
 
 @pytest.mark.parametrize("device", GPUS)

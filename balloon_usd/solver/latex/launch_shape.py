@@ -1,4 +1,5 @@
-"""Launch shape of the persistent kernel: how many blocks of how many threads advance each sculpture.
+"""Launch shape of the persistent kernel: how many blocks of how many threads advance each sculpture. All of
+them advance by a substep in the same time, so a larger one gets more blocks.
 
 On the CPU a block is a thread of the team that shares a sculpture.
 """
@@ -18,6 +19,8 @@ from balloon_usd.solver.latex.kernel_variants import BLOCKS_PER_SM, kernel_varia
 from balloon_usd.solver.team import yield_processor
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from balloon_usd.solver.latex.scene import LatexScene
     from balloon_usd.solver.launch import Launcher
 
@@ -36,62 +39,77 @@ class SculptureLaunch:
     """Advances all sculptures of a scene by several substeps in one launch."""
 
     def __init__(self, scene: LatexScene) -> None:
-        """Share out a device; a GPU in as many blocks a sculpture as fill it and are resident at once."""
+        """Share out a device; a GPU in as many blocks as fill it and are resident at once."""
         self.scene = scene
-        self._most_vertices = int(np.diff(scene.world_vertex.numpy()).max())
         device = wp.get_device(scene.device)
-        self.blocks, self.lanes, resident = self._shape(device) if device.is_cuda else (1, 1, False)
         self._hosted = not device.is_cuda
-        self._kernel = advance_sculptures
+        self._tiles, self.lanes, self._kernel = max(scene.worlds) + 1, 1, advance_sculptures
         if device.is_cuda:
+            blocks, self.lanes, resident = self._shape(device)
+            self.share_out(blocks)
             around = int(scene.joint_around.numpy().max())
             self._kernel = kernel_variant(
                 self.lanes,
-                shared=self.blocks > 1,
+                shared=bool((blocks > 1).any()),
                 resident_bytes=shared_memory_bytes(device) if resident else 0,
                 cores=any(body.packs for body in scene.bodies),
                 fingers=scene.settings.fingers,
                 joint_lanes=HALF_WARP if around <= HALF_WARP else WARP,
             )
 
+    def share_out(self, blocks: NDArray[np.int64]) -> None:
+        """Give each sculpture so many blocks of a GPU: (sculptures,), all resident at once."""
+        starts = np.concatenate([[0], np.cumsum(blocks)])
+        self._tiles = int(starts[-1])
+        self.scene.world_block.assign(starts.astype(np.int32))
+
     def advance(
         self, launcher: Launcher, substeps: int, begin: int, end: int, *, contact: bool, fingers: bool
     ) -> None:
         """Advance from one substep of a frame of so many to another."""
-        worlds = max(self.scene.worlds) + 1
         launch = Launch()
-        launch.sculpture_blocks = self.blocks
-        tiles = worlds * self.blocks
         if self._hosted:
-            launch.sculpture_blocks, launch.block, tiles = launcher.threads, launcher.thread, worlds
+            launch.team, launch.member = launcher.threads, launcher.thread
             launch.yield_processor = wp.uint64(yield_processor())
         else:
             self.scene.barrier_counts.zero_()
-        launch.joint_blocks = self._blocks_without_vertices() or launch.sculpture_blocks
         launch.substeps, launch.begin, launch.end = substeps, begin, end
         launch.walls, launch.pressing = int(contact), int(fingers)
         launch.dt = self.scene.settings.dt
         launch.frame_seconds = launch.dt * substeps
-        launcher.launch_each(self._kernel, tiles, lanes=self.lanes, launch=launch)
+        launcher.launch_each(self._kernel, self._tiles, lanes=self.lanes, launch=launch)
 
-    def _shape(self, device: wp.Device) -> tuple[int, int, bool]:
-        """Return how many blocks of how many threads each sculpture gets of a GPU, and whether it is resident
-        in shared memory.
+    def _shape(self, device: wp.Device) -> tuple[NDArray[np.int64], int, bool]:
+        """Return how many blocks of a GPU each sculpture gets, of how many threads, and whether all are
+        resident in shared memory.
         """
         vertices, quads, chunks = (
             np.diff(self.scene.arrays[f"world_{name}"].numpy()) for name in ("vertex", "quad", "chunk")
         )
         # One warp for each chunk of quads, and one lane for each vertex for contact.
-        need = int((vertices + WARP * chunks).max())
-        at_once = device.sm_count // len(vertices)
-        if need > LANES * at_once:
-            at_once = BLOCKS_PER_SM * device.sm_count // len(vertices)
-        blocks = max(1, min(-(-need // LANES), at_once))
+        need = vertices + WARP * chunks
+        most = BLOCKS_PER_SM * device.sm_count
         size = 2 * int((VERTEX_BYTES * vertices + QUAD_BYTES * quads).max())
-        if blocks <= BLOCKS_PER_SM and size <= shared_memory_bytes(device):
-            return 1, RESIDENT_LANES, True
-        return blocks, LANES if blocks > 1 else SINGLE_BLOCK_LANES, False
+        alike = min(-(-int(need.max()) // LANES), most // len(need))
+        if alike <= BLOCKS_PER_SM and size <= shared_memory_bytes(device):
+            return np.ones_like(need), RESIDENT_LANES, True
+        blocks = shares(need, device.sm_count)
+        if (need > LANES * blocks).any():
+            blocks = shares(need, most)
+        return blocks, LANES if (blocks > 1).any() else SINGLE_BLOCK_LANES, False
 
-    def _blocks_without_vertices(self) -> int:
-        """Return how many blocks of a sculpture need not move any vertex but those of joints."""
-        return max(0, self.blocks - -(-self._most_vertices // self.lanes))
+
+def shares(need: NDArray[np.int64], blocks: int) -> NDArray[np.int64]:
+    """Return how many blocks each sculpture gets of so many, (sculptures,): one at least, no more than it has
+    work for, and such that the most that a block has to do is as little as possible.
+
+    `need`: threads for which each sculpture has work, (sculptures,).
+    """
+    least, most = LANES, max(LANES, int(need.max()))
+    while least < most:
+        middle = (least + most) // 2
+        if int((-(-need // middle)).sum()) <= blocks:
+            most = middle
+        else:
+            least = middle + 1
+    return -(-need // least)

@@ -40,13 +40,16 @@ class LatexSculpture(Sculpture):
 
     def hold_pose(self) -> None:
         """Let the friction of the welds keep the pose that the figure has."""
-        self.pose_kept = self.friction.kept(self.hands)
-        self.struts.hold(set().union(*self.pose_kept.values()))
+        self.struts.hold(self._kept_pairs())
 
     def give_up_pose(self) -> None:
         """Let friction keep of the pose only what the welds keep that hold by now."""
+        self.struts.release(set(self.joints), self._kept_pairs())
+
+    def _kept_pairs(self) -> set[tuple[int, int]]:
+        """Take note of what friction keeps by now, and return all pairs."""
         self.pose_kept = self.friction.kept(self.hands)
-        self.struts.release(set(self.joints), set().union(*self.pose_kept.values()))
+        return set().union(*self.pose_kept.values())
 
     def centre(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the centre of the mass of its rubber, (3,), m; `points`: its vertices, (V, 3), m."""

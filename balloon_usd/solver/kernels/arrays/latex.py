@@ -151,6 +151,8 @@ class Crossings:
     chunk_restless: wp.array[int] = array(
         "chunks", meaning="mask of those of its quads that have a restless corner"
     )
+    looked_chunks: wp.array[int] = array("chunks", meaning="scratch: those of sculptures that are looked at")
+    looked_count: wp.array[int] = array(1, meaning="number of these, on a GPU")
     box_low: wp.array[wp.vec3] = array("chunks", unit="m", meaning="lowest coordinates of its quads")
     box_high: wp.array[wp.vec3] = array("chunks", unit="m", meaning="highest coordinates of its quads")
     way_back: wp.array[wp.vec4i] = array(

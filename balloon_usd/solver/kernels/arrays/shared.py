@@ -22,6 +22,7 @@ class Sculptures:
     world_chunk: wp.array[int] = array("sculpture starts", meaning="first chunk")
     world_segment: wp.array[int] = array("sculpture starts", meaning="first segment")
     world_joint: wp.array[int] = array("sculpture starts", meaning="first joint")
+    world_block: wp.array[int] = array("sculpture starts", meaning="first block of a GPU that advances it")
     world_welds: wp.array[int] = array("sculptures", meaning="number of welds")
     middle: wp.array[wp.vec3] = array("sculptures", unit="m", meaning="scratch: middle of mass")
     velocity: wp.array[wp.vec3] = array("sculptures", unit="m/s", meaning="scratch: of that")

@@ -65,6 +65,7 @@ def begin_keeping_apart(frame_ends: int, contacts: Contacts, crossings: Crossing
     if world == 0:
         crossings.tangled[0] = 0
         crossings.any_watched[0] = 0
+        crossings.looked_count[0] = 0
 
 
 @wp.kernel
@@ -81,6 +82,8 @@ def begin_moves(crossings: Crossings, x: wp.array[wp.vec3]):
 def begin_move_rounds(frame_ends: int, contacts: Contacts, crossings: Crossings):
     """Let rounds follow where walls would cross that did not, and watch these sculptures."""
     world = wp.tid()
+    if world == 0:
+        crossings.looked_count[0] = 0
     if crossings.pierced_count[world] > 0:
         crossings.untangling_round[world] = 1
         contacts.watched[world] = WATCHED_FRAMES + frame_ends

@@ -271,7 +271,7 @@ def load_struts(threads: Threads, own: Ranges, joints: Joints, struts: Struts):
 
 
 @wp.func
-def joints_from(base: int, launch: Launch, threads: Threads, own: Ranges, welds: Welds):
+def joints_from(base: int, threads: Threads, own: Ranges, welds: Welds):
     """Return the mask of those joints from `base` on, one for each lane of a warp, that this block moves."""
     mine = int(own.own_joints)
     if base > own.joint_begin:
@@ -280,7 +280,7 @@ def joints_from(base: int, launch: Launch, threads: Threads, own: Ranges, welds:
             own.joint_begin,
             own.joint_end,
             threads.block,
-            launch.joint_blocks,
+            own.joint_blocks,
             welds.joint_leader,
         )
     return mine
@@ -306,7 +306,7 @@ def move_joints(
 ):
     """Move the rings of this block's joints."""
     for base in range(own.joint_begin, own.joint_end, threads.warp_lanes):
-        mine = joints_from(base, launch, threads, own, welds)
+        mine = joints_from(base, threads, own, welds)
         last = popcount(mine) - 1
         apart = threads.joint_groups * threads.block_warps
         for first in range(threads.joint_groups * threads.block_warp, last + 1, apart):
@@ -371,7 +371,7 @@ def weld_joints(
     """Keep welded joints together. A weld belongs to one block, so block barriers are enough."""
     block_barrier()
     for base in range(own.joint_begin, own.joint_end, threads.warp_lanes):
-        mine = joints_from(base, launch, threads, own, welds)
+        mine = joints_from(base, threads, own, welds)
         last = popcount(mine) - 1
         apart = threads.joint_groups * threads.block_warps
         for first in range(threads.joint_groups * threads.block_warp, last + 1, apart):
@@ -391,6 +391,6 @@ def weld_joints(
             )
     block_barrier()
     for j in range(own.joint_begin + threads.lane, own.joint_end, threads.block_size):
-        block = block_of_joint(j, own.joint_begin, own.joint_end, launch.joint_blocks, welds.joint_leader)
+        block = block_of_joint(j, own.joint_begin, own.joint_end, own.joint_blocks, welds.joint_leader)
         if block == threads.block:
             shift_middle(j, welds.weld_shift, joints.ring_middle)

@@ -21,6 +21,7 @@ from balloon_usd.solver.kernels.arrays.shared import (
     State,
     Welds,
 )
+from balloon_usd.solver.kernels.device.array_access import int_at
 from balloon_usd.solver.kernels.device.barrier import block_barrier
 from balloon_usd.solver.kernels.device.warp_reduce import WARP
 from balloon_usd.solver.kernels.physics.phases import (
@@ -102,13 +103,14 @@ def substep_kernel(
     ):
         """Advance every sculpture by some substeps of its frame; `barrier_counts` must be zeros."""
         tile, lane = wp.tid()
-        blocks = launch.sculpture_blocks
-        w = tile // blocks
-        block = tile % blocks
+        w = tile
+        blocks = launch.team
+        block = launch.member
         goal = int(0)
-        if wp.static(hosted):
-            w = tile
-            block = launch.block
+        if wp.static(not hosted):
+            w = wp.lower_bound(sculptures.world_block, tile + 1) - 1
+            blocks = int_at(sculptures.world_block, w + 1) - int_at(sculptures.world_block, w)
+            block = tile - int_at(sculptures.world_block, w)
         threads = threads_of(blocks, block, lane, wp.static(joint_lanes), wp.static(int(shared)))
         own = ranges_of(w, launch, threads, sculptures, welds, cores, contacts)
         dt = launch.dt

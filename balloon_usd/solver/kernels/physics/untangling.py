@@ -48,6 +48,8 @@ time of a crown of 54 bubbles. What lies is moved by less: it is put back exactl
 def next_round(crossings: Crossings):
     """Let another round follow where edges pierce faces, up to the last; nothing is found in it yet."""
     world = wp.tid()
+    if world == 0:
+        crossings.looked_count[0] = 0
     done = crossings.untangling_round[world]
     if done >= 0:
         if crossings.pierced_count[world] == 0:

@@ -16,14 +16,13 @@ SUBWARP_LANES = wp.constant(SUBWARP)
 class Launch:
     """One launch of the persistent kernel."""
 
-    sculpture_blocks: int
-    """Blocks of each sculpture, all of which must run at once; on the CPU each is a thread of its own."""
-    block: int
-    """On the CPU which of them this launch is; a launch on a GPU is of all."""
+    team: int
+    """Threads of the CPU that share each sculpture, every one a block of its own; on a GPU `world_block`
+    tells the blocks of each, all of which must run at once."""
+    member: int
+    """Which thread of the team launches this."""
     yield_processor: wp.uint64
     """Address of the function with which a thread of the CPU yields its processor."""
-    joint_blocks: int
-    """Of these, how many move joints."""
     substeps: int
     """Substeps of a frame."""
     begin: int
@@ -109,6 +108,8 @@ class Ranges:
     """End of the list of touched quads, which begins with the first quad."""
     welds: int
     """Number of its welds."""
+    joint_blocks: int
+    """Blocks of the sculpture that move joints: those without vertices, if there are any, else all."""
     own_joints: int
     """Mask of the lanes of the warp whose joint, of the first ones, is of this block."""
 
@@ -146,12 +147,12 @@ def threads_of(blocks: int, block: int, lane: int, joint_lanes: int, shared: int
 @wp.func
 def wait_for_blocks(launch: Launch, threads: Threads, sculptures: Sculptures, world: int, goal: int):
     """Synchronise the blocks of a sculpture, and return the goal of this barrier; `goal`: of the last."""
-    reached = goal + launch.sculpture_blocks
+    reached = goal + threads.blocks
     sculpture_barrier(
         sculptures.barrier_counts,
         sculptures.barrier_rounds,
         world,
-        launch.sculpture_blocks,
+        threads.blocks,
         reached,
         threads.lane,
         launch.yield_processor,
@@ -228,12 +229,14 @@ def ranges_of(
     r.pair_end = r.pair_begin + int_at(contacts.pair_count, w)
     r.pressed_end = r.quad_begin + int_at(contacts.pressed_count, w)
     r.welds = int_at(sculptures.world_welds, w)
+    with_vertices = (r.vertex_end - r.vertex_begin + threads.block_size - 1) // threads.block_size
+    r.joint_blocks = wp.where(threads.blocks > with_vertices, threads.blocks - with_vertices, threads.blocks)
     r.own_joints = joints_of_block(
         r.joint_begin + threads.warp_lane,
         r.joint_begin,
         r.joint_end,
         threads.block,
-        launch.joint_blocks,
+        r.joint_blocks,
         welds.joint_leader,
     )
     return r

@@ -88,8 +88,10 @@ class Inflate(Motion):
     def advance(self, share: float) -> None:
         """Pump: steadily, or stroke by stroke."""
         hands, b = self._sculpture.hands, self._body
-        steady = self._strokes is None
-        hands.pump_flow[b] = self._steady_flow(share) if steady else self._stroke_flow(share)
+        strokes = self._strokes
+        hands.pump_flow[b] = (
+            self._steady_flow(share) if strokes is None else self._stroke_flow(share, strokes)
+        )
         if self._tail is not None:
             taut = min(max((1.0 - share / self._ramp) / (1.0 - BIRTH), 0.0), 1.0)
             self._tail.lead(float(hands.pump_flow[b]), taut)
@@ -108,13 +110,13 @@ class Inflate(Motion):
         flow: float = self._sculpture.hands.pump_goal[self._body]
         return flow / (PUMP_TIME * (1.0 - self._ramp) * self._seconds) * max(gentle, 0.0)
 
-    def _stroke_flow(self, share: float) -> float:
+    def _stroke_flow(self, share: float, strokes: int) -> float:
         """Return the flow that brings what is due after a share of the time, mol/s."""
-        if share >= 1.0 or self._strokes is None:
+        if share >= 1.0:
             return 0.0
         begin, end, _ = self._sculpture.frame
         all_of_it = float(self._sculpture.hands.pump_goal[self._body]) - self._begun
-        due = self._begun + brought(share, self._strokes) * all_of_it
+        due = self._begun + brought(share, strokes) * all_of_it
         gentle = min(share * self._seconds / FIRST_PUSH, 1.0)
         most = gentle * MOST_FLOW * all_of_it / self._seconds
         return min(max(due - self._gas, 0.0) / (end - begin), most)
