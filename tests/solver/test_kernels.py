@@ -18,6 +18,7 @@ ORDERLESS = (
     "crossed_count",
     "hit_last",
     "listed_count",
+    "looked_count",
     "most_near",
     "pair_count",
     "pierced_count",
