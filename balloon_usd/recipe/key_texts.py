@@ -6,6 +6,7 @@ import ast
 import inspect
 import itertools
 import textwrap
+from functools import cache
 
 from balloon_usd.operations.modifiers import Entries
 
@@ -18,9 +19,16 @@ def key_texts(model: type[Entries]) -> dict[str, str]:
     found: dict[str, str] = {}
     for each in reversed(model.__mro__):
         if issubclass(each, Entries):
-            (written,) = ast.parse(textwrap.dedent(inspect.getsource(each))).body
-            for key, text in itertools.pairwise(getattr(written, "body", [])):
-                match key, text:
-                    case ast.AnnAssign(target=ast.Name(name)), ast.Expr(ast.Constant(str(words))):
-                        found[name] = inspect.cleandoc(words)
+            found |= _own_texts(each)
+    return {key: found[key] for key in model.model_fields if key in found}
+
+
+@cache
+def _own_texts(model: type[Entries]) -> dict[str, str]:
+    found: dict[str, str] = {}
+    (written,) = ast.parse(textwrap.dedent(inspect.getsource(model))).body
+    for key, text in itertools.pairwise(getattr(written, "body", [])):
+        match key, text:
+            case ast.AnnAssign(target=ast.Name(name)), ast.Expr(ast.Constant(str(words))):
+                found[name] = inspect.cleandoc(words)
     return found

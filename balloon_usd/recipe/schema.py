@@ -27,8 +27,8 @@ def model_schema() -> dict[str, Any]:
     models = {each.__name__: each for each in _models(Entries)}
     for name, definition in {Recipe.__name__: found, **found["$defs"]}.items():
         if name in models:
-            keys, texts = definition["properties"], key_texts(models[name])
-            definition["properties"] = {key: _described(keys[key], texts.get(key)) for key in keys}
+            for key, text in key_texts(models[name]).items():
+                definition["properties"][key]["description"] = text
     return found
 
 
@@ -36,10 +36,6 @@ def _models(base: type[Entries]) -> Iterator[type[Entries]]:
     for each in base.__subclasses__():
         yield each
         yield from _models(each)
-
-
-def _described(key: dict[str, Any], text: str | None) -> dict[str, Any]:
-    return key if text is None else dict(sorted({**key, "description": text}.items()))
 
 
 def _without_null(schema: Any) -> Any:

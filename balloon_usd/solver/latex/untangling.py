@@ -45,8 +45,11 @@ class Untangling:
         self._launcher = launcher
         self._between_searches = between_searches
         self._parts = launcher.lanes(PARTS)
+        self._chunks = len(launcher.scene.box_low)
+        self._groups = self._parts * launcher.lanes(SEARCH_LANES) * self._chunks
         device = wp.get_device(launcher.scene.device)
-        self._most_groups = WARPS_PER_SM * device.sm_count if device.is_cuda else len(launcher.scene.box_low)
+        if device.is_cuda:
+            self._groups = min(self._groups, WARPS_PER_SM * device.sm_count)
         launcher.load(box_walls, find_piercing_walls, measure_momentum, lanes=WARP)
         launcher.load(begin_keeping_apart, draw_back, take_momentum)
         self.start()
@@ -121,9 +124,12 @@ class Untangling:
 
     def _find(self, *, together: int) -> None:
         """Find where walls cross as they are kept apart."""
-        chunks = len(self._launcher.scene.box_low)
-        self._launcher.share_out(box_walls, chunks, lanes=WARP)
-        groups = min(self._parts * self._launcher.lanes(SEARCH_LANES) * chunks, self._most_groups)
+        self._launcher.share_out(box_walls, self._chunks, lanes=WARP)
         self._launcher.share_out(
-            find_piercing_walls, groups, lanes=WARP, parts=self._parts, launched=groups, together=together
+            find_piercing_walls,
+            self._groups,
+            lanes=WARP,
+            parts=self._parts,
+            launched=self._groups,
+            together=together,
         )

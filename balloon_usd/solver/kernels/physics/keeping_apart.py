@@ -65,7 +65,6 @@ def begin_keeping_apart(frame_ends: int, contacts: Contacts, crossings: Crossing
     if world == 0:
         crossings.tangled[0] = 0
         crossings.any_watched[0] = 0
-        crossings.looked_count[0] = 0
 
 
 @wp.kernel
