@@ -7,16 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from balloon_usd.balloon.halving import halved
+from balloon_usd.balloon.roots import root
 from balloon_usd.balloon.rubber import relaxed_stretches
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from balloon_usd.balloon.rubber import Floats, MembraneLaw
 
 _MERIDIAN_NODES = 40
-_HALVINGS = 46
 _LARGEST_AXIAL_STRETCH = 16.0
 
 
@@ -40,8 +37,8 @@ def bubble_at_stretch(
     da = 2.0 * widest[:, None] * t * weight
     b = axial_stretch(law, a, constant[:, None], axial_force=False)
     each = np.asarray(p_star).reshape(-1, 1)
-    cosine = 0.5 * each * a**2 / law.nominal_stress(*relaxed_stretches(a, b))[1]
-    with np.errstate(invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore"):
+        cosine = 0.5 * each * a**2 / law.nominal_stress(*relaxed_stretches(a, b))[1]
         sine = np.sqrt(1.0 - cosine**2)
         rest_length = 2.0 * np.sum(da / (b * sine), axis=1)
         length = 2.0 * np.sum(da * cosine / sine, axis=1)
@@ -58,9 +55,9 @@ def legendre(law: MembraneLaw, a: Floats, b: Floats) -> Floats:
 def axial_stretch(law: MembraneLaw, a: Floats, wanted: Floats, *, axial_force: bool) -> Floats:
     """Return the meridional stretch b at which W_b, the axial force, or else W - b W_b is as wanted (Pa)."""
 
-    def short(b: Floats) -> NDArray[np.bool_]:
+    def excess(b: Floats) -> Floats:
         if axial_force:
-            return np.asarray(law.nominal_stress(*relaxed_stretches(a, b))[1] < wanted)
-        return np.asarray(legendre(law, a, b) > wanted)
+            return np.asarray(wanted - law.nominal_stress(*relaxed_stretches(a, b))[1])
+        return np.asarray(legendre(law, a, b) - wanted)
 
-    return halved(short, np.ones(a.shape), np.full(a.shape, _LARGEST_AXIAL_STRETCH), _HALVINGS)
+    return root(excess, np.ones(a.shape), np.full(a.shape, _LARGEST_AXIAL_STRETCH))

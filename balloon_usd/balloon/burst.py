@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from balloon_usd.balloon.halving import halved
+from balloon_usd.balloon.roots import root
 from balloon_usd.balloon.rubber import BURST_STRETCH
 from balloon_usd.balloon.tube_theory import LARGEST_STRETCH
 
@@ -30,8 +30,6 @@ ALONG = 5.39
 WHOLE = 1.87e-6
 """Rubber of a 260, m3, for which `BURST_STRETCH` holds: a quarter of it bears 19 % more energy."""
 
-_HALVINGS = 48
-
 
 @lru_cache(maxsize=64)
 def burst_energy(rubber: Rubber) -> float:
@@ -47,14 +45,7 @@ def burst_energy(rubber: Rubber) -> float:
 def least_burst_stretch(rubber: Rubber) -> float:
     """Return the stretch in all directions at which a wall of this rubber has its `burst_energy`."""
     limit = burst_energy(rubber)
-    return float(
-        halved(
-            lambda stretch: np.asarray(rubber.energy(stretch, stretch) < limit),
-            np.ones(()),
-            np.full((), LARGEST_STRETCH),
-            _HALVINGS,
-        )
-    )
+    return float(root(lambda stretch: limit - rubber.energy(stretch, stretch), 1.0, LARGEST_STRETCH))
 
 
 def burst_load(rubber: Rubber, volumes: ArrayLike, energies: ArrayLike) -> float:

@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from balloon_usd.balloon.halving import halved
+from balloon_usd.balloon.roots import root
 from balloon_usd.balloon.rubber import UnloadedRubber
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
     from balloon_usd.balloon.rubber import Floats, MembraneLaw, Rubber
     from balloon_usd.balloon.sizes import BalloonSize
@@ -27,7 +27,7 @@ LARGEST_STRETCH = 14.0
 """End of every search in the hoop stretch: twice the stretch at which latex bursts."""
 
 _SEARCH_STEPS = 1300
-_HALVINGS = 48
+_NEWTON_STEPS = 48
 _SECTION_POINTS = 65
 _WALL = 1e6
 
@@ -76,16 +76,16 @@ def gauge_pressure(size: BalloonSize, p_star: float) -> float:
 def closed_tube_axial_stretch(law: MembraneLaw, a: ArrayLike) -> Floats:
     """Return the axial stretch of a tube with closed free ends at hoop stretches a >= 1, of the same shape.
 
-    From W_a = p* a b and W_b = p* a^2 / 2, so a W_a = 2 b W_b, solved by halving between the uniaxial
-    (b = a^-1/2) and the equibiaxial (b = a) state.
+    From W_a = p* a b and W_b = p* a^2 / 2, so a W_a = 2 b W_b, solved between the uniaxial (b = a^-1/2)
+    and the equibiaxial (b = a) state.
     """
     a = np.asarray(a, dtype=np.float64)
 
-    def short(b: Floats) -> NDArray[np.bool_]:
+    def excess(b: Floats) -> Floats:
         hoop, axial = law.nominal_stress(a, b)
-        return np.asarray(a * hoop > 2.0 * b * axial)
+        return np.asarray(a * hoop - 2.0 * b * axial)
 
-    return halved(short, a**-0.5, a, _HALVINGS)
+    return root(excess, a**-0.5, a)
 
 
 def closed_tube_pressure(law: MembraneLaw, a: ArrayLike) -> Floats:
@@ -168,7 +168,7 @@ def thin_state(law: MembraneLaw, p_star: float) -> TubeState:
     top = pressure_maximum(law)
     if not 0.0 <= p_star <= top.p_star:
         raise ValueError(f"no thin phase at p* = {p_star:g} Pa, the maximum is {top.p_star:g} Pa")
-    return closed_tube_state(law, _stretch_at(lambda a: closed_tube_pressure(law, a), p_star, 1.0, top.a))
+    return _states_at(law, p_star, [1.0], [top.a])[0]
 
 
 def bulged_state(law: MembraneLaw, p_star: float) -> TubeState:
@@ -180,8 +180,7 @@ def bulged_state(law: MembraneLaw, p_star: float) -> TubeState:
     bottom = pressure_minimum(law)
     if not bottom.p_star <= p_star < float("inf"):
         raise ValueError(f"no bulged phase at p* = {p_star:g} Pa, the minimum is {bottom.p_star:g} Pa")
-    stretch = _stretch_at(lambda a: closed_tube_pressure(law, a), p_star, bottom.a, LARGEST_STRETCH)
-    return closed_tube_state(law, stretch)
+    return _states_at(law, p_star, [bottom.a], [LARGEST_STRETCH])[0]
 
 
 @lru_cache(maxsize=64)
@@ -194,17 +193,17 @@ def maxwell_state(law: MembraneLaw) -> MaxwellState:
     Raises:
         ValueError: this rubber has no bulged phase.
     """
-    low, high = pressure_minimum(law).p_star, pressure_maximum(law).p_star
-    p_star = 0.5 * (low + high)
-    for _ in range(_HALVINGS):
-        thin, bulged = thin_state(law, p_star), bulged_state(law, p_star)
+    bottom, top = pressure_minimum(law), pressure_maximum(law)
+    p_star = 0.5 * (bottom.p_star + top.p_star)
+    for _ in range(_NEWTON_STEPS):
+        thin, bulged = _states_at(law, p_star, [1.0, bottom.a], [top.a, LARGEST_STRETCH])
         swept = 0.5 * (bulged.volume_ratio - thin.volume_ratio)
         gained = float(law.energy(bulged.a, bulged.b) - law.energy(thin.a, thin.b))
         step = gained / swept - p_star
-        p_star = min(max(p_star + step, low), high)
         if abs(step) < 1e-12 * p_star:
             break
-    return MaxwellState(p_star, thin_state(law, p_star), bulged_state(law, p_star))
+        p_star = min(max(p_star + step, bottom.p_star), top.p_star)
+    return MaxwellState(p_star, thin, bulged)
 
 
 @lru_cache(maxsize=64)
@@ -250,14 +249,19 @@ def _refined(pressure: Callable[[Floats], Floats], grid: Floats, index: int, hig
     return best
 
 
-def _stretch_at(rising: Callable[[Floats], Floats], wanted: float, low: float, high: float) -> float:
-    while high - low > 1e-12 * high:
-        fine = np.linspace(low, high, _SECTION_POINTS)
+def _states_at(
+    law: MembraneLaw, p_star: float, low: Sequence[float], high: Sequence[float]
+) -> list[TubeState]:
+    """Return the state at p_star, Pa, in each range of hoop stretches in which the pressure rises."""
+    start, end = np.array(low), np.array(high)
+    each = np.arange(start.size)
+    while (end - start > 1e-12 * end).any():
+        fine = np.linspace(start, end, _SECTION_POINTS)
         # Beyond the limit of a Gent rubber there is no number: too far.
-        below = rising(fine) < wanted
-        at = int(np.argmin(below)) if not below.all() else _SECTION_POINTS - 1
-        low, high = float(fine[max(at - 1, 0)]), float(fine[at])
-    return high
+        below = closed_tube_pressure(law, fine) < p_star
+        at = np.where(below.all(axis=0), _SECTION_POINTS - 1, np.argmin(below, axis=0))
+        start, end = fine[np.maximum(at - 1, 0), each], fine[at, each]
+    return [closed_tube_state(law, a) for a in end.tolist()]
 
 
 def _name(law: MembraneLaw) -> str:

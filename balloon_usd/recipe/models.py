@@ -34,7 +34,7 @@ class ModelTraits:
 
 MODELS: dict[ModelName, ModelTraits] = {
     "latex": ModelTraits(
-        version="latex 25",
+        version="latex 26",
         title="hyperelastic rubber and gas",
         has_weight=True,
         winds=True,
@@ -44,7 +44,7 @@ MODELS: dict[ModelName, ModelTraits] = {
         burst_stretch=BURST_STRETCH,
     ),
     "kosaka": ModelTraits(
-        version="kosaka 3",
+        version="kosaka 4",
         title="springs and air particles",
         has_weight=False,
         winds=False,
