@@ -3,7 +3,7 @@
 import re
 import unicodedata
 from collections.abc import Container
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field, WithJsonSchema
 
@@ -58,9 +58,9 @@ def text(value: object) -> str:
     return value
 
 
-def rest_name(balloon: str, taken: Container[str]) -> str:
+def name_of_end(balloon: str, what: Literal["rest", "tip"], taken: Container[str]) -> str:
     """Return the name of a balloon's last bubble where no step gives one: `main_rest`, made unique."""
-    found = f"{balloon}_rest"
+    found = f"{balloon}_{what}"
     while found in taken:
         found += "_"
     return found

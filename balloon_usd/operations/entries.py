@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from balloon_usd.language.choices import one_of
-from balloon_usd.language.names import rest_name
+from balloon_usd.language.names import name_of_end
 from balloon_usd.operations.inflate import Inflate
 from balloon_usd.operations.rest import Rest
 from balloon_usd.operations.table import BY_WORD, WORDS, words_in
@@ -113,5 +113,5 @@ def _unnamed_rests(
             last[balloon] = int(step.path[1])
         if isinstance(step.entries.get(Rest.word), str):
             ended.add(balloon)
-    names = {rest_name(balloon, made_ever): balloon for balloon in last if balloon not in ended}
+    names = {name_of_end(balloon, "rest", made_ever): balloon for balloon in last if balloon not in ended}
     return {name: UnnamedRest(balloon, last[balloon]) for name, balloon in names.items()}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
-from itertools import chain
+from itertools import chain, product
 from typing import TYPE_CHECKING, NoReturn, Protocol
 
 from balloon_usd.language.problem import RecipeError
@@ -196,7 +196,7 @@ class Score:
         found = tuple(ring for ring in rings if ring is not None)
         if len(found) < len(rings):
             tip = ends[rings.index(None)]
-            text = "is the tip of its balloon and cannot be twisted, expected a joint between two bubbles"
+            text = "is the tip of its balloon and cannot be twisted, expected another joint, or a step tie"
             self.refuse(index, {(word,): f"{tip} {text}"})
         return found
 
@@ -265,7 +265,7 @@ class Score:
         straight, the last to the first where they hang together.
         """
         if self._same_balloon(first, last):
-            self.gather(first, last, point, text, index)
+            self.gather(*self._nearest(first, last), point, text, index)
             return
         ring, to = self._lead_in(first, last, index)
         self.add(Bring(self.now, BRING_SECONDS / self.pace.leading, index, text, ring=ring, to=to))
@@ -286,6 +286,20 @@ class Score:
         text = f"lead in: {self.layout.ring(ring).balloon}"
         self.add(LeadIn(self.now, seconds, index, text, ring=ring, to=to))
         return ring, to
+
+    def _nearest(self, first: int, last: int) -> tuple[int, int]:
+        """Return the nearest two rings of their balloon that are of the same joints as two of its rings: what
+        is folded between others is twisted already.
+        """
+        ones, others = (
+            {ring, *(each for weld in self._welds() for each in weld if self._is_same_joint(each, ring))}
+            for ring in (first, last)
+        )
+        one, other = min(product(sorted(ones), sorted(others)), key=lambda pair: abs(pair[1] - pair[0]))
+        return min(one, other), max(one, other)
+
+    def _is_same_joint(self, ring: int, other: int) -> bool:
+        return self._same_balloon(ring, other) and self.joints.root(ring) == self.joints.root(other)
 
     def _gathered(self, ring: int) -> float:
         """Return how far a ring has come along its balloon as chains behind it were closed, m."""
@@ -338,9 +352,13 @@ class Score:
         """Return a direction as hands take it: its mirror image where they make that of the figure."""
         return mirror_image(direction) if self.mirrored else direction
 
-    def weld(self, rings: tuple[int, ...], turns: float, text: str, index: int) -> None:
-        """Twist joints that lie together into one."""
-        free = not self.blown_up and self._can_turn(rings)
+    def weld(
+        self, rings: tuple[int, ...], turns: float, text: str, index: int, *, by_string: bool = False
+    ) -> None:
+        """Twist joints that lie together into one; `by_string`: what is folded between them is not turned."""
+        if len(rings) == 2 and self._same_balloon(*rings):
+            rings = self._nearest(*rings)
+        free = not self.blown_up and not by_string and self._can_turn(rings)
         self.joints.merge(rings)
         self.add(Weld(self.now, 0.0, index, text, rings=rings, turns=turns))
         if free:

@@ -31,6 +31,7 @@ from balloon_usd.operations.spiral import Spiral
 from balloon_usd.operations.squeeze import Squeeze
 from balloon_usd.operations.tail_ball import TailBall
 from balloon_usd.operations.thread import Thread
+from balloon_usd.operations.tie import Tie
 from balloon_usd.operations.tulip import Tulip
 from balloon_usd.operations.wait import Wait
 from balloon_usd.operations.weave import Weave
@@ -43,6 +44,7 @@ if TYPE_CHECKING:
 OPERATIONS: tuple[type[Operation], ...] = (
     Bubbles,
     Lock,
+    Tie,
     Loop,
     Fold,
     Ear,

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from balloon_usd.language.choices import one_of, unknown
 from balloon_usd.language.joint import Joint, ends_of
-from balloon_usd.language.names import is_name
+from balloon_usd.language.names import is_name, name_of_end
 from balloon_usd.language.problem import PROBLEMS_SHOWN, Complaint, Path, path_text, quoted
 from balloon_usd.operations.workpiece import Workpiece
 
@@ -66,6 +66,8 @@ class Workbench:
         self._tipped_at: dict[str, Path] = {}
         self._curved_at: dict[str, tuple[str, Path]] = {}
         self._ended: dict[str, Path] = {}
+        self._tied_at: dict[str, Path] = {}
+        """Where the tip behind a rest was tied."""
         self._made_ever, self._rests = made_ever, rests
         self._pumped = pumped
         self._told_flat: set[str] = set()
@@ -221,6 +223,21 @@ class Workbench:
             self.complain(path, f"bubble {quoted(name)} was curved at {path_text(at)}, expected {expected}")
         self._curved_at.setdefault(name, (word, path))
 
+    def close_tip(self, name: str, path: Path) -> bool:
+        """Let what is left of a balloon end in a joint, once; say whether it can."""
+        if name in self._tipped_at:
+            at = path_text(self._tipped_at[name])
+            self.complain(path, f"the tip of {quoted(name)} is a ball since {at}, expected a flat one")
+        elif name in self._tied_at:
+            at = path_text(self._tied_at[name])
+            self.complain(path, f"the tip of {quoted(name)} was tied at {at}, expected each tip once")
+        elif any((each.kind, each.bubble) == ("thread", name) for each in self.piece.contacts):
+            what = f"bubble {quoted(name)} is threaded through a ring, of which it would be pulled out"
+            self.complain(path, f"{what}, expected thread or tie alone")
+        else:
+            self._tied_at[name] = path
+        return self._tied_at.get(name) == path
+
     def find_firm(self, name: str, path: Path, rests: Iterable[str] = ()) -> bool:
         """Say whether a bubble exists by now and has its gas, and complain if it does not; as `find`."""
         if not self.find(name, path, rests):
@@ -262,6 +279,10 @@ class Workbench:
 
     def has_tail(self, name: str, path: Path) -> bool:
         """Say whether a bubble that is there is what is left of a balloon, and complain if it is not."""
+        if name in self._tied_at:
+            at = path_text(self._tied_at[name])
+            self.complain(path, f"the tip of {quoted(name)} was tied at {at}, expected this step before it")
+            return False
         if name in self.piece.bubbles and not self.piece.bubbles[name].last:
             what = f"bubble {quoted(name)} has no tail, expected what is left of a balloon"
             self.complain(path, f"{what}, which a step rest names")
@@ -306,7 +327,12 @@ class Workbench:
         self.piece.join(int(path[1]), ends)
 
     def finished(self, steps: int) -> Workpiece:
-        """Return the workpiece, with the unnamed rests of its balloons, made after so many steps."""
+        """Return the workpiece, with the unnamed rests and the tied tips of its balloons, made after so many
+        steps.
+        """
         for name, rest in self._rests.items():
             self.piece.make(steps, name, rest.balloon, last=True)
+        for tied in self._tied_at:
+            balloon = self.piece.bubbles[tied].balloon
+            self.piece.make(steps, name_of_end(balloon, "tip", self._made_ever), balloon, last=True)
         return self.piece

@@ -117,6 +117,7 @@ def budget_of(strip: Strip) -> Budget:
     tube = inflated_tube(strip.size, rubber, strip.tail)
     volume, maxwell = tube.volume, maxwell_state(rubber)
     twists: list[TwistEntry] = []
+    closed = strip.bubbles[-2] if strip.tip_is_tied else None
     for bubble in strip.bubbles[:-1]:
         shape, tube = tube.pinched(bubble.twisted)
         state = tube.state
@@ -124,7 +125,7 @@ def budget_of(strip: Strip) -> Budget:
         soft = bubble_of_length(strip.size, rubber, bubble.length)
         sealed = state_at_stretch(rubber, shape.diameter / soft.diameter * maxwell.bulged.a)
         energies = (float(rubber.energy(it.a, it.b)) for it in (state, sealed))
-        left = tube.inflated_length, tube.tail
+        left = tube.inflated_length, tube.rest_length if bubble is closed else tube.tail
         twists.append(TwistEntry(bubble.name, bubble.step, *left, pressure, state.a, *energies))
     room = tail_range(strip.size, rubber, [bubble.twisted for bubble in strip.bubbles[:-1]])
     return Budget(

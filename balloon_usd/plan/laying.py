@@ -8,11 +8,13 @@ from typing import TYPE_CHECKING
 from balloon_usd.balloon.rubber import rubber_named
 from balloon_usd.balloon.tube_theory import gauge_pressure, maxwell_state
 from balloon_usd.balloon.wound_neck import drawn_rubber
+from balloon_usd.language.joint import Joint
 from balloon_usd.language.lengths import at_least, at_most, cm
 from balloon_usd.language.problem import RecipeError, quoted
 from balloon_usd.operations.curving import Curves
 from balloon_usd.operations.modifiers import Turned
 from balloon_usd.operations.thread import Thread
+from balloon_usd.operations.tie import LEAST_STRING, Tie
 from balloon_usd.plan.capsule import capsule_bubbles
 from balloon_usd.plan.laying_shapes import overlap_problems, shaped_strip
 from balloon_usd.plan.open_tube import (
@@ -27,11 +29,12 @@ from balloon_usd.plan.open_tube import (
     shortened,
     softened,
 )
-from balloon_usd.plan.strip import Made, PlannedBubble, Strip
+from balloon_usd.plan.strip import ALL, Made, PlannedBubble, Strip
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
+    from balloon_usd.balloon.bubble_shape import BubbleShape
     from balloon_usd.balloon.rubber import Rubber
     from balloon_usd.balloon.sizes import BalloonSize
     from balloon_usd.language.problem import Path, Problem
@@ -107,8 +110,12 @@ def _tube(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> Strip
     places = {each: count for s in recipe.steps for each, count in s.held_at(recipe.piece).items()}
     for made in _wound(recipe, name, size, rubber):
         index, kind, bubble, length, gas, drawn, slack = made
-        shape, left = tube.pinched(made.twisted)
-        if not left.blown_up:
+        if length == ALL:
+            shape, left = _closed(recipe, tube, bubble)
+            length = shape.length
+        else:
+            shape, left = tube.pinched(made.twisted)
+        if not left.blown_up and made.length != ALL:
             path: Path = ("steps", index, recipe.steps[index].word, bubble)
             raise RecipeError([recipe.problem(path, _misfit(recipe, name, tail, bubble, length, tube))])
         rest_end = rest_along + 0.5 * (drawn_before + drawn) + shape.rest_length
@@ -135,7 +142,7 @@ def _tail(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> float
         return max(size.length * (1.0 - balloon.inflated / full), 0.0)
     tail, most = balloon.tail or 0.0, size.length - end_rest_length(size, softened(rubber))
     if tail >= most:
-        fitting = fitting_tail(size, rubber, [made.twisted for made in _wound(recipe, name, size, rubber)])
+        fitting = fitting_tail(size, rubber, _wanted(recipe, name, size, rubber))
         most = most if fitting is None else min(fitting, most)
         text = f"a tail of {cm(tail)} leaves nothing of a {size.name}, expected at most {at_most(most)}"
         raise RecipeError([recipe.problem(("balloons", name, "tail"), text)])
@@ -153,6 +160,10 @@ def _made(recipe: Recipe, name: str) -> list[Made]:
         index = recipe.piece.bubbles[bubble].step
         step = recipe.steps[index]
         assert step.bubble_kind is not None, "a step that makes bubbles says of which kind"
+        if step.bubble_kind == "rest":
+            # Only one whose end is tied has something behind it.
+            found.append(Made(index, "bubble", bubble, ALL))
+            continue
         found.append(Made(index, step.bubble_kind, bubble, step.lengths[bubble], step.gas_left))
     return found
 
@@ -168,6 +179,24 @@ def _wound(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> list
     return found
 
 
+def _wanted(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> list[Twisted]:
+    """What the steps make of a tube, but for what takes all the gas that is left."""
+    return [made.twisted for made in _wound(recipe, name, size, rubber) if made.length != ALL]
+
+
+def _closed(recipe: Recipe, tube: OpenTube, bubble: str) -> tuple[BubbleShape, OpenTube]:
+    """What is left of a tube as a bubble that is closed at its front, and the flat tip that ties its end."""
+    least, (shape, left) = LEAST_STRING * tube.size.radius, tube.closed()
+    flat = left.rest_length if tube.tail > 0.0 else 0.0
+    if flat < least:
+        end, balloon = Joint(bubble, "end"), recipe.piece.bubbles[bubble].balloon
+        step = next(k for k, s in enumerate(recipe.steps) if isinstance(s, Tie) and s.tie.end == end)
+        text = f"only {cm(flat)} of flat tail are left behind {bubble}"
+        text += f", expected {at_least(least)} to tie: a longer tail of {balloon}"
+        raise RecipeError([recipe.problem(("steps", step, Tie.word, "end"), text)])
+    return shape, left
+
+
 def _rest(recipe: Recipe, name: str) -> tuple[str, int]:
     """Name of what is left of a balloon, and the step that names it, or the number of steps."""
     bubble = recipe.piece.row(name)[-1]
@@ -178,7 +207,8 @@ def _rest_of_tube(
     recipe: Recipe, name: str, tube: OpenTube, along: float, rest_along: float
 ) -> PlannedBubble:
     bubble, index = _rest(recipe, name)
-    length = tube.inflated_length
+    tied = any(recipe.piece.bubbles[each].last for each in recipe.piece.row(name)[:-1])
+    length = 0.0 if tied else tube.inflated_length
     return PlannedBubble(
         name=bubble,
         balloon=name,
@@ -196,7 +226,7 @@ def _rest_of_tube(
 
 def _misfit(recipe: Recipe, name: str, tail: float, bubble: str, length: float, tube: OpenTube) -> str:
     text = f"{quoted(bubble)} of {cm(length)} does not fit: {cm(tube.inflated_length)} of {name} is left"
-    wanted = [made.twisted for made in _wound(recipe, name, tube.size, tube.rubber)]
+    wanted = _wanted(recipe, name, tube.size, tube.rubber)
     fitting = fitting_tail(tube.size, tube.rubber, wanted)
     inflated = recipe.balloons[name].inflated
     if fitting is not None and inflated is None:

@@ -11,6 +11,8 @@ import math
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, NamedTuple
 
+import numpy as np
+
 from balloon_usd.balloon.bubble_shape import (
     BubbleShape,
     bubble_of_length,
@@ -20,13 +22,14 @@ from balloon_usd.balloon.bubble_shape import (
     tube_volume_per_rest_length,
 )
 from balloon_usd.balloon.filled_tube import filled_state, state_at_pressure
+from balloon_usd.balloon.roots import root
 from balloon_usd.balloon.rubber import Softening
 from balloon_usd.balloon.tube_theory import TubeState, maxwell_state
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from balloon_usd.balloon.rubber import Rubber
+    from balloon_usd.balloon.rubber import Floats, Rubber
     from balloon_usd.balloon.sizes import BalloonSize
 
 MILLIMETRE = 1e-3
@@ -132,6 +135,17 @@ class OpenTube:
             volume=self.volume - shape.volume,
         )
         return shape, left
+
+    def closed(self) -> tuple[BubbleShape, OpenTube]:
+        """Twist it off at its front: return the bubble that takes all its gas, and the flat rubber behind."""
+        thin, bulged = tail_volume_per_rest_length(self.size, self.rubber), maxwell_state(self.rubber).bulged
+
+        def gas_left(length: Floats) -> Floats:
+            _, left = self._parted(Twisted(float(length)), bulged)
+            return np.asarray(left.volume - thin * left.rest_length)
+
+        longest = self.inflated_length + pinch_length(self.size, self.rubber)
+        return self._parted(Twisted(float(root(gas_left, 1e-3 * self.size.radius, longest))), bulged)
 
     @property
     def _tail_balance(self) -> float:

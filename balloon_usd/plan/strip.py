@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -18,6 +19,10 @@ if TYPE_CHECKING:
     from balloon_usd.plan.shaped import Shaped
 
 
+ALL = math.inf
+"""Length of a bubble that takes all the gas that is left."""
+
+
 class Made(NamedTuple):
     """A bubble that a step of the recipe makes."""
 
@@ -26,7 +31,7 @@ class Made(NamedTuple):
     kind: BubbleKind
     bubble: str
     length: float
-    """Inflated length, m."""
+    """Inflated length, m; `ALL` of a rest whose end is tied."""
     gas: float = 1.0
     """Share of the gas of that length that hands leave in it."""
     drawn: float = 0.0
@@ -116,6 +121,11 @@ class Strip:
         return not self.capsule and self.shape is None
 
     @property
+    def tip_is_tied(self) -> bool:
+        """Whether the last bubble is the flat tip of a tube, which is tied to a joint: it holds no gas."""
+        return self.bubbles[-1].length == 0.0
+
+    @property
     def inverted(self) -> bool:
         """Whether its knot is pressed through its first bubble, the wall of which it turns inside."""
         operation = BY_KIND.get(self.bubbles[0].kind)
@@ -154,6 +164,8 @@ class Strip:
         start.
         """
         last = bubble is self.bubbles[-1]
+        if bubble.length == 0.0:
+            return bubble.rest_start
         if self.capsule:
             necks = (bubble is not self.bubbles[0], not last)
             return bubble.rest_start + wall_place(at, bubble.length, self.inflated_radius, necks)

@@ -18,6 +18,7 @@ from balloon_usd.operations.spiral import Spiral
 from balloon_usd.operations.squeeze import Squeeze
 from balloon_usd.operations.tail_ball import TailBall
 from balloon_usd.operations.thread import Thread
+from balloon_usd.operations.tie import Tie
 from balloon_usd.operations.tulip import Tulip
 from balloon_usd.operations.wrap import Wrap
 
@@ -51,6 +52,7 @@ LATEX_STEPS = {
     Pop.word: (", whose air particles stay in", "no such step"),
     Cut.word: (", whose air particles stay in", "no such step"),
     Tulip.word: (", whose net is not turned inside out", "no such step"),
+    Tie.word: (", whose balloons have neither nozzle nor flat tip", "lock: {joints: [...]}"),
     TailBall.word: (", whose springs do not soften", "no such step"),
     "burp": (", whose bubbles keep the air particles that are in them", "no burp"),
     "turns": (": its joints freeze and are not wound", "no turns"),

@@ -105,6 +105,8 @@ class FlatTails:
             start += 0.5 * drawn_rubber(strip.size, softened(strip.rubber), turns)
         if self._plan.recipe.physics.traits.starts_blown_up:
             return thin_rubber(mesh, frame.points[tube.balloon], start, strip.size.radius)
+        if strip.tip_is_tied and made == len(strip.bubbles) - 1:
+            return strip.size.length - start
         gas = frame.volume[tube.first + made : tube.first + len(strip.bubbles)]
         return unfilled_rubber(strip, mesh.around, start, float(gas.sum()))
 

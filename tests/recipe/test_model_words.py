@@ -288,6 +288,13 @@ def test_only_what_is_shut_off_for_good_is_popped_and_only_once(steps: str, told
 REST = "  - bubbles: {a: 6, b: 6, c: 6}\n  - lock: [b, c]\n  - rest: tail\n"
 
 
+def test_springs_have_no_strings() -> None:
+    found = messages(f"{CAPSULE}{REST}  - tie: {{end: tail.end, to: tail.start}}\n{KOSAKA}")
+    assert any(
+        "tie: makes no sense with model kosaka, whose balloons have neither nozzle" in each for each in found
+    )
+
+
 def test_springs_have_no_tail_balls() -> None:
     found = messages(f"{CAPSULE}{REST}  - tail_ball: {{tail: 2.5}}\n{KOSAKA}")
     assert any(
