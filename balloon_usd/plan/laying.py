@@ -109,15 +109,8 @@ def _tube(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> Strip
     bent |= {step.bubble for step in recipe.steps if isinstance(step, Thread)}
     places = {each: count for s in recipe.steps for each, count in s.held_at(recipe.piece).items()}
     for made in _wound(recipe, name, size, rubber):
-        index, kind, bubble, length, gas, drawn, slack = made
-        if length == ALL:
-            shape, left = _closed(recipe, tube, bubble)
-            length = shape.length
-        else:
-            shape, left = tube.pinched(made.twisted)
-        if not left.blown_up and made.length != ALL:
-            path: Path = ("steps", index, recipe.steps[index].word, bubble)
-            raise RecipeError([recipe.problem(path, _misfit(recipe, name, tail, bubble, length, tube))])
+        shape, left = (_closed if made.length == ALL else _pinched)(recipe, tube, made)
+        index, kind, bubble, length, gas, drawn, slack = made._replace(length=shape.length)
         rest_end = rest_along + 0.5 * (drawn_before + drawn) + shape.rest_length
         place = along, along + length, rest_along, rest_end
         pressure = shape.pressure * gauge_pressure(size, maxwell_state(tube.rubber).p_star)
@@ -184,14 +177,23 @@ def _wanted(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> lis
     return [made.twisted for made in _wound(recipe, name, size, rubber) if made.length != ALL]
 
 
-def _closed(recipe: Recipe, tube: OpenTube, bubble: str) -> tuple[BubbleShape, OpenTube]:
+def _pinched(recipe: Recipe, tube: OpenTube, made: Made) -> tuple[BubbleShape, OpenTube]:
+    """A bubble that a step twists off, and what is left of the tube."""
+    shape, left = tube.pinched(made.twisted)
+    if not left.blown_up:
+        path: Path = ("steps", made.step, recipe.steps[made.step].word, made.bubble)
+        raise RecipeError([recipe.problem(path, _misfit(recipe, made, tube))])
+    return shape, left
+
+
+def _closed(recipe: Recipe, tube: OpenTube, made: Made) -> tuple[BubbleShape, OpenTube]:
     """What is left of a tube as a bubble that is closed at its front, and the flat tip that ties its end."""
     least, (shape, left) = LEAST_STRING * tube.size.radius, tube.closed()
     flat = left.rest_length if tube.tail > 0.0 else 0.0
     if flat < least:
-        end, balloon = Joint(bubble, "end"), recipe.piece.bubbles[bubble].balloon
+        end, balloon = Joint(made.bubble, "end"), recipe.piece.bubbles[made.bubble].balloon
         step = next(k for k, s in enumerate(recipe.steps) if isinstance(s, Tie) and s.tie.end == end)
-        text = f"only {cm(flat)} of flat tail are left behind {bubble}"
+        text = f"only {cm(flat)} of flat tail are left behind {made.bubble}"
         text += f", expected {at_least(least)} to tie: a longer tail of {balloon}"
         raise RecipeError([recipe.problem(("steps", step, Tie.word, "end"), text)])
     return shape, left
@@ -224,8 +226,10 @@ def _rest_of_tube(
     )
 
 
-def _misfit(recipe: Recipe, name: str, tail: float, bubble: str, length: float, tube: OpenTube) -> str:
-    text = f"{quoted(bubble)} of {cm(length)} does not fit: {cm(tube.inflated_length)} of {name} is left"
+def _misfit(recipe: Recipe, made: Made, tube: OpenTube) -> str:
+    name = recipe.piece.bubbles[made.bubble].balloon
+    left = f"{cm(tube.inflated_length)} of {name} is left"
+    text = f"{quoted(made.bubble)} of {cm(made.length)} does not fit: {left}"
     wanted = _wanted(recipe, name, tube.size, tube.rubber)
     fitting = fitting_tail(tube.size, tube.rubber, wanted)
     inflated = recipe.balloons[name].inflated
@@ -235,6 +239,7 @@ def _misfit(recipe: Recipe, name: str, tail: float, bubble: str, length: float, 
     if fitting is not None:
         least = full * (1.0 - fitting / tube.size.length)
         return f"{text}, expected inflated: at least {at_least(least)}"
+    tail = _tail(recipe, name, tube.size, tube.rubber)
     return f"{text}, expected {_shorter(tube.size, tube.rubber, tail, wanted, by_tail=inflated is None)}"
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import groupby
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -73,10 +74,17 @@ class SculptureCheck:
         return self._name(strip, mesh, int(np.argmax(self._last.stretch[index])))
 
     def _impossible(self, frame: Frame) -> str | None:
-        """Tell of a bubble that has turned inside out: what follows would be no physics. Limp rubber may."""
+        """Tell of a bubble that has turned inside out: what follows would be no physics. Limp rubber may, and
+        what is folded in a tube that gas fills by and by.
+        """
         popped = self._plan.recipe.piece.popped
-        for bubble, pressure, volume in zip(self._plan.bubbles, frame.pressure, frame.volume, strict=True):
-            if bubble.name not in popped and not (pressure > LOWEST_PRESSURE and volume > 0.0):
+        measured = zip(self._plan.bubbles, frame.pressure, frame.volume, strict=True)
+        firm = (each for each in measured if each[0].name not in popped)
+        # Bubbles of one open tube have one pressure, to the last bit.
+        for (_, pressure), open_tube in groupby(firm, key=lambda each: (each[0].balloon, float(each[1]))):
+            parts = list(open_tube)
+            if not (pressure > LOWEST_PRESSURE and sum(float(volume) for _, _, volume in parts) > 0.0):
+                bubble, _, volume = min(parts, key=lambda each: float(each[2]))
                 found = f"{pressure / 1e3:.0f} kPa in {volume * 1e6:.1f} cm3"
                 return f"{bubble.name} has turned inside out ({found}): make it longer"
         return None

@@ -342,7 +342,7 @@ CAPSULE = "balloons: {a: {size: 260, capsule: %s}}\nsteps: [bubbles: {%s}]\nphys
     ),
     (
         ONE % ("tail: 3", "[{bubbles: {b: 7, c: 7}}, {rest: d}, {lock: {joints: [b.end, d.end]}}]"),
-        r"d.end is the tip of its balloon.*expected a joint between two bubbles",
+        r"d.end is the tip of its balloon.*expected another joint",
         {"steps.2.lock.joints": "[b.end, d.start]"},
     ),
     (
