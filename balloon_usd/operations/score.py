@@ -50,6 +50,10 @@ DRAWING_SECONDS = 1.0
 """Closing of a ring by force in model kosaka, with time for the air to leave, s."""
 GATHER_LEAST = 1.1
 """Shortest gathering, s."""
+BOWED, BOWED_PAIR = 1.0, 2.0
+"""Length of a bubble of a chain, in that of all its others together, from which on hands bend it round; of a
+pair, whose two bubbles lie on each other.
+"""
 LEAST_TURNED = 0.8
 """Length of the shortest bubble of a fold that hands turn, in widths of its tube; of a fold of one, twice."""
 BRING_SECONDS = 1.5
@@ -260,15 +264,18 @@ class Score:
         ordered = sorted(found, key=lambda balloon: abs(self.layout.parked(self.pieces.root(balloon))))
         return [tuple(found[balloon]) for balloon in ordered]
 
-    def together(self, first: int, last: int, point: Point | None, text: str, index: int) -> None:
+    def together(
+        self, first: int, last: int, point: Point | None, text: str, index: int, *, far: float = 0.0
+    ) -> None:
         """Bring two joints together: along their balloon if it is the same, the first to the last, else
-        straight, the last to the first where they hang together.
+        straight, the last to the first where they hang together, which are so far apart (m).
         """
         if self._same_balloon(first, last):
             self.gather(*self._nearest(first, last), point, text, index)
             return
         ring, to = self._lead_in(first, last, index)
-        self.add(Bring(self.now, BRING_SECONDS / self.pace.leading, index, text, ring=ring, to=to))
+        seconds = max(BRING_SECONDS, far / HAND_SPEED) / self.pace.leading
+        self.add(Bring(self.now, seconds, index, text, ring=ring, to=to))
 
     def _lead_in(self, first: int, last: int, index: int) -> tuple[int, int]:
         """Lead in what lies aside with one of two rings of different balloons, unless they hang together;
@@ -327,14 +334,12 @@ class Score:
         middle is pulled out, m, as that of an ear.
         """
         layout = self.layout
-        joints = [k for k in range(first, last + 1) if layout.ring(k).joint]
-        corners = tuple(joints)
+        joints = self._without_closed([k for k in range(first, last + 1) if layout.ring(k).joint])
+        corners = self._bowed(joints)
         cheeks: tuple[tuple[int, int], ...] = ()
         if fold is not None:
             corners, cheeks = folded(layout, fold, first, last)
-        elif len(joints) == 2:
-            corners = (first, *layout.guides(layout.ring(last).bubble), last)
-        elif len(joints) == 3:
+        elif len(joints) == len(corners) == 3:
             guides = [layout.guides(layout.ring(j).bubble) for j in joints[1:]]
             cheeks = tuple((inside[len(inside) // 2], k) for k, inside in enumerate(guides))
         length = sum(layout.bubble(layout.ring(j).bubble).length for j in joints[1:])
@@ -343,6 +348,30 @@ class Score:
         aim = point or "up"
         gather = Gather(self.now, seconds, index, text, corners=corners, cheeks=cheeks, pulled=pulled)
         self.add(replace(gather, point=self.towards(aim), across=self.sided(ACROSS[aim])))
+
+    def _without_closed(self, joints: Sequence[int]) -> list[int]:
+        """Return the rings of a chain without those of rows that are closed in it already, such as a lock:
+        these hang on it. Single bubbles, such as ears, are kept: both their ends lie on it.
+        """
+        kept: list[int] = []
+        at = 0
+        while at < len(joints):
+            kept.append(joints[at])
+            same = [k for k in range(at, len(joints)) if self._is_same_joint(joints[k], joints[at])]
+            at = same[-1] + 1 if same[-1] > at + 1 else at + 1
+        return kept
+
+    def _bowed(self, joints: Sequence[int]) -> tuple[int, ...]:
+        """Return the corners of a chain: its joints, and the guides of a bubble that has to be bent round for
+        the others to close it.
+        """
+        bubbles = [self.layout.ring(joint).bubble for joint in joints[1:]]
+        lengths = [self.layout.bubble(bubble).length for bubble in bubbles]
+        at = lengths.index(max(lengths))
+        inside: tuple[int, ...] = ()
+        if lengths[at] > (BOWED if len(lengths) > 2 else BOWED_PAIR) * (sum(lengths) - lengths[at]):
+            inside = self.layout.guides(bubbles[at])
+        return (*joints[: at + 1], *inside, *joints[at + 1 :])
 
     def towards(self, point: Point) -> Vector:
         """Return the unit direction in which hands lead what the recipe points somewhere."""

@@ -14,9 +14,14 @@ if TYPE_CHECKING:
     from balloon_usd.language.quantities import Units
     from balloon_usd.operations.score import Score
     from balloon_usd.operations.workbench import Place, Workbench
+    from balloon_usd.operations.workpiece import Workpiece
 
 LEAST_STRING = 5.0
 """Least flat rubber at the tip that two fingers can wind and tie, in R0: 22 mm of a 260. Judged."""
+
+
+PLACES = 7
+"""At how many places hands hold what is left of a balloon as they tie its tip, as a loop."""
 
 
 class TiedEnd(Entries):
@@ -64,6 +69,10 @@ steps:
         """The end that is tied, and the joint."""
         return str(self.tie.end), str(self.tie.to)
 
+    def held_at(self, piece: Workpiece) -> dict[str, int]:
+        """Return at how many places hands hold what they bend round to tie its tip."""
+        return {self.tie.end.bubble: PLACES} if self.tie.end.end == "end" else {}
+
     @classmethod
     def value_of(cls, units: Units, /, end: str, to: str) -> object:
         """Return its value as it stands in a file: two joints such as "tail.end"."""
@@ -92,9 +101,11 @@ steps:
     def perform(self, score: Score, index: int) -> None:
         """Close a tip, bring the end to the joint, and tie it there."""
         first, last = sorted(score.twistable((self.tie.end, self.tie.to), self.word, index))
+        far = 0.0
         if self.tie.end.end == "end":
             score.twist(self.tie.end.bubble, TURNS, index)
-        score.together(first, last, self.point, self.label, index)
+            far = score.layout.bubble(self.tie.end.bubble).length
+        score.together(first, last, self.point, self.label, index, far=far)
         score.weld((first, last), TURNS, self.label, index, by_string=True)
 
 

@@ -6,7 +6,9 @@ import re
 
 import pytest
 
-from balloon_usd.operations.moves import Gather, Spin, TurnFold, Weld
+from balloon_usd.operations.moves import Bring, Gather, Spin, TurnFold, Weld
+from balloon_usd.operations.score import HAND_SPEED
+from balloon_usd.operations.tie import PLACES
 from balloon_usd.plan.holding import slipping_steps
 from balloon_usd.recipe import RecipeError
 
@@ -18,6 +20,22 @@ steps:
   - lock: [b, c]
   - rest: r
   - tie: {{end: {end}, to: {to}}}
+"""
+
+TWO = """
+balloons: {main: {size: 260, length: 20, tail: 8}, other: {size: 260, length: 20, tail: 6}}
+steps:
+  - bubbles: {head: 8, body: 12}
+    balloon: main
+  - bubbles: {arm: 12}
+    balloon: other
+  - lock: {joints: [arm.start, head.end]}
+  - rest: back
+    balloon: main
+  - rest: more
+    balloon: other
+  - wait: 1
+  - tie: {end: more.end, to: head.end}
 """
 
 
@@ -72,6 +90,29 @@ def test_a_knot_holds_at_any_friction(planned, friction):
 @pytest.mark.parametrize("joint", ["a.end", "b.start", "c.end", "r.start"])
 def test_a_joint_that_is_one_already_is_met_where_it_is_nearest(planned, joint):
     assert corners(tied(planned, to=joint))[-1] == ["c.end", "r.end"]
+
+
+def test_rows_that_are_closed_hang_on_a_chain_and_are_no_part_of_it(planned):
+    steps = "\n  - ear: {d: 3}\n  - bubbles: {e: 10, f: 10, g: 10}\n  - lock: {joints: [a.start, g.end]}\n"
+    figure = planned(TUBE.split("  - rest", maxsplit=1)[0].format(tail=12, friction=0.8).rstrip() + steps)
+    assert corners(figure)[-1] == ["main.knot", "a.end", "e.end", "f.end", "g.end"]
+
+
+def test_a_bubble_longer_than_the_rest_of_its_ring_is_bent_round(planned):
+    figure = tied(planned, to="a.start")
+    (move,) = (move for move in figure.choreography.moves if isinstance(move, Gather) and move.step == 3)
+    long = figure.table.guides("r")
+    assert len(long) >= PLACES
+    assert set(long) < set(move.corners)
+    assert list(move.corners) == sorted(move.corners)
+    assert not move.cheeks
+
+
+def test_a_tip_of_another_balloon_is_brought_slowly_where_it_is_far(planned):
+    figure = planned(TWO)
+    (move,) = (move for move in figure.choreography.moves if isinstance(move, Bring) and move.step == 6)
+    far = next(bubble.length for bubble in figure.bubbles if bubble.name == "more")
+    assert move.seconds == pytest.approx(far / HAND_SPEED)
 
 
 def test_a_lock_meets_it_there_too(planned):
