@@ -91,3 +91,9 @@ class Plan:
     def bubbles(self) -> tuple[PlannedBubble, ...]:
         """All bubbles in plan order: balloon after balloon, each from the knot to the tip."""
         return tuple(bubble for strip in self.strips.values() for bubble in strip.bubbles)
+
+    @cached_property
+    def limp(self) -> frozenset[str]:
+        """Bubbles that hold no gas in the end: popped ones, and flat tips that are tied to a joint."""
+        tied = {strip.bubbles[-1].name for strip in self.strips.values() if strip.tip_is_tied}
+        return self.recipe.piece.popped | tied

@@ -174,7 +174,7 @@ def counted_over_time(plan: Plan, codes: range) -> list[int]:
 
 def _gas(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame) -> dict[str, float]:
     """Return by which share of it the volume of each bubble differs from the plan; not of those that share
-    their gas across a joint that has come undone, nor of popped ones.
+    their gas across a joint that has come undone, nor of limp ones.
     """
     # The plan counts round tubes.
     polygon = {
@@ -188,7 +188,7 @@ def _gas(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame) -> dict[str, f
         if f"{before.name}.end" in frame.undone
         for bubble in (before, behind)
     }
-    left_out = sharing | plan.recipe.piece.popped
+    left_out = sharing | plan.limp
     return {
         bubble.name: float(volume) / (polygon[bubble.balloon] * bubble.volume) - 1.0
         for bubble, volume in zip(plan.bubbles, frame.volume, strict=True)

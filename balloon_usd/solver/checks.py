@@ -77,10 +77,8 @@ class SculptureCheck:
         """Tell of a bubble that has turned inside out: what follows would be no physics. Limp rubber may, and
         what is folded in a tube that gas fills by and by.
         """
-        tied = {strip.bubbles[-1].name for strip in self._plan.strips.values() if strip.tip_is_tied}
-        limp = self._plan.recipe.piece.popped | tied
         measured = zip(self._plan.bubbles, frame.pressure, frame.volume, strict=True)
-        firm = (each for each in measured if each[0].name not in limp)
+        firm = (each for each in measured if each[0].name not in self._plan.limp)
         # Bubbles of one open tube have one pressure, to the last bit.
         for (_, pressure), open_tube in groupby(firm, key=lambda each: (each[0].balloon, float(each[1]))):
             parts = list(open_tube)

@@ -87,8 +87,8 @@ class RunSummary:
     def gas_off(self) -> dict[str, float]:
         """Gas of the bubbles that have missed the plan, in shares of the planned, by name.
 
-        None before the end, of what leaks on purpose or has no pressure, and of bubbles whose twists came
-        undone or that were popped.
+        None before the end, of what leaks on purpose or has no pressure, of bubbles whose twists came undone,
+        and of limp ones.
         """
         last, plan = self._last, self._plan
         physics = plan.recipe.physics
@@ -101,7 +101,7 @@ class RunSummary:
                 continue
             polygon = polygon_share(mesh.around)
             for bubble in _closed(strip, last.undone):
-                if bubble.name in plan.recipe.piece.popped:
+                if bubble.name in plan.limp:
                     continue
                 k = number[bubble.name]
                 has = (ATMOSPHERE + float(last.pressure[k])) * float(last.volume[k]) / polygon
