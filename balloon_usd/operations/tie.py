@@ -18,8 +18,6 @@ if TYPE_CHECKING:
 
 LEAST_STRING = 5.0
 """Least flat rubber at the tip that two fingers can wind and tie, in R0: 22 mm of a 260. Judged."""
-
-
 PLACES = 7
 """At how many places hands hold what is left of a balloon as they tie its tip, as a loop."""
 

@@ -281,7 +281,7 @@ class Workbench:
         """Say whether a bubble that is there is what is left of a balloon, and complain if it is not."""
         if name in self._tied_at:
             at = path_text(self._tied_at[name])
-            self.complain(path, f"the tip of {quoted(name)} was tied at {at}, expected this step before it")
+            self.complain(path, f"the tip of {quoted(name)} was tied at {at}, expected one that is free")
             return False
         if name in self.piece.bubbles and not self.piece.bubbles[name].last:
             what = f"bubble {quoted(name)} has no tail, expected what is left of a balloon"

@@ -143,7 +143,7 @@ REFUSED = {
     ),
     "a ball of a tied tip": (
         {"more": "  - tail_ball: {r: 2.5}"},
-        r"the tip of \"r\" was tied at steps\[3\]\.tie\.end, expected this step before it",
+        r"the tip of \"r\" was tied at steps\[3\]\.tie\.end, expected one that is free",
     ),
     "a bubble of its flat rubber": ({"more": "  - aim: {main_tip: up}"}, 'unknown bubble "main_tip"'),
     "a ring too small to be bent": ({"tail": 20.8}, r"steps\[3\]\.tie: closes r: [\d.]+ cm of a 260"),
