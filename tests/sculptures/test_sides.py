@@ -29,7 +29,7 @@ def closed_side(planned, move, bubble):
     """How far +y the middle of a bubble of a chain lies, once the hands have closed the chain, m."""
     table = planned.table
     corners = [ring for ring in move.corners if table.rings[ring].joint]
-    sides = [each for each in planned.bubbles if table.ends(each.name)[0] in corners[:-1]]
+    sides = [each for each in planned.bubbles if table.ends(each.name)[1] in corners[1:]]
     loop = len(sides) == 1
     lengths = np.full(8, sides[0].length / 8) if loop else np.array([each.length for each in sides])
     ways = ALONG, np.array(move.point), np.array(move.across)
@@ -47,7 +47,12 @@ def sides_of(planned):
             row = [bubble.name for bubble in planned.strips[last.balloon].bubbles]
             begin = 0 if first.name.endswith(".knot") else row.index(first.bubble) + 1
             found.update(
-                {name: closed_side(planned, move, name) for name in row[begin : row.index(last.bubble) + 1]}
+                {
+                    name: closed_side(planned, move, name)
+                    for name in row[begin : row.index(last.bubble) + 1]
+                    # Closed rows hang on the chain.
+                    if planned.table.ends(name)[1] in move.corners
+                }
             )
     return found
 
