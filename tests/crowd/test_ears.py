@@ -46,13 +46,11 @@ def test_an_ear_as_long_as_wide_never_goes_through_itself():
 
 
 def test_ears_that_press_on_each_other_lie_still_while_hands_loosen_their_grip():
-    # How many vertices flutter is chance, 0 to 47 with the last digits of one plan: so three like figures.
-    figures = [
-        plan(Recipe.parse(IN_A_ROW.format(size=646, inflated=inflated, body=18, ear=9)))
-        for inflated in (55.9, 56, 56.1)
-    ]
-    fluttering = [_fluttering(planned) for planned in figures]
-    assert np.median(fluttering) < 40
+    # How many vertices flutter is chance, so three like figures: of six 0 to 47 each, and 137 to 277 where
+    # rubber that is folded up in necks is not braked.
+    for inflated in (55.9, 56, 56.1):
+        planned = plan(Recipe.parse(IN_A_ROW.format(size=646, inflated=inflated, body=18, ear=9)))
+        assert _fluttering(planned) < 60
 
 
 def _fluttering(planned):
