@@ -48,8 +48,8 @@ def bubble_at_stretch(
 
 def legendre(law: MembraneLaw, a: Floats, b: Floats) -> Floats:
     """Return W - b W_b of hoop and meridional stretches, Pa: constant along the meridian of a bubble."""
-    taut = relaxed_stretches(a, b)
-    return np.asarray(law.energy(*taut) - b * law.nominal_stress(*taut)[1])
+    energy, _, axial = law.energy_and_stress(*relaxed_stretches(a, b))
+    return np.asarray(energy - b * axial)
 
 
 def axial_stretch(law: MembraneLaw, a: Floats, wanted: Floats, *, axial_force: bool) -> Floats:

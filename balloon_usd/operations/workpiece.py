@@ -276,6 +276,12 @@ class Workpiece:
         """Return the bubbles that belong to no closed ring; one of which a bubble is popped is open."""
         return self._stiff.bridges
 
+    def blocks(self) -> list[frozenset[str]]:
+        """Return the bubbles of each part that no joint alone holds together, in the order of their first
+        ones; popped ones hold nothing.
+        """
+        return self._stiff.blocks()
+
     def pieces(self) -> list[frozenset[str]]:
         """Return the bubbles of each connected piece, in the order of their first ones."""
         return self._connections.pieces()

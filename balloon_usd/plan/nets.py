@@ -18,7 +18,7 @@ from balloon_usd.plan.graph import sculpture_graph
 from balloon_usd.plan.stress import majorize
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Mapping
 
     from balloon_usd.operations.moves import Vector
     from balloon_usd.operations.workpiece import Workpiece
@@ -51,21 +51,8 @@ def nets_of(piece: Workpiece, strips: Mapping[str, Strip], table: RingTable) -> 
     """Return the nets of a finished workpiece, opened as far as their bubbles let them."""
     graph = sculpture_graph(piece)
     lengths = {bubble.name: bubble.length for strip in strips.values() for bubble in strip.bubbles}
-    return tuple(_net(graph, edges, lengths, table) for edges in _blocks(graph))
-
-
-def _blocks(graph: SculptureGraph) -> Iterator[list[GraphEdge]]:
-    """Yield the bubbles of every net."""
-    edges = [e for e in graph.edges if e.bubble not in graph.bridges and e.start != e.end]
-    if not _is_net(edges):
-        return
-    import networkx as nx  # noqa: PLC0415  # slow to import, and most sculptures have no net
-
-    for block in nx.biconnected_component_edges(nx.Graph((e.start, e.end) for e in edges)):
-        joints = {joint for side in block for joint in side}
-        inside = [edge for edge in edges if {edge.start, edge.end} <= joints]
-        if _is_net(inside):
-            yield inside
+    blocks = ([edge for edge in graph.edges if edge.bubble in block] for block in piece.blocks())
+    return tuple(_net(graph, edges, lengths, table) for edges in blocks if _is_net(edges))
 
 
 def _is_net(edges: list[GraphEdge]) -> bool:
