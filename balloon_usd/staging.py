@@ -105,7 +105,8 @@ def _describe_airs(plan: Plan) -> tuple[AirDescription, ...]:
 
 
 def _describe_mesh(plan: Plan, strip: Strip, mesh: BalloonMesh) -> MeshDescription:
-    color = plan.recipe.balloons[strip.balloon].color
+    balloon = plan.recipe.balloons[strip.balloon]
+    color = balloon.color
     return MeshDescription(
         name=strip.balloon,
         quads=mesh.quads,
@@ -114,6 +115,7 @@ def _describe_mesh(plan: Plan, strip: Strip, mesh: BalloonMesh) -> MeshDescripti
         bubble_names=tuple(bubble.name for bubble in strip.bubbles),
         color=color.rgb,
         material=material_name(color.name),
+        finish=balloon.finish,
     )
 
 

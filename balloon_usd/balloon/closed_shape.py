@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
 
+POINTS_AT_ONCE = 64
+"""Points that are tested at the same time for lying inside: as many times the triangles are kept."""
 THINNEST = 0.03
 """Volume of the air in a balloon at the start, at least, as a share of `ClosedShape.ball_volume`."""
 
@@ -75,6 +77,24 @@ class ClosedShape:
             np.add.at(area, self.quads[:, corner], self.face_area)
             np.add.at(length, self.quads[:, corner], np.linalg.norm(self.face_area, axis=1))
         return np.asarray(area / length[:, None])
+
+    def encloses(self, points: Floats) -> NDArray[np.bool_]:
+        """Return which points (P, 3), m, lie inside, (P,): the wall is all round them, seen from there
+        (solid angle of triangles, van Oosterom & Strackee 1983).
+        """
+        corners = self.points[self.quads]
+        triangles = np.concatenate([corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]])
+        inside = np.zeros(len(points), dtype=bool)
+        for first in range(0, len(points), POINTS_AT_ONCE):
+            a, b, c = np.moveaxis(triangles[None] - points[first : first + POINTS_AT_ONCE, None, None], 2, 0)
+            la, lb, lc = (np.linalg.norm(side, axis=2) for side in (a, b, c))
+            turned = (np.cross(a, b) * c).sum(axis=2)
+            along = (
+                la * lb * lc + (a * b).sum(axis=2) * lc + (b * c).sum(axis=2) * la + (c * a).sum(axis=2) * lb
+            )
+            angle = 2.0 * np.arctan2(turned, along).sum(axis=1)
+            inside[first : first + POINTS_AT_ONCE] = angle > 2.0 * math.pi
+        return inside
 
     def split(self) -> ClosedShape:
         """Return the same surface with four quads in place of each."""

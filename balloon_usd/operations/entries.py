@@ -66,6 +66,11 @@ class StepEntry:
         places = Inflate.places(self.entries[Inflate.word])
         return {name: (*self.path, *path) for path, name in reversed(places)}
 
+    @property
+    def whole(self) -> bool:
+        """Whether it works on whole balloons of any kind."""
+        return bool(self.words) and all(BY_WORD[word].whole for word in self.words)
+
     def check(self, bench: Workbench) -> None:
         """Complain of what makes no sense, and do the rest to the workpiece."""
         if not self.words:

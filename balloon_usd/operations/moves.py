@@ -97,6 +97,13 @@ class Inflate(Move):
 
 
 @dataclass(frozen=True)
+class BringInside(Move):
+    """Bring what lies in a balloon on to where it will be blown up."""
+
+    balloon: str = ""
+
+
+@dataclass(frozen=True)
 class Pop(Move):
     """Prick a bubble: its gas is gone at once."""
 

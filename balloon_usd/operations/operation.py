@@ -56,6 +56,8 @@ class Operation(Entries):
     """Whether what it works on may be of other balloons than the one that it names."""
     value_model: ClassVar[type[Entries] | None] = None
     """Of the keys of its value, where that has any."""
+    whole: ClassVar[bool] = False
+    """Whether it works on whole balloons of any kind, also on those that are not twisted."""
     keeps_time: ClassVar[bool] = False
     """Whether its moves take the time that the recipe gives without being stretched."""
 

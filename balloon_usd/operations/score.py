@@ -14,6 +14,7 @@ from balloon_usd.operations.moves import (
     POINTS,
     PUSHING,
     Bring,
+    BringInside,
     Gather,
     Hold,
     Inflate,
@@ -149,6 +150,9 @@ class Layout(Protocol):
     def pump_seconds(self, balloon: str) -> float:
         """Return how long a maker takes to blow a balloon up, s."""
 
+    def bring_seconds(self, balloon: str) -> float:
+        """Return how long hands bring what lies in a balloon to its place, s; 0 where nothing does."""
+
     def guides(self, bubble: str) -> tuple[int, ...]:
         """Return the guide rings inside a bubble, from its start to its end."""
 
@@ -222,7 +226,7 @@ class Score:
 
     def inflate(
         self,
-        balloons: Iterable[str],
+        balloons: Sequence[str],
         index: int,
         seconds: float | None = None,
         strokes: int | None = None,
@@ -240,6 +244,9 @@ class Score:
             self.moves.append(Inflate(self.now, pumping, index, text, balloon=balloon, strokes=strokes))
         self.now = max(move.end for move in self.moves if isinstance(move, Inflate))
         self.add(Move(self.now, SETTLE_SECONDS, index, "inflated"))
+        for balloon in balloons:
+            if seconds := self.layout.bring_seconds(balloon):
+                self.add(BringInside(self.now, seconds, index, f"bring on in: {balloon}", balloon=balloon))
         self.let_go(index)
 
     def twist(self, bubble: str, turns: float, index: int) -> None:

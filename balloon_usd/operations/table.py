@@ -18,6 +18,7 @@ from balloon_usd.operations.ear import Ear
 from balloon_usd.operations.fold import Fold
 from balloon_usd.operations.gather import Gather
 from balloon_usd.operations.inflate import Inflate
+from balloon_usd.operations.insert import Insert
 from balloon_usd.operations.lock import Lock
 from balloon_usd.operations.loop import Loop
 from balloon_usd.operations.modifiers import Burped, OnBalloon, Pointed, Timed, Turned
@@ -66,6 +67,7 @@ OPERATIONS: tuple[type[Operation], ...] = (
     Pop,
     Cut,
     TailBall,
+    Insert,
     Inflate,
     Wait,
 )

@@ -17,6 +17,7 @@ class Wait(Operation):
     """Do nothing for some seconds."""
 
     word: ClassVar[str] = "wait"
+    whole: ClassVar[bool] = True
     keeps_time: ClassVar[bool] = True
     example: ClassVar[str] = """\
 format: 1

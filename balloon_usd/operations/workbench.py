@@ -70,6 +70,8 @@ class Workbench:
         """Where the tip behind a rest was tied."""
         self._made_ever, self._rests = made_ever, rests
         self._pumped = pumped
+        self._put_in: dict[str, tuple[str, Path]] = {}
+        """Bubbles into which balloons are put, and where."""
         self._told_flat: set[str] = set()
         """Balloons of which was told that they are worked on while they are flat."""
 
@@ -119,6 +121,46 @@ class Workbench:
             self._told_flat.add(name)
             what = f"balloon {quoted(name)} is flat until {path_text(later)} blows it up"
             self.complain(place.path, f"{what}: expected this step after that one")
+
+    def insert(self, balloon: str, bubble: str, path: Path) -> None:
+        """Put a flat balloon where a bubble of another will be."""
+        if balloon not in self._balloons:
+            if self._balloons:
+                self.complain(path, unknown("balloon", balloon, self._balloons))
+        elif balloon in self._put_in:
+            bubble, at = self._put_in[balloon]
+            what = f"balloon {quoted(balloon)} was put into {bubble} at {path_text(at)}"
+            self.complain(path, f"{what}, expected each balloon once")
+        elif bubble in self._made_at:
+            what = f"bubble {quoted(bubble)} was made at {path_text(self._made_at[bubble])}"
+            self.complain(path, f"{what}, expected this step before the balloon is blown up")
+        else:
+            self._put_in[balloon] = bubble, path
+
+    def lay_in(self, piece: Workpiece) -> None:
+        """Put balloons into bubbles of a finished workpiece, and complain of those that hands get nowhere."""
+        for balloon, (bubble, path) in self._put_in.items():
+            made = piece.bubbles.get(bubble)
+            if made is None:
+                self.complain(path, unknown("bubble", bubble, piece.bubbles))
+            elif made.balloon in {balloon, *self._put_in}:
+                what = "itself" if made.balloon == balloon else f"{made.balloon}, which lies in another"
+                self.complain(path, f"lies in {what}, expected a bubble of a balloon that lies in none")
+            elif (full := self._full_before(path, (balloon, made.balloon))) is not None:
+                what = f"balloon {quoted(full)} is blown up by then"
+                self.complain(path, f"{what}, expected inflate: {full} in a step after this one")
+            elif len(row := piece.row(balloon)) > 1 or len(piece.joint(Joint(row[0], "start"))) > 1:
+                what = f"hands reach nothing in {bubble}, but twist {quoted(balloon)}"
+                self.complain(path, f"{what}, expected nothing made of it but its rest")
+            else:
+                piece.insert(int(path[1]), balloon, bubble)
+
+    def _full_before(self, path: Path, balloons: Iterable[str]) -> str | None:
+        """Return the first balloon that no step after one blows up; None where all are."""
+        later = {
+            name for name in balloons if name in self._pumped and int(self._pumped[name][1]) > int(path[1])
+        }
+        return next((name for name in balloons if name not in later), None)
 
     def make(self, name: str, path: Path, balloon: str | None, *, last: bool = False) -> bool:
         """Make a bubble behind those that are there, and say whether it is new.
@@ -335,4 +377,5 @@ class Workbench:
         for tied in self._tied_at:
             balloon = self.piece.bubbles[tied].balloon
             self.piece.make(steps, name_of_end(balloon, "tip", self._made_ever), balloon, last=True)
+        self.lay_in(self.piece)
         return self.piece

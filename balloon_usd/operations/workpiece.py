@@ -77,6 +77,15 @@ class Popped:
 
 
 @dataclass(frozen=True)
+class Inserted:
+    """A balloon was put where a bubble of another will be."""
+
+    step: int
+    balloon: str
+    bubble: str
+
+
+@dataclass(frozen=True)
 class Limb:
     """A part of a figure that hangs on one joint."""
 
@@ -86,7 +95,7 @@ class Limb:
     """All that hangs there together."""
 
 
-Event: TypeAlias = Made | Joined | Cut | Contact | Popped
+Event: TypeAlias = Made | Joined | Cut | Contact | Popped | Inserted
 
 
 class Workpiece:
@@ -134,6 +143,10 @@ class Workpiece:
     def touch(self, step: int, kind: ContactKind, bubble: str, others: Iterable[str]) -> None:
         """Let a ring of others hold a bubble that goes through it."""
         self._do(Contact(step, kind, bubble, tuple(others)))
+
+    def insert(self, step: int, balloon: str, bubble: str) -> None:
+        """Put a balloon where a bubble of another will be."""
+        self._do(Inserted(step, balloon, bubble))
 
     def pop(self, step: int, bubble: str) -> None:
         """Burst a bubble."""
@@ -271,6 +284,11 @@ class Workpiece:
         ends = {bubble: self._ends(bubble) for bubble in bubbles}
         meeting = Counter(joint for joints in ends.values() for joint in joints)
         return len(Connections(ends).pieces()) == 1 and set(meeting.values()) == {2}
+
+    @property
+    def inside(self) -> dict[str, str]:
+        """The bubble in which each balloon lies that lies in another."""
+        return {event.balloon: event.bubble for event in self.history if isinstance(event, Inserted)}
 
     def bridges(self) -> frozenset[str]:
         """Return the bubbles that belong to no closed ring; one of which a bubble is popped is open."""

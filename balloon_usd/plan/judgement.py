@@ -55,7 +55,7 @@ def cautions_of(
         room_cautions(recipe, strips),
         long_sides(strips, graph),
         bends_onto_others(recipe, strips, graph),
-        _loose_pieces(recipe, strips, graph),
+        _loose_pieces(recipe, strips),
         _bulging(strips),
     )
     return tuple(
@@ -235,21 +235,25 @@ def _bulging(strips: Mapping[str, Strip]) -> Iterator[Caution]:
             )
 
 
-def _loose_pieces(recipe: Recipe, strips: Mapping[str, Strip], graph: SculptureGraph) -> Iterator[Caution]:
-    if len(graph.pieces) < 2 or any(strip.shape is not None for strip in strips.values()):
+def _loose_pieces(recipe: Recipe, strips: Mapping[str, Strip]) -> Iterator[Caution]:
+    if any(strip.shape is not None for strip in strips.values()):
         return
-    names = sorted({edge.balloon for edge in graph.edges}, key=list(strips).index)
+    outside = [strip for strip in strips.values() if strip.inside is None]
     firsts = [
-        next(strip.bubbles[0] for strip in strips.values() if strip.bubbles[0].name in piece)
+        next(strip.bubbles[0] for strip in outside if strip.bubbles[0].name in piece)
         for piece in recipe.piece.pieces()
+        if any(strip.bubbles[0].name in piece for strip in outside)
     ]
+    if len(firsts) < 2:
+        return
+    names = [strip.balloon for strip in outside]
     # Steps know no bubble that none has named.
     unnamed = [bubble for bubble in firsts if bubble.step == len(recipe.steps)]
     rests = [f"{{rest: {bubble.name}, balloon: {bubble.balloon}}}" for bubble in unnamed]
     lock = f"lock: {{joints: [{', '.join(f'{bubble.name}.start' for bubble in firsts)}]}}"
     yield Caution(
         None,
-        f"{', '.join(names)} are not all joined: the sculpture has {len(graph.pieces)} pieces",
+        f"{', '.join(names)} are not all joined: the sculpture has {len(firsts)} pieces",
         "no lock brings their joints together",
         ", then ".join([*rests, lock]),
     )

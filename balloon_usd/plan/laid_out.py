@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from balloon_usd.balloon.tube_theory import bulges_once_stretched
 from balloon_usd.operations.table import BY_KIND
+from balloon_usd.plan.nesting import BRINGING_SPEED, hosts_of
 from balloon_usd.plan.parking import parked
 
 if TYPE_CHECKING:
@@ -107,6 +108,11 @@ class LaidOut:
         if strip.shape is not None:
             return strip.shape.seconds
         return max(INFLATE_LEAST, (strip.bubbles[-1].end - strip.bubbles[0].start) / INFLATE_SPEED)
+
+    def bring_seconds(self, balloon: str) -> float:
+        """Return how long hands bring what lies in a balloon to its place, s; 0 where nothing does."""
+        guests = (host for host in hosts_of(self._strips).values() if host.balloon == balloon)
+        return max((host.way / BRINGING_SPEED for host in guests), default=0.0)
 
     def guides(self, bubble: str) -> tuple[int, ...]:
         """Return the guide rings inside a bubble, from its start to its end."""

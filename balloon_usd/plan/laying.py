@@ -17,6 +17,8 @@ from balloon_usd.operations.thread import Thread
 from balloon_usd.operations.tie import LEAST_STRING, Tie
 from balloon_usd.plan.capsule import capsule_bubbles
 from balloon_usd.plan.laying_shapes import overlap_problems, shaped_strip
+from balloon_usd.plan.nesting import with_guests
+from balloon_usd.plan.nesting_fit import nesting_problems
 from balloon_usd.plan.open_tube import (
     OpenTube,
     Twisted,
@@ -69,7 +71,10 @@ def lay_strips(recipe: Recipe, tubes: Mapping[str, BalloonSize]) -> dict[str, St
                 strips[name] = lay(recipe, name, tubes[name], rubber)
         except RecipeError as error:
             problems.extend(error.problems)
+    strips = {name: replace(strip, inside=recipe.piece.inside.get(name)) for name, strip in strips.items()}
+    strips = with_guests(strips)
     problems += overlap_problems(recipe, strips)
+    problems += nesting_problems(recipe, strips)
     if problems:
         raise RecipeError(problems)
     return strips

@@ -93,8 +93,14 @@ def ball_pressure(rubber: Rubber, swell: float, thinness: float) -> float:
 
 
 def overlap_problems(recipe: Recipe, strips: Mapping[str, Strip]) -> Iterator[Problem]:
-    """Yield the balloons from meshes that lie in the box of one before them: walls must start apart."""
-    shapes = [(name, strip.shape.surface.points) for name, strip in strips.items() if strip.shape is not None]
+    """Yield the balloons from meshes that lie in the box of one before them, if not put into it: walls must
+    start apart.
+    """
+    shapes = [
+        (name, strip.shape.surface.points)
+        for name, strip in strips.items()
+        if strip.shape is not None and strip.inside is None
+    ]
     boxes = [(name, points.min(axis=0), points.max(axis=0)) for name, points in shapes]
     free = max((float(high[0]) for _, _, high in boxes), default=0.0)
     for at, (name, least, most) in enumerate(boxes):

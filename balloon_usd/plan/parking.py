@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from balloon_usd.plan.nesting import hosts_of
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
@@ -18,14 +20,15 @@ APART = 0.14
 def parked(strips: Mapping[str, Strip]) -> dict[str, float]:
     """Return how far to the side (+y) each balloon lies until it is joined, by its name, m.
 
-    The first lies at 0, the others to its right and left in turn, beyond what is folded there. Balloons from
-    meshes lie where their files say, and are not among them.
+    The first lies at 0, the others to its right and left in turn, beyond what is folded there; what lies in
+    another lies where that does. Balloons from meshes lie where their files say, and are not among them.
     """
-    tubes = [strip for strip in strips.values() if strip.shape is None]
+    tubes = [strip for strip in strips.values() if strip.shape is None and strip.inside is None]
     longest = max((bubble.length for strip in tubes for bubble in strip.bubbles[:-1]), default=0.0)
     places = {}
     for k, strip in enumerate(tubes):
         row, left = divmod(k - 1, 2)
         aside = ELBOW + longest + APART * row
         places[strip.balloon] = 0.0 if k == 0 else -aside if left else aside
-    return places
+    hosts = hosts_of(strips).items()
+    return places | {name: places[host.balloon] for name, host in hosts if host.balloon in places}

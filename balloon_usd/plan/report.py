@@ -56,7 +56,7 @@ def head_lines(plan: Plan) -> Iterator[str]:
 
 def _strip_lines(strip: Strip) -> Iterator[str]:
     size = strip.size
-    yield f"balloon {strip.balloon}: {size.name}, {cm(size.length)} flat"
+    yield f"balloon {strip.balloon}: {size.name}, {cm(size.length)} flat{_place(strip)}"
     yield from bubble_lines(strip, strip.bubbles)
 
 
@@ -90,10 +90,15 @@ def _capsule_lines(strip: Strip) -> Iterator[str]:
         yield f"  its necks take {cm(length - end)}: twisted it is {cm(end)} long"
 
 
+def _place(strip: Strip) -> str:
+    return "" if strip.inside is None else f", lies in {strip.inside}"
+
+
 def _shape_lines(strip: Strip, shape: Shaped) -> Iterator[str]:
     x, y, z = (f"{100.0 * side:.1f}" for side in shape.surface.size)
     ball = cm(2.0 * shape.swell * shape.surface.ball_radius)
-    yield f"balloon {strip.balloon}: mesh of {len(shape.surface.quads)} quads, {x} x {y} x {z} cm flat"
+    mesh = f"mesh of {len(shape.surface.quads)} quads"
+    yield f"balloon {strip.balloon}: {mesh}, {x} x {y} x {z} cm flat{_place(strip)}"
     yield f"  {1e4 * shape.surface.area:.0f} cm2 of wall, {1e3 * strip.size.thickness:g} mm thick"
     yield (
         f"  blow up to {shape.volume * 1e3:.2f} L in {shape.seconds:.1f} s (swell {shape.swell:g}): "
@@ -274,6 +279,7 @@ def _balloon_json(strip: Strip, budget: Budget | None) -> dict[str, Any]:
         "capsule": strip.capsule,
         "tail": strip.tail,
         "inflated_length": strip.capsule_length if budget is None else budget.inflated_length,
+        "inside": strip.inside,
         "shape": None if strip.shape is None else _shape_json(strip.shape),
         "bubbles": [asdict(bubble) | {"drawn": list(bubble.drawn)} for bubble in strip.bubbles],
         "budget": None if budget is None else _budget_json(budget),

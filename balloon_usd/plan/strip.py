@@ -112,6 +112,8 @@ class Strip:
     """Whether it is a closed capsule: it has no flat phase, and what is flat of a tube is, of a capsule, its
     wall before it is twisted.
     """
+    inside: str | None = None
+    """Bubble of another balloon in which it lies; None where it lies in none."""
     shape: Shaped | None = None
     """What a balloon from a mesh file is; None of others. Its size is that of a ball of the same wall."""
 

@@ -9,6 +9,7 @@ from balloon_usd.language.names import Text
 from balloon_usd.language.quantities import LONGEST, Between, FlatTail, Length, LengthWithin, Units
 from balloon_usd.operations.modifiers import Entries
 
+FinishName = Literal["latex", "clear", "chrome"]
 BalloonSizeName = Literal["160", "260", "321", "350", "360", "646"]
 
 FILLINGS = ("tail", "inflated", "capsule")
@@ -17,7 +18,7 @@ FLAT_ONLY = ("length", "thickness")
 """Keys of a flat tube that a capsule does not have."""
 MESH_ONLY = ("unit", "swell", "at")
 """Keys of a balloon from a mesh file that tubes do not have."""
-MESH_KEYS = ("mesh", *MESH_ONLY, "color", "thickness")
+MESH_KEYS = ("mesh", *MESH_ONLY, "color", "finish", "thickness")
 """Keys that a balloon from a mesh file has."""
 USUAL_SWELL = 1.2
 """Size to which a balloon from a mesh is blown up: taut, and still of its own shape."""
@@ -54,6 +55,8 @@ class Balloon(Entries):
     at: tuple[Place, Place, Place] | None = None
     """Where the origin of the mesh file is; m in Python."""
     color: Annotated[ColorEntry, Field(json_schema_extra={"default": "red"})] = color("red")
+    finish: FinishName = "latex"
+    """What its wall looks like: shiny latex, latex that one sees through, or metal."""
     tail: FlatTail | None = None
     """Flat rubber left empty at the end; m in Python."""
     inflated: Length | None = None

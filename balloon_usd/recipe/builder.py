@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from balloon_usd.operations.moves import Pose
     from balloon_usd.operations.tempo import Tempo
 
+    from .balloons import FinishName
+
 BUILDER_FILE = "<builder>"
 
 
@@ -69,6 +71,7 @@ class RecipeBuilder:
         size: str | int | None = None,
         mesh: str | None = None,
         color: str | Sequence[float] | None = None,
+        finish: FinishName | None = None,
         tail: LengthLike | None = None,
         inflated: LengthLike | None = None,
         capsule: LengthLike | None = None,
@@ -94,7 +97,7 @@ class RecipeBuilder:
         written = {key: self._length(value) for key, value in lengths.items() if value is not None}
         place = None if at is None else [self._length(value) for value in at]
         shape = {"mesh": mesh, "unit": unit, "swell": swell, "at": place}
-        self._balloons[name] = _given({"size": code, **shape, "color": color}) | written
+        self._balloons[name] = _given({"size": code, **shape, "color": color, "finish": finish}) | written
         return self
 
     def add(self, step: str | Operation, /, *what: Any, **keys: Any) -> Self:

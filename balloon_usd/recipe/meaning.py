@@ -41,9 +41,9 @@ def meaning_of(data: object) -> Meaning:
     for step in steps:
         if bench.full:
             break
-        if not meshes or step.pumped:
+        if not meshes or step.whole:
             step.check(bench)
-    piece = _blown_up(meshes, len(steps)) if meshes else bench.finished(len(steps))
+    piece = _blown_up(meshes, len(steps), bench) if meshes else bench.finished(len(steps))
     told = bench.complaints
     # Of what is not made rightly is not known what meets where.
     finished = [] if told else [*facing_complaints(data, piece), *held_complaints(data, piece)]
@@ -52,11 +52,12 @@ def meaning_of(data: object) -> Meaning:
     )
 
 
-def _blown_up(meshes: Sequence[str], steps: int) -> Workpiece:
-    """Balloons from meshes: one bubble each, of its name."""
+def _blown_up(meshes: Sequence[str], steps: int, bench: Workbench) -> Workpiece:
+    """Balloons from meshes: one bubble each, of its name, some in others."""
     piece = Workpiece(meshes)
     for name in meshes:
         piece.make(steps, name, name, last=True)
+    bench.lay_in(piece)
     return piece
 
 

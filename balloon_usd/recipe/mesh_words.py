@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 from balloon_usd.language.choices import one_of
 from balloon_usd.language.problem import Complaint, quoted
 from balloon_usd.operations.entries import steps_in
-from balloon_usd.operations.inflate import Inflate
-from balloon_usd.operations.wait import Wait
+from balloon_usd.operations.table import OPERATIONS
 
 from .balloons import MESH_KEYS, MESH_ONLY, Balloon, balloons_in
 
@@ -60,11 +59,12 @@ def _others(data: object, meshes: list[str]) -> Iterator[Complaint]:
 
 
 def _steps(data: object, mesh: str) -> Iterator[Complaint]:
+    words = tuple(each.word for each in OPERATIONS if each.whole)
     for step in steps_in(data):
-        if step.words not in {(Wait.word,), (Inflate.word,)}:
+        if not step.whole or len(step.words) > 1:
             path = (*step.path, *step.words[:1])
             what = f"{quoted(mesh)} is a mesh, which is blown up and not twisted"
-            yield Complaint(path, f"{what}, expected {one_of((Wait.word, Inflate.word))}")
+            yield Complaint(path, f"{what}, expected {one_of(words)}")
 
 
 def _physics(physics: dict[str, object], meshes: list[str]) -> Iterator[Complaint]:

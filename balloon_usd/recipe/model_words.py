@@ -11,6 +11,7 @@ from balloon_usd.operations.curl import Curl
 from balloon_usd.operations.cut import Cut
 from balloon_usd.operations.entries import steps_in
 from balloon_usd.operations.inflate import Inflate
+from balloon_usd.operations.insert import Insert
 from balloon_usd.operations.pop import Pop
 from balloon_usd.operations.push import Push
 from balloon_usd.operations.roll import Roll
@@ -42,6 +43,7 @@ LATEX_STEPS = {
     Curl.word: (", whose balloons do not roll up", "bend"),
     Aim.word: (", whose joints are frozen", "no such step"),
     Inflate.word: (", whose balloons start blown up", "no such step"),
+    Insert.word: (", whose balloons start blown up", "no such step"),
     Squeeze.word: (", whose fingers are forces on patches of a wall", "press, or no such step"),
     Push.word: (", whose walls hardly rub", "no such step"),
     Roll.word: (", whose walls hardly rub", "no such step"),

@@ -81,6 +81,8 @@ def _balloon_entries(balloon: Balloon, units: str | None) -> Entries:
         entries["at"] = [length_entry(place, units) for place in balloon.at]
     if "color" in balloon.model_fields_set:
         entries["color"] = balloon.model_dump(include={"color"})["color"]
+    if balloon.finish != "latex":
+        entries["finish"] = balloon.finish
     for key in (*FILLINGS, "radius", "length", "thickness"):
         length = getattr(balloon, key)
         if length is not None:

@@ -66,6 +66,8 @@ class Body:
     """Distance at which its walls begin to press, m; None for that of the scene."""
     contact_arc: float = 0.0
     """What that distance grows by with the area of the face that is touched, 1/m."""
+    inside: tuple[int, int] | None = None
+    """Balloon of its sculpture, and bubble of that, in which it lies; None where it lies in none."""
     place: NDArray[np.float32] | None = None
     """Unstressed place of every vertex, (V, 3) float32, m, where it is not told by `along`."""
 

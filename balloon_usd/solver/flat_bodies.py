@@ -53,6 +53,16 @@ class FlatBodies:
             self.segment_start[body] + self.bodies[body].spare_segments, self.segment_start[body + 1]
         )
 
+    @property
+    def hosts(self) -> Ints:
+        """The body in which each body lies, (B,); -1 for none."""
+        first = self.by_world(np.arange(len(self.bodies) + 1))
+        inside = (
+            -1 if b.inside is None else first[w] + b.inside[0]
+            for b, w in zip(self.bodies, self.worlds, strict=True)
+        )
+        return np.fromiter(inside, dtype=np.int64)
+
     def by_world(self, first: NDArray[Any]) -> NDArray[np.int32]:
         """Return the first thing of every sculpture and the end of the last, (W + 1,), given those of every
         body, (B + 1,).

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Literal, NamedTuple, Protocol
 
 import numpy as np
 
@@ -36,7 +36,9 @@ class StageFrame(Protocol):
 
     @property
     def pressure(self) -> NDArray[np.float32]:
-        """Gauge pressure [Pa], (bubbles,) float32 in the order of `StageDescription.bubble_names`."""
+        """Pressure above that of the gas about it [Pa], (bubbles,) float32 in the order of
+        `StageDescription.bubble_names`.
+        """
 
     @property
     def volume(self) -> NDArray[np.float32]:
@@ -92,6 +94,8 @@ class MeshDescription:
     """Colour of the latex, linear RGB in 0..1."""
     material: str
     """Prim name of the material; meshes of one colour share the first one's."""
+    finish: Literal["latex", "clear", "chrome"] = "latex"
+    """What the wall looks like in the colours of the recipe: shiny, see-through or metallic."""
 
     def __post_init__(self) -> None:
         for name in (self.name, self.material, *self.bubble_names):

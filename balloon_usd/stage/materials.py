@@ -37,6 +37,8 @@ AIR, WIRE = "air", "wire"
 
 COLORED = (RECIPE, CLEAR, CHROME)
 """Looks in the colours of the recipe."""
+LOOK_OF_FINISH = {"latex": RECIPE, "clear": CLEAR, "chrome": CHROME}
+"""Look that shows all balloons as those of a finish are in the colours of the recipe."""
 LATEX = "latex"
 """What names of materials in the colours of the recipe begin with, and those of other finishes do not."""
 
@@ -70,11 +72,12 @@ def _materials_of(stage: Any, description: StageDescription, look: str) -> dict[
     """Author the materials of one look; returns that of each mesh by its name."""
     scope = materials_path(description.name)
     if look in COLORED:
-        made = {
-            color: author_material(stage, scope.AppendChild(name), color, FINISHES[look])
-            for color, name in material_names(description)[look].items()
-        }
-        return {mesh.name: made[mesh.color] for mesh in description.meshes}
+        names, made = material_names(description), {}
+        for mesh in description.meshes:
+            finish = LOOK_OF_FINISH[mesh.finish] if look == RECIPE else look
+            path = scope.AppendChild(names[finish][mesh.color])
+            made[mesh.name] = author_material(stage, path, mesh.color, FINISHES[finish])
+        return made
     if look == THESIS:
         shared = author_wire_material(stage, scope.AppendChild(WIRE))
     elif look == PRINT:
@@ -87,7 +90,7 @@ def _materials_of(stage: Any, description: StageDescription, look: str) -> dict[
 
 
 def material_names(description: StageDescription) -> dict[str, dict[Color, str]]:
-    """Name of the material of each colour, by look: latex_red, clear_red, chrome_red.
+    """Name of the material of each colour, by finish: latex_red, clear_red, chrome_red.
 
     The first mesh of a colour names it; a name that is taken is numbered.
     """

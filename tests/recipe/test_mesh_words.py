@@ -84,7 +84,7 @@ def test_entries_that_do_not_go_together_are_told(entry: str, message: str) -> N
 def test_steps_that_twist_are_refused(step: str, place: str) -> None:
     line = told(HEART + f"steps:\n  - {step}\n")[0]
     assert line.endswith(
-        f'{place}: "heart" is a mesh, which is blown up and not twisted, expected one of wait, inflate'
+        f'{place}: "heart" is a mesh, which is blown up and not twisted, expected one of insert, inflate, wait'
     )
 
 

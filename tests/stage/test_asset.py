@@ -171,6 +171,22 @@ def test_meshes_of_one_colour_share_one_material(tmp_path: Path) -> None:
     assert names == ["latex_main", "clear_main", "chrome_main", "clay", "print", "stress"]
 
 
+def test_a_balloon_has_its_own_finish_where_the_colours_of_the_recipe_are_shown(tmp_path: Path) -> None:
+    one, other = sculpture().meshes
+    object.__setattr__(one, "finish", "clear")
+    stage = Usd.Stage.Open(str(write_stage(sculpture(meshes=(one, other)), frames(2), tmp_path).files[0]))
+    bound = {}
+    for look in ("recipe", "chrome"):
+        stage.GetDefaultPrim().GetVariantSet("look").SetVariantSelection(look)
+        bound[look] = {
+            prim.GetName(): UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()[0].GetPath().name
+            for prim in stage.Traverse()
+            if prim.IsA(UsdGeom.Mesh)
+        }
+    assert bound["recipe"] == {one.name: f"clear_{one.name}", other.name: f"latex_{other.name}"}
+    assert bound["chrome"] == {one.name: f"chrome_{one.name}", other.name: f"chrome_{other.name}"}
+
+
 def test_two_colours_under_one_material_name_get_two_materials(tmp_path: Path) -> None:
     meshes = sculpture().meshes
     for mesh in meshes:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
+from dataclasses import replace
 from itertools import chain
 from typing import TYPE_CHECKING
 
@@ -13,6 +14,7 @@ from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.operations.disjoint_sets import roots_of
 from balloon_usd.operations.moves import Inflate, Press, Weld
 from balloon_usd.plan.meshing import joint_places
+from balloon_usd.plan.nesting import hosts_of
 from balloon_usd.plan.parking import parked
 from balloon_usd.solver.body import body_ranges
 from balloon_usd.solver.checks import stretch_limits
@@ -215,10 +217,14 @@ def short_of_gas(move: Inflate, share: float) -> str:
 
 def _bodies(plan: Plan, meshes: Sequence[BalloonMesh]) -> list[LatexBody]:
     """Return the balloons of a plan, where they lie at the start."""
-    bodies, places = [], parked(plan.strips)
+    bodies, places, hosts = [], parked(plan.strips), hosts_of(plan.strips)
+    numbers = {name: number for number, name in enumerate(plan.strips)}
     for strip, mesh in zip(plan.strips.values(), meshes, strict=True):
         body = _body(plan, strip, mesh)
         body.points[:, 1] += places.get(strip.balloon, 0.0)
+        if (host := hosts.get(strip.balloon)) is not None:
+            body.points[:, 0] += host.along
+            body = replace(body, inside=(numbers[host.balloon], host.bubble))
         bodies.append(body)
     return bodies
 

@@ -99,13 +99,34 @@ def build_scene(
 def _gas_arrays(scene: LatexScene) -> Arrays:
     """Chambers of every balloon, each one segment, and its inlet."""
     segments = np.arange(int(scene.segment_start[-1]), dtype=np.int32)
+    return (
+        {
+            "balloon_segment": scene.segment_start[:-1].astype(np.int32),
+            "balloon_segment_end": scene.segment_start[1:].astype(np.int32),
+            "inlet": (scene.segment_start[:-1] + [b.inlet for b in scene.bodies]).astype(np.int32),
+            "chamber_first": segments,
+            "chamber_last": segments,
+        }
+        | _guest_arrays(scene)
+        | _flow_arrays(scene)
+    )
+
+
+def _guest_arrays(scene: LatexScene) -> Arrays:
+    """Segments that lie in others: the one in which each does, and those that lie in each."""
+    inside = np.full(len(scene.bodies), -1, dtype=np.int32)
+    for k, (body, host_body) in enumerate(zip(scene.bodies, scene.hosts, strict=True)):
+        if body.inside is not None:
+            inside[k] = scene.bubbles_of(int(host_body))[body.inside[1]]
+    host = np.repeat(inside, np.diff(scene.segment_start))
+    guests = np.flatnonzero(host >= 0)
+    guests = guests[np.argsort(host[guests], kind="stable")].astype(np.int32)
     return {
-        "balloon_segment": scene.segment_start[:-1].astype(np.int32),
-        "balloon_segment_end": scene.segment_start[1:].astype(np.int32),
-        "inlet": (scene.segment_start[:-1] + [b.inlet for b in scene.bodies]).astype(np.int32),
-        "chamber_first": segments,
-        "chamber_last": segments,
-    } | _flow_arrays(scene)
+        "host_segment": host,
+        "first_guest": np.searchsorted(host[guests], np.arange(len(host) + 1)).astype(np.int32),
+        # Device arrays are never empty.
+        "guests": guests if len(guests) else np.zeros(1, dtype=np.int32),
+    }
 
 
 def _flow_arrays(scene: LatexScene) -> Arrays:

@@ -56,7 +56,10 @@ class Stepper:
         self._launch(hide_neck_rubber, len(s.quads))
         self._launcher.launch_tiled(measure_rings, len(s.joint_first), lanes=WARP)
         self._volumes()
+        host = s.host_segment.numpy()
         volume = s.volume.numpy().astype(float)
+        np.subtract.at(volume, host[host >= 0], volume[host >= 0])
+        s.volume.assign(volume)
         gauge = np.concatenate([b.gauge for b in s.bodies]).astype(np.float32)
         amount = (gauge + s.settings.atmosphere) * volume / float(s.air.molar_energy)
         for k, body in enumerate(s.bodies):

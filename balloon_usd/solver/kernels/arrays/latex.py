@@ -41,6 +41,9 @@ class Chambers:
     inlet: wp.array[int] = array("balloons", meaning="segment into which it is pumped")
     chamber_first: wp.array[int] = array("segments", meaning="first segment of its chamber")
     chamber_last: wp.array[int] = array("segments", meaning="last segment of its chamber")
+    host_segment: wp.array[int] = array("segments", meaning="segment in which its balloon lies; -1 for none")
+    first_guest: wp.array[int] = array("segment starts", meaning="first of the segments that lie in it")
+    guests: wp.array[int] = array("guests", meaning="segments that lie in others, in the order of those")
     blowing: wp.array[int] = array("balloons", meaning="1 where gas flows through a closing neck")
     open_from: wp.array[float] = array("joints", unit="m2", meaning="open area at the start of the frame")
     open_to: wp.array[float] = array("joints", unit="m2", meaning="open area at its end")
@@ -71,7 +74,7 @@ class Chambers:
         "flow ends", meaning="edges at each chamber in order: edge + 1, negative where it leads from there"
     )
     amount: wp.array[wp.float64] = array("segments", unit="mol", meaning="its gas")
-    pressure: wp.array[float] = array("segments", unit="Pa", meaning="its gauge pressure")
+    pressure: wp.array[float] = array("segments", unit="Pa", meaning="pressure of its gas above that outside")
 
 
 @array_struct

@@ -24,6 +24,7 @@ class Sculptures:
     world_joint: wp.array[int] = array("sculpture starts", meaning="first joint")
     world_block: wp.array[int] = array("sculpture starts", meaning="first block of a GPU that advances it")
     world_welds: wp.array[int] = array("sculptures", meaning="number of welds")
+    world_guests: wp.array[int] = array("sculptures", meaning="number of balloons that lie in others")
     middle: wp.array[wp.vec3] = array("sculptures", unit="m", meaning="scratch: middle of mass")
     velocity: wp.array[wp.vec3] = array("sculptures", unit="m/s", meaning="scratch: of that")
     spin: wp.array[wp.vec3] = array("sculptures", unit="rad/s", meaning="scratch: angular velocity")
@@ -38,6 +39,7 @@ class Mesh:
     quads: wp.array[wp.vec4i] = array("quads", meaning="its four vertices, counter-clockwise from outside")
     quad_segment: wp.array[int] = array("quads", meaning="its segment")
     quad_balloon: wp.array[int] = array("quads", meaning="its balloon")
+    quad_host: wp.array[int] = array("quads", meaning="balloon in which its own lies; -1 for none")
     quad_world: wp.array[int] = array("quads", meaning="its sculpture")
     quad_ring: wp.array[int] = array("quads", meaning="ring of its first vertex")
     quad_neck: wp.array[int] = array(
@@ -81,6 +83,8 @@ class Balloons:
     """What differs between balloons."""
 
     balloon_world: wp.array[int] = array("balloons", meaning="its sculpture")
+    balloon_host: wp.array[int] = array("balloons", meaning="balloon in which it lies; -1 for none")
+    balloon_nested: wp.array[int] = array("balloons", meaning="1 where it lies in another, or another in it")
     balloon_radius: wp.array[float] = array("balloons", unit="m", meaning="unstressed radius")
     gravity: wp.array[float] = array("balloons", unit="m/s2", meaning="pull of gravity")
     drag: wp.array[float] = array("balloons", unit="1/s", meaning="drag of the air")

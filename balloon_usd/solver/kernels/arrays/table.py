@@ -17,6 +17,7 @@ Size = Literal[
     "curve segments",
     "flow edges",
     "flow ends",
+    "guests",
     "joints",
     "packed vertices",
     "packing rings",

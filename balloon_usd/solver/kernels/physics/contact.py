@@ -15,7 +15,7 @@ from balloon_usd.solver.kernels.device.array_access import (
 )
 from balloon_usd.solver.kernels.device.coherent_load import coherent_vec2, coherent_vec3
 from balloon_usd.solver.kernels.device.soa import load_soa, store_soa
-from balloon_usd.solver.kernels.physics.meeting import FOLDED, INSIDE, opposite, seeker_of
+from balloon_usd.solver.kernels.physics.meeting import FOLDED, INSIDE, in_wall, opposite, seeker_of
 from balloon_usd.solver.kernels.physics.patch import SIDE_SLIP, nearer_on_patch, patch_shares
 
 STICK = wp.constant(0.5)
@@ -100,7 +100,10 @@ def limits_of_pair(
     offset = float_at(balloons.contact_offset, balloon) + float_at(balloons.contact_arc, balloon) * face
     side = float(1.0)
     most_pressure = wp.max(touch.pressure, FIRM * pressure_behind(i, q, mesh, segment_pressure))
-    if opposite(q, seeker_of(i, touch, mesh, balloons), mesh):
+    seeker = seeker_of(i, touch, mesh, balloons)
+    if in_wall(q, seeker, mesh):
+        side = -1.0
+    elif opposite(q, seeker, mesh):
         offset = INSIDE * float_at(balloons.contact_offset, balloon)
         side = -1.0
     else:

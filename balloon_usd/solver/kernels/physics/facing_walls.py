@@ -24,7 +24,16 @@ from balloon_usd.solver.kernels.device.warp_reduce import (
     warp_max3,
     without_lowest,
 )
-from balloon_usd.solver.kernels.physics.meeting import FOLDED, INSIDE, Seeker, may_meet, opposite, seeker_of
+from balloon_usd.solver.kernels.physics.meeting import (
+    FOLDED,
+    INSIDE,
+    Seeker,
+    in_wall,
+    may_meet,
+    opposite,
+    round_wall,
+    seeker_of,
+)
 from balloon_usd.solver.kernels.physics.motion import LYING, SLOW
 from balloon_usd.solver.kernels.physics.patch import SIDE_SLIP, nearest_on_patch, patch_shares
 from balloon_usd.solver.kernels.physics.surface import FAR, GROUP, surface_of_vertex, velocity_of_spin
@@ -109,7 +118,11 @@ def distance_of_wall(
     a = vec3_at(contacts.quad_area, q)
     size = wp.length(a)
     face = a / wp.max(size, 1.0e-12)
-    if wp.dot(face, seeker.normal) < FACING and may_meet(q, seeker, mesh):
+    normal = seeker.normal
+    if seeker.nested == 1:
+        face = wp.where(in_wall(q, seeker, mesh), -face, face)
+        normal = wp.where(round_wall(q, seeker, mesh), -normal, normal)
+    if wp.dot(face, normal) < FACING and may_meet(q, seeker, mesh):
         height = wp.dot(d, face)
         limit = wp.min(seeker.depth, DEPTH_LIMIT * float_at(contacts.ring_radius, int_at(mesh.quad_ring, q)))
         folded = seeker.neck >= 0 and int_at(mesh.quad_neck, q) == seeker.neck

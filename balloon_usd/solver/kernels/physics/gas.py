@@ -101,6 +101,19 @@ def pressure_of(gas: wp.float64, space: float, air: Air):
 
 
 @wp.func
+def without_guests(s: int, chambers: Chambers, state: State):
+    """Return the volume (m3) of the gas in a segment, and write it, where other balloons lie in it."""
+    first = int_at(chambers.first_guest, s)
+    last = int_at(chambers.first_guest, s + 1)
+    space = float_at(state.volume, s)
+    if first < last:
+        for n in range(first, last):
+            space -= float_at(state.volume, int_at(chambers.guests, n))
+        put_float(state.volume, s, space)
+    return space
+
+
+@wp.func
 def press_chamber(
     s: int,
     begin: int,
@@ -116,13 +129,16 @@ def press_chamber(
 ):
     """Where a chamber of segments begins, pump gas into it and write its volume (m3) and gauge pressure (Pa).
 
-    A chamber without gas of its own is open to the air (the nozzle's lip) and keeps its pressure.
+    A chamber without gas of its own is open to the air (the nozzle's lip) and keeps its pressure. What lies
+    in a chamber leaves so much less room, and feels how much more pressure it has than that.
     """
-    space = float_at(state.volume, s)
-    gas = chambers.amount[s]
     if begin == s:
+        host = int_at(chambers.host_segment, s)
+        outside = wp.where(host >= 0, float_at(chambers.pressure, wp.max(host, 0)), 0.0)
+        space = without_guests(s, chambers, state)
+        gas = chambers.amount[s]
         for k in range(begin + 1, end + 1):
-            space += float_at(state.volume, k)
+            space += without_guests(k, chambers, state)
             gas += chambers.amount[k]
         if begin <= into and into <= end and gas < pump_goal:
             here = pressure_of(gas, space, air)
@@ -131,7 +147,7 @@ def press_chamber(
             chambers.amount[into] = chambers.amount[into] + added
             gas += added
         if gas > wp.float64(0.0):
-            now = pressure_of(gas, space, air)
+            now = pressure_of(gas, space, air) - outside
             for k in range(begin, end + 1):
                 put_float(chambers.pressure, k, now)
         put_float(chambers.chamber_volume, end, space)

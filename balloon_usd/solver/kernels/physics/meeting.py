@@ -28,6 +28,10 @@ class Seeker:
     """Its unstressed place, m."""
     apart: float
     """Unstressed distance within which the wall of its bubble never meets it, m."""
+    host: int
+    """Balloon in which its own lies; -1 for none."""
+    nested: int
+    """1 where its balloon lies in another, or another in it."""
     outward: wp.vec3
     """Unstressed outward direction; 0 where the inside of the wall never meets itself."""
     across: float
@@ -65,6 +69,8 @@ def seeker_of(i: int, touch: Touch, mesh: Mesh, balloons: Balloons):
     seeker.neck = mesh.vertex_neck[i]
     seeker.place = mesh.vertex_place[i]
     seeker.apart = touch.apart * balloons.balloon_radius[seeker.balloon]
+    seeker.host = balloons.balloon_host[seeker.balloon]
+    seeker.nested = balloons.balloon_nested[seeker.balloon]
     seeker.outward = mesh.vertex_outward[i]
     seeker.across = touch.across * balloons.balloon_radius[seeker.balloon]
     seeker.offset = balloons.contact_offset[seeker.balloon]
@@ -86,11 +92,29 @@ def opposite(q: int, seeker: Seeker, mesh: Mesh):
 
 
 @wp.func
+def in_wall(q: int, seeker: Seeker, mesh: Mesh):
+    """Return whether a quad is of the balloon in which a vertex lies, which touches it from inside."""
+    return seeker.nested == 1 and int_at(mesh.quad_balloon, q) == seeker.host
+
+
+@wp.func
+def round_wall(q: int, seeker: Seeker, mesh: Mesh):
+    """Return whether a quad is of a balloon that lies in that of a vertex."""
+    return seeker.nested == 1 and int_at(mesh.quad_host, q) == seeker.balloon
+
+
+@wp.func
 def may_meet(q: int, seeker: Seeker, mesh: Mesh):
     """Return whether a quad may ever touch a vertex."""
+    if int_at(mesh.quad_balloon, q) != seeker.balloon:
+        # What lies in a balloon meets that, and what lies there beside it.
+        return (
+            int_at(mesh.quad_host, q) == seeker.host
+            or in_wall(q, seeker, mesh)
+            or round_wall(q, seeker, mesh)
+        )
     return (
-        int_at(mesh.quad_balloon, q) != seeker.balloon
-        or (seeker.bubble >= 0 and int_at(mesh.quad_segment, q) != seeker.bubble)
+        (seeker.bubble >= 0 and int_at(mesh.quad_segment, q) != seeker.bubble)
         or wp.max(wp.abs(vec3_at(mesh.quad_place, q) - seeker.place)) > seeker.apart
         or opposite(q, seeker, mesh)
     )

@@ -256,8 +256,15 @@ def advance_chambers(
     """Advance the gas of all balloons; one block, in which it is the first threads that have work."""
     measure_volumes(threads, own, mesh, chambers, joints, state)
     block_barrier()
-    for b in range(own.balloon_begin + threads.block_warp, own.balloon_end, threads.block_warps):
-        advance_gas(b, threads.warp_lane, threads.warp_lanes, air, dt, fraction, chambers, state)
+    # What lies in others comes after them: with their pressure of a substep before a thin wall between two
+    # gases swings up.
+    for inside in range(1 + wp.min(own.guests, 1)):
+        if inside > 0:
+            block_barrier()
+        for b in range(own.balloon_begin + threads.block_warp, own.balloon_end, threads.block_warps):
+            host = int_at(chambers.host_segment, int_at(chambers.balloon_segment, b))
+            if own.guests == 0 or (host >= 0) == (inside > 0):
+                advance_gas(b, threads.warp_lane, threads.warp_lanes, air, dt, fraction, chambers, state)
 
 
 @wp.func

@@ -108,6 +108,8 @@ class Ranges:
     """End of the list of touched quads, which begins with the first quad."""
     welds: int
     """Number of its welds."""
+    guests: int
+    """Number of its balloons that lie in others."""
     joint_blocks: int
     """Blocks of the sculpture that move joints: those without vertices, if there are any, else all."""
     own_joints: int
@@ -229,6 +231,7 @@ def ranges_of(
     r.pair_end = r.pair_begin + int_at(contacts.pair_count, w)
     r.pressed_end = r.quad_begin + int_at(contacts.pressed_count, w)
     r.welds = int_at(sculptures.world_welds, w)
+    r.guests = int_at(sculptures.world_guests, w)
     with_vertices = (r.vertex_end - r.vertex_begin + threads.block_size - 1) // threads.block_size
     r.joint_blocks = wp.where(threads.blocks > with_vertices, threads.blocks - with_vertices, threads.blocks)
     r.own_joints = joints_of_block(

@@ -35,7 +35,8 @@ KOSAKA_MOTIONS: Motions = {
     moves.Press: Press,
     moves.Weld: KosakaWeld,
     moves.SetDown: SetDown,
-    # Only latex has a weight, bursts, and softens.
+    # Only latex has a weight, bursts, softens, and has balloons in others.
+    moves.BringInside: Wait,
     moves.Fall: Wait,
     moves.Pop: Wait,
     moves.Cut: Wait,

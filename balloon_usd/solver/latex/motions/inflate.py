@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from balloon_usd.balloon.ringed_faces import polygon_share
 from balloon_usd.balloon.tube_theory import pressure_maximum
 from balloon_usd.plan.budget import blown_in
+from balloon_usd.plan.nesting import room_left
 from balloon_usd.solver.latex.motions.strokes import MOST_FLOW, brought
 from balloon_usd.solver.latex.motions.tail import Tail
 from balloon_usd.solver.motions.motion import Motion
@@ -43,6 +44,8 @@ class Inflate(Motion):
         self._ramp = PUMP_RAMP
         """Share of its time in which the pump starts, and stops."""
         self._body = sculpture.body[move.balloon]
+        self._room = room_left(sculpture.plan.strips, move.balloon)
+        """Share of the balloon's volume that what lies in it leaves to its gas."""
         # What the mesh's artificial inertia adds to the stretch behind the front must not soften it.
         sculpture.hands.set_softening(self._body, 0.0)
         shape = sculpture.plan.strips[move.balloon].shape
@@ -68,7 +71,7 @@ class Inflate(Motion):
         strip = self._sculpture.plan.strips[balloon]
         scale = strip.size.thickness / strip.size.radius
         n = scene.bodies[b].rings[0].around
-        hands.pump_goal[b] = blown_in(strip) * polygon_share(n)
+        hands.pump_goal[b] = blown_in(strip) * polygon_share(n) * self._room
         hands.pump_limit[b] = PUMP_RESERVE * pressure_maximum(strip.rubber).p_star * scale
         hands.grip(int(scene.joint_start[b]) + 1, self._sculpture.frame.middle)
         hands.set_drag(b, 0.0)
@@ -79,7 +82,8 @@ class Inflate(Motion):
     def _pump_shape(self, shape: Shaped) -> None:
         scene, hands, b = self._sculpture.scene, self._sculpture.hands, self._body
         atmosphere = scene.settings.atmosphere
-        hands.pump_goal[b] = (atmosphere + shape.pressure) * shape.volume / float(scene.air.molar_energy)
+        volume = shape.volume * self._room
+        hands.pump_goal[b] = (atmosphere + shape.pressure) * volume / float(scene.air.molar_energy)
         # No wall is so stiff: the pump gives its air in time whatever the shape is.
         hands.pump_limit[b] = atmosphere
         # Also those that are still flat.

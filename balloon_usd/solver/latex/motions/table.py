@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from balloon_usd.operations import moves
 from balloon_usd.solver.latex.motions.aim import Aim
 from balloon_usd.solver.latex.motions.bend import LatexBend
+from balloon_usd.solver.latex.motions.bring_inside import BringInside
 from balloon_usd.solver.latex.motions.curl import Curl
 from balloon_usd.solver.latex.motions.cut import Cut
 from balloon_usd.solver.latex.motions.fall import Fall
@@ -54,6 +55,7 @@ LATEX_MOTIONS: Motions = {
     moves.Aim: Aim,
     moves.Press: LatexPress,
     moves.PassThrough: PassThrough,
+    moves.BringInside: BringInside,
     moves.Pop: Pop,
     moves.Cut: Cut,
     moves.StretchTip: StretchTip,

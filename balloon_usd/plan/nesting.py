@@ -1,0 +1,112 @@
+"""Balloons in balloons: where each lies, and how much room it takes."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from dataclasses import replace
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from balloon_usd.plan.blown import blown_shape
+from balloon_usd.plan.open_tube import inflated_tube, softened
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from balloon_usd.plan.strip import Strip
+
+BRINGING_SPEED = 0.15
+"""Speed at which hands bring a flat tube along in another, m/s. Judged."""
+NOZZLE = 4.0
+"""How far knot and lip of a tube reach, in its flat radii."""
+
+
+class Host(NamedTuple):
+    """Where a balloon lies in another."""
+
+    balloon: str
+    bubble: int
+    """Number of the bubble of that."""
+    along: float
+    """Distance of its knot from that of the other while both are flat, m; 0 of one from a mesh, whose file
+    says where it lies.
+    """
+    goal: float
+    """The same where hands bring it before it is blown up, m."""
+
+    @property
+    def way(self) -> float:
+        """How far they bring it, m."""
+        return self.goal - self.along
+
+
+def hosts_of(strips: Mapping[str, Strip]) -> dict[str, Host]:
+    """Return where those balloons lie that lie in others, by their names."""
+    return {name: host for owner in strips.values() for name, host in _guests_of(owner, strips)}
+
+
+def room_left(strips: Mapping[str, Strip], balloon: str) -> float:
+    """Return the share of a balloon's volume that what lies in it leaves to its own gas."""
+    guests = (name for name, host in hosts_of(strips).items() if host.balloon == balloon)
+    return 1.0 - sum(blown_volume(strips[name]) for name in guests) / blown_volume(strips[balloon])
+
+
+def with_guests(strips: Mapping[str, Strip]) -> dict[str, Strip]:
+    """Return the balloons with the gas of each bubble that what lies in it leaves room for."""
+    taken: dict[tuple[str, int], float] = defaultdict(float)
+    for name, host in hosts_of(strips).items():
+        taken[host.balloon, host.bubble] += blown_volume(strips[name])
+    found = {}
+    for name, strip in strips.items():
+        left = enumerate(strip.bubbles)
+        bubbles = (replace(it, volume=it.volume - taken.get((name, number), 0.0)) for number, it in left)
+        found[name] = replace(strip, bubbles=tuple(bubbles)) if taken else strip
+    return found
+
+
+def blown_volume(strip: Strip) -> float:
+    """Return the volume of a balloon that is blown up, m3."""
+    if strip.shape is not None:
+        return strip.shape.volume
+    return float(inflated_tube(strip.size, softened(strip.rubber), strip.tail).volume)
+
+
+def nozzle_length(strip: Strip) -> float:
+    """Return how far knot and lip of a tube reach, m."""
+    return NOZZLE * strip.size.radius
+
+
+def blown_length(strip: Strip) -> float:
+    """Return the length of a tube that is blown up and not twisted, m, from its knot to its flat tip."""
+    return strip.bubbles[-1].end + strip.tail
+
+
+def _guests_of(owner: Strip, strips: Mapping[str, Strip]) -> Iterator[tuple[str, Host]]:
+    """Yield what lies in a balloon. Flat tubes lie in it where they will, or as far forward as they have room
+    behind each other.
+    """
+    numbers = {bubble.name: number for number, bubble in enumerate(owner.bubbles)}
+    inside = [(numbers[it.inside], it) for it in strips.values() if it.inside in numbers]
+    free = owner.size.length - owner.size.radius
+    for number, guest in sorted(inside, key=lambda each: each[0], reverse=True):
+        if guest.shape is not None:
+            yield guest.balloon, Host(owner.balloon, number, 0.0, 0.0)
+            continue
+        goal = _middle(owner, number) - 0.5 * (blown_length(guest) - nozzle_length(guest))
+        along = min(goal, free - guest.size.length)
+        free = along - nozzle_length(guest) - guest.size.radius
+        yield guest.balloon, Host(owner.balloon, number, along, goal)
+
+
+def _middle(owner: Strip, number: int) -> float:
+    """Return the middle, m from the knot, of the stretch of a balloon that lies in a bubble all the time
+    while it and the others are twisted off: each pinch draws in what is on both sides of it.
+    """
+    shape = blown_shape(owner)
+    bubbles = owner.bubbles[:-1]
+    ends = shape.place_of(np.array([0.0, *(bubble.rest_end for bubble in bubbles)]))
+    drawn = 0.5 * (np.diff(ends) - [bubble.length for bubble in bubbles])
+    begin = max(ends[number], ends[number] - drawn[: max(number - 1, 0)].sum() + drawn[number:].sum())
+    last = shape.end if number == len(bubbles) else ends[number + 1]
+    return 0.5 * float(begin + last - drawn[:number].sum())

@@ -1,0 +1,129 @@
+"""Which balloons do not fit into the balloons that they are put into, and what would."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from balloon_usd.balloon.closed_shape import ClosedShape
+from balloon_usd.language.lengths import at_least, at_most, cm
+from balloon_usd.operations.inflate import Inflate
+from balloon_usd.operations.insert import Insert
+from balloon_usd.plan.nesting import blown_length, hosts_of, nozzle_length
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from numpy.typing import NDArray
+
+    from balloon_usd.language.problem import Problem
+    from balloon_usd.plan.nesting import Host
+    from balloon_usd.plan.shaped import Shaped
+    from balloon_usd.plan.strip import Strip
+    from balloon_usd.recipe import Recipe
+
+    Points = NDArray[np.float64]
+
+NARROWER = 0.75
+"""Most radius of a flat tube that goes into another, in that of the other. Judged."""
+MOST_GUESTS = 8
+"""Most balloons that lie in one: hands bring no more to their places at a time."""
+MOST_TESTED = 4000
+"""Points of a balloon from a mesh that are tested for lying in another."""
+
+
+def nesting_problems(recipe: Recipe, strips: Mapping[str, Strip]) -> Iterator[Problem]:
+    """Yield the balloons that do not fit into others."""
+    hosts = hosts_of(strips)
+    for index, step in enumerate(recipe.steps):
+        if isinstance(step, Insert):
+            for name in step.insert:
+                text = _misfit(recipe, strips, hosts, name) if name in hosts else ""
+                if text:
+                    yield recipe.problem(("steps", index, step.word, name), text)
+
+
+def _misfit(recipe: Recipe, strips: Mapping[str, Strip], hosts: Mapping[str, Host], name: str) -> str:
+    """Say why a balloon does not fit where it is put; nothing where it does."""
+    host, guest = hosts[name], strips[name]
+    owner = strips[host.balloon]
+    beside = [strips[each] for each, other in hosts.items() if other[:2] == host[:2] and each != name]
+    if guest.shape is not None and owner.shape is not None:
+        shapes = [guest.shape, *(each.shape for each in beside if each.shape is not None)]
+        place = recipe.balloons[name].at or (0.0, 0.0, 0.0)
+        return _misplaced(guest.shape, owner.shape, place) or _crowded(owner.shape, shapes)
+    guests = [each for each, other in hosts.items() if other.balloon == host.balloon]
+    if name in guests[MOST_GUESTS:]:
+        return f"is one of {len(guests)} balloons in {owner.balloon}, expected at most {MOST_GUESTS}"
+    if beside:
+        bubble = owner.bubbles[host.bubble].name
+        return f"{bubble} holds {beside[0].balloon} as well, expected a bubble for each"
+    order = [each for step in recipe.steps if isinstance(step, Inflate) for each in step.inflate]
+    if order.index(name) < order.index(owner.balloon):
+        text = f"is blown up before {owner.balloon}, which would drag it along as it grows"
+        return f"{text}, expected inflate: {owner.balloon} first"
+    return _too_large(guest, owner, host)
+
+
+def _too_large(guest: Strip, owner: Strip, host: Host) -> str:
+    """Say why a tube has no room in a bubble of another; nothing where it has."""
+    if guest.size.radius > NARROWER * owner.size.radius:
+        return f"a flat {guest.size.name} does not go into a {owner.size.name}, expected a narrower one"
+    bubble, longer = owner.bubbles[host.bubble], guest.tail + nozzle_length(guest)
+    wide = min(guest.inflated_radius / owner.inflated_radius, 1.0)
+    most = min(bubble.length * math.sqrt(1.0 - wide**2), bubble.length - longer)
+    if blown_length(guest) - guest.tail > most:
+        text = f"is {cm(blown_length(guest) + nozzle_length(guest))} long with its nozzle and its flat tip"
+        return f"{text}, expected at most {at_most(most + longer)} in {bubble.name}"
+    short = owner.size.radius + nozzle_length(guest) - host.along
+    if short > 0.0:
+        text = f"has no room in {owner.balloon}, which is {cm(owner.size.length)} long while it is flat"
+        return f"{text}, expected it, or what lies behind it, shorter by {at_least(short)} while flat"
+    return ""
+
+
+def _misplaced(guest: Shaped, owner: Shaped, place: tuple[float, float, float]) -> str:
+    """Say why a balloon from a mesh does not lie in another; nothing where it does.
+
+    `place`: where the recipe has it, m.
+    """
+    points, around = guest.surface.parted(), _start(owner)
+    some = points[:: -(-len(points) // MOST_TESTED)]
+    outside = int((~around.encloses(some)).sum())
+    if not outside:
+        return ""
+    shift = _middle_of(around.points) - _middle_of(points)
+    expected = "a smaller one"
+    if around.encloses(some + shift).all():
+        expected = f"at: [{', '.join(f'{100.0 * value:g} cm' for value in np.add(shift, place).round(3))}]"
+    return f"lies outside with {outside} of {len(some)} points, expected {expected}"
+
+
+def _crowded(owner: Shaped, shapes: list[Shaped]) -> str:
+    """Say why balloons from meshes have no room beside each other in one; nothing where they have."""
+    boxes = [_box(shape.surface.parted()) for shape in shapes]
+    for low, high in boxes[1:]:
+        if (boxes[0][0] <= high).all() and (low <= boxes[0][1]).all():
+            return "lies where another does in it, expected its box beside that"
+    least = _start(owner).volume + sum(shape.volume for shape in shapes)
+    if least > owner.volume:
+        swell = math.ceil(100.0 * (least / owner.surface.ball_volume) ** (1 / 3)) / 100.0
+        text = f"takes {1e3 * sum(shape.volume for shape in shapes):.3g} L with all that lies there"
+        return f"{text}, which would stretch the balloon about it further, expected swell: {swell:g} of that"
+    return ""
+
+
+def _start(owner: Shaped) -> ClosedShape:
+    """Return the wall of a balloon at the start."""
+    return ClosedShape(owner.surface.parted(), owner.surface.quads)
+
+
+def _box(points: Points) -> tuple[Points, Points]:
+    return points.min(axis=0), points.max(axis=0)
+
+
+def _middle_of(points: Points) -> Points:
+    low, high = _box(points)
+    return np.asarray(0.5 * (low + high))
