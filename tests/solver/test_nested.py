@@ -113,6 +113,25 @@ def test_the_gas_between_two_walls_does_not_swing_up():
     assert np.abs(pressure[:12, 1]).max() < 3e3
 
 
+def gas_in_the_hold(text):
+    """Pressure times volume of the gas of every bubble at the beginning and the end of the hold, (2, bubbles), J."""
+    planned = plan(Recipe.parse(text + "physics: {hold: 1, leak: 12 h}\n"))
+    frames = frames_of(planned)
+    ends = frames[-24], frames[-1]
+    pressure = np.array([frame.pressure for frame in ends])
+    if len(planned.strips) > 1:
+        pressure[:, 1] += pressure[:, 0]
+    return (ATMOSPHERE + pressure) * np.array([frame.volume for frame in ends])
+
+
+def test_what_leaks_from_a_balloon_in_another_comes_into_that():
+    lines = [line for line in Insert.example.splitlines(keepends=True) if "bug" not in line]
+    nested, alone = gas_in_the_hold(Insert.example), gas_in_the_hold("".join(lines))
+    lost, inner = nested[0] - nested[1]
+    assert inner > 0.1 * nested[0, 1]
+    assert lost == pytest.approx((alone[0] - alone[1])[0] - inner, rel=0.15)
+
+
 def test_what_two_hands_squeeze_through_a_wall_slips_aside_and_stays_inside():
     planned = plan(Recipe.parse(SQUEEZED))
     squeezed = next(move for move in planned.choreography.moves if move.text.startswith("squeeze"))

@@ -44,11 +44,17 @@ class Leak:
         """Quads of every bubble that leaks, (Q, 4), and the rubber of them between closed necks, (Q,), m3."""
 
     def advance(self, begin: float, end: float, state: Mapping[str, NDArray[Any]]) -> None:
-        """Take the gas that is lost in a frame from `begin` to `end` (s) out of every bubble."""
+        """Take the gas that is lost in a frame from `begin` to `end` (s) out of every bubble; what lies in
+        another loses it to that.
+        """
         for let_go, over, leak, bubbles in self._worlds:
             shown = max(0.0, min(end, over) - max(begin, let_go))
             if shown > 0.0:
-                self.hands.lose_gas(bubbles, self._lost(bubbles, leak * shown / (over - let_go), state))
+                lost = self._lost(bubbles, leak * shown / (over - let_go), state)
+                host = self.scene.host_segment.numpy()[bubbles]
+                self.hands.lose_gas(bubbles, lost)
+                for guest in np.flatnonzero(host >= 0):
+                    self.hands.lose_gas(host[guest : guest + 1], -lost[guest : guest + 1])
 
     def _lost(self, bubbles: NDArray[np.int64], seconds: float, state: Mapping[str, NDArray[Any]]) -> Floats:
         """Return what some bubbles lose in a time as long as they keep their walls, (bubbles,), mol.
