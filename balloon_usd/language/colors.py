@@ -75,7 +75,8 @@ def _rgb_named(word: str) -> tuple[float, float, float]:
     if not _HEX.fullmatch(code):
         if word.startswith("#"):
             raise ValueError(f'{quoted(word)} is no color, expected six hex digits such as "#d7141e"')
-        raise ValueError(unknown("color", word, LATEX_COLORS) + ' ("#rrggbb" and [r, g, b] work too)')
+        more = "; finish: clear, beside a color, lets one see through" if word == "clear" else ""
+        raise ValueError(unknown("color", word, LATEX_COLORS) + f' ("#rrggbb" and [r, g, b] work too{more})')
     red, green, blue = (_linear(int(code[at : at + 2], 16) / 255.0) for at in (1, 3, 5))
     return red, green, blue
 

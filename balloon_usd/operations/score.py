@@ -246,7 +246,9 @@ class Score:
         self.add(Move(self.now, SETTLE_SECONDS, index, "inflated"))
         for balloon in balloons:
             if seconds := self.layout.bring_seconds(balloon):
-                self.add(BringInside(self.now, seconds, index, f"bring on in: {balloon}", balloon=balloon))
+                self.add(
+                    BringInside(self.now, seconds, index, f"centre the contents: {balloon}", balloon=balloon)
+                )
         self.let_go(index)
 
     def twist(self, bubble: str, turns: float, index: int) -> None:

@@ -142,7 +142,12 @@ class Workbench:
         for balloon, (bubble, path) in self._put_in.items():
             made = piece.bubbles.get(bubble)
             if made is None:
-                self.complain(path, unknown("bubble", bubble, piece.bubbles))
+                # What a step that is refused would have made is there, once that is right.
+                if bubble not in self._made_ever:
+                    others = (
+                        name for name, each in piece.bubbles.items() if each.balloon not in self._put_in
+                    )
+                    self.complain(path, unknown("bubble", bubble, others))
             elif made.balloon in {balloon, *self._put_in}:
                 what = "itself" if made.balloon == balloon else f"{made.balloon}, which lies in another"
                 self.complain(path, f"lies in {what}, expected a bubble of a balloon that lies in none")

@@ -8,10 +8,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from balloon_usd.balloon.closed_shape import ClosedShape
+from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.language.lengths import at_least, at_most, cm
 from balloon_usd.operations.inflate import Inflate
 from balloon_usd.operations.insert import Insert
 from balloon_usd.plan.nesting import blown_length, hosts_of, nozzle_length
+from balloon_usd.plan.open_tube import softened
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -28,6 +30,8 @@ if TYPE_CHECKING:
 
 NARROWER = 0.75
 """Most radius of a flat tube that goes into another, in that of the other. Judged."""
+USUAL_SHARE = 0.8
+"""Share of the room in a bubble that is advised for the blown-up part of what lies in it."""
 MOST_GUESTS = 8
 """Most balloons that lie in one: hands bring no more to their places at a time."""
 MOST_TESTED = 4000
@@ -53,7 +57,7 @@ def _misfit(recipe: Recipe, strips: Mapping[str, Strip], hosts: Mapping[str, Hos
     if guest.shape is not None and owner.shape is not None:
         shapes = [guest.shape, *(each.shape for each in beside if each.shape is not None)]
         place = recipe.balloons[name].at or (0.0, 0.0, 0.0)
-        return _misplaced(guest.shape, owner.shape, place) or _crowded(owner.shape, shapes)
+        return _misplaced(guest.shape, owner.shape, place) or _crowded(owner.balloon, owner.shape, shapes)
     guests = [each for each, other in hosts.items() if other.balloon == host.balloon]
     if name in guests[MOST_GUESTS:]:
         return f"is one of {len(guests)} balloons in {owner.balloon}, expected at most {MOST_GUESTS}"
@@ -71,12 +75,16 @@ def _too_large(guest: Strip, owner: Strip, host: Host) -> str:
     """Say why a tube has no room in a bubble of another; nothing where it has."""
     if guest.size.radius > NARROWER * owner.size.radius:
         return f"a flat {guest.size.name} does not go into a {owner.size.name}, expected a narrower one"
-    bubble, longer = owner.bubbles[host.bubble], guest.tail + nozzle_length(guest)
+    bubble, whole = owner.bubbles[host.bubble], blown_length(guest) + nozzle_length(guest)
     wide = min(guest.inflated_radius / owner.inflated_radius, 1.0)
-    most = min(bubble.length * math.sqrt(1.0 - wide**2), bubble.length - longer)
-    if blown_length(guest) - guest.tail > most:
-        text = f"is {cm(blown_length(guest) + nozzle_length(guest))} long with its nozzle and its flat tip"
-        return f"{text}, expected at most {at_most(most + longer)} in {bubble.name}"
+    narrowing = bubble.length * math.sqrt(1.0 - wide**2)
+    if blown_length(guest) - guest.tail > narrowing or whole > bubble.length:
+        text = f"is {cm(whole)} long with its nozzle and its flat tip"
+        text += f", expected at most {at_most(bubble.length)}"
+        room = bubble.length - nozzle_length(guest)
+        blown = min(blown_length(guest) - guest.tail, narrowing, USUAL_SHARE * room)
+        flat = blown / maxwell_state(softened(guest.rubber)).bulged.b + min(guest.tail, room - blown)
+        return f"{text} in {bubble.name}, such as inflated: {at_most(blown)}, length: {at_most(flat)}"
     short = owner.size.radius + nozzle_length(guest) - host.along
     if short > 0.0:
         text = f"has no room in {owner.balloon}, which is {cm(owner.size.length)} long while it is flat"
@@ -101,8 +109,10 @@ def _misplaced(guest: Shaped, owner: Shaped, place: tuple[float, float, float]) 
     return f"lies outside with {outside} of {len(some)} points, expected {expected}"
 
 
-def _crowded(owner: Shaped, shapes: list[Shaped]) -> str:
-    """Say why balloons from meshes have no room beside each other in one; nothing where they have."""
+def _crowded(name: str, owner: Shaped, shapes: list[Shaped]) -> str:
+    """Say why balloons from meshes have no room beside each other in one of this name; nothing where they
+    have.
+    """
     boxes = [_box(shape.surface.parted()) for shape in shapes]
     for low, high in boxes[1:]:
         if (boxes[0][0] <= high).all() and (low <= boxes[0][1]).all():
@@ -111,7 +121,7 @@ def _crowded(owner: Shaped, shapes: list[Shaped]) -> str:
     if least > owner.volume:
         swell = math.ceil(100.0 * (least / owner.surface.ball_volume) ** (1 / 3)) / 100.0
         text = f"takes {1e3 * sum(shape.volume for shape in shapes):.3g} L with all that lies there"
-        return f"{text}, which would stretch the balloon about it further, expected swell: {swell:g} of that"
+        return f"{text}, which would stretch {name} further, expected swell: {swell:g} of {name}"
     return ""
 
 

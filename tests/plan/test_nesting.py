@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 
 from balloon_usd.operations.insert import Insert
@@ -95,6 +97,19 @@ def test_tubes_that_do_not_fit_are_refused_with_what_would(planned, old, new, to
     assert f"figure.yaml:10:19: steps[0].insert.one: {told}" in str(refused.value)
 
 
+@pytest.mark.parametrize(
+    "given", ["length: 6, inflated: 5", "length: 3.9, tail: 0.7", "inflated: 9", "length: 8, tail: 7"]
+)
+def test_what_is_advised_to_a_tube_that_is_too_long_fits(planned, given):
+    text = POD.replace("one: {size: 160, length: 1.9, tail: 0.7}", f"one: {{size: 160, {given}}}")
+    with pytest.raises(RecipeError) as refused:
+        planned(text)
+    advised = re.search(
+        r"expected at most 9 cm in a, such as (inflated: .* cm, length: .* cm)", str(refused.value)
+    )
+    assert planned(text.replace(given, advised.group(1))).strips["one"].inside == "a"
+
+
 def test_flat_tubes_that_have_no_room_behind_each_other_are_refused(planned):
     text = POD.replace("length: 16, tail: 7", "length: 8, tail: 2").replace("b: 9, ", "")
     text = text.replace("length: 1.9, tail: 0.7", "length: 3, tail: 1.6")
@@ -127,7 +142,7 @@ def test_balls_lie_in_balls_where_their_files_say(tmp_path):
         (
             "unit: m, swell: 1.5",
             "unit: m, swell: 4",
-            "would stretch the balloon about it further, expected swell: 2.08 of that",
+            "would stretch outer further, expected swell: 2.08 of outer",
         ),
     ],
 )
