@@ -64,11 +64,16 @@ def _misfit(recipe: Recipe, strips: Mapping[str, Strip], hosts: Mapping[str, Hos
     if beside:
         bubble = owner.bubbles[host.bubble].name
         return f"{bubble} holds {beside[0].balloon} as well, expected a bubble for each"
-    order = [each for step in recipe.steps if isinstance(step, Inflate) for each in step.inflate]
-    if order.index(name) < order.index(owner.balloon):
-        text = f"is blown up before {owner.balloon}, which would drag it along as it grows"
-        return f"{text}, expected inflate: {owner.balloon} first"
+    if _blown_up_at(recipe, name) <= _blown_up_at(recipe, owner.balloon):
+        text = f"is not blown up after {owner.balloon}, which would drag it along as it grows"
+        return f"{text}, expected inflate: {owner.balloon} in a step before"
     return _too_large(guest, owner, host)
+
+
+def _blown_up_at(recipe: Recipe, balloon: str) -> int:
+    """Return the step that blows a balloon up."""
+    steps = enumerate(recipe.steps)
+    return next(index for index, step in steps if isinstance(step, Inflate) and balloon in step.inflate)
 
 
 def _too_large(guest: Strip, owner: Strip, host: Host) -> str:

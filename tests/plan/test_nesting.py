@@ -85,8 +85,13 @@ def test_the_example_needs_no_caution():
         ("two: c", "two: a", "a holds two as well, expected a bubble for each"),
         (
             "  - inflate: pod\n  - inflate: [one, two]\n",
+            "  - inflate: [pod, one, two]\n",
+            "is not blown up after pod, which would drag it along as it grows",
+        ),
+        (
+            "  - inflate: pod\n  - inflate: [one, two]\n",
             "  - inflate: [one, two]\n  - inflate: pod\n",
-            "is blown up before pod, which would drag it along as it grows, expected inflate: pod first",
+            "is not blown up after pod, which would drag it along as it grows, expected inflate: pod in a step before",
         ),
     ],
 )
