@@ -72,6 +72,8 @@ class Workbench:
         self._pumped = pumped
         self._put_in: dict[str, tuple[str, Path]] = {}
         """Bubbles into which balloons are put, and where."""
+        self._used_at: list[tuple[Path, str]] = []
+        """Bubbles on which steps work, and these."""
         self._told_flat: set[str] = set()
         """Balloons of which was told that they are worked on while they are flat."""
 
@@ -114,6 +116,8 @@ class Workbench:
 
     def require_blown_up(self, place: Place, balloon: str | None, bubbles: Iterable[str]) -> None:
         """Complain of work on a balloon, or on bubbles of one, before it is blown up: once a balloon."""
+        bubbles = list(bubbles)
+        self._used_at += [(place.path, name) for name in bubbles]
         for name in dict.fromkeys([balloon, *map(self._owner, bubbles)]):
             later = None if name is None else self._pumped.get(name)
             if name is None or later is None or int(later[1]) <= place.index or name in self._told_flat:
@@ -144,28 +148,39 @@ class Workbench:
             if made is None:
                 # What a step that is refused would have made is there, once that is right.
                 if bubble not in self._made_ever:
-                    others = (
-                        name for name, each in piece.bubbles.items() if each.balloon not in self._put_in
-                    )
-                    self.complain(path, unknown("bubble", bubble, others))
+                    known = [it.bubble for it in piece.bubbles.values() if it.balloon not in self._put_in]
+                    self.complain(path, unknown("bubble", bubble, known))
             elif made.balloon in {balloon, *self._put_in}:
                 what = "itself" if made.balloon == balloon else f"{made.balloon}, which lies in another"
                 self.complain(path, f"lies in {what}, expected a bubble of a balloon that lies in none")
-            elif (full := self._full_before(path, (balloon, made.balloon))) is not None:
-                what = f"balloon {quoted(full)} is blown up by then"
-                self.complain(path, f"{what}, expected inflate: {full} in a step after this one")
-            elif len(row := piece.row(balloon)) > 1 or len(piece.joint(Joint(row[0], "start"))) > 1:
-                what = f"hands reach nothing in {bubble}, but twist {quoted(balloon)}"
-                self.complain(path, f"{what}, expected nothing made of it but its rest")
-            else:
+            elif full := self._full_before(path, (balloon, made.balloon)):
+                for name in full:
+                    what = f"balloon {quoted(name)} is blown up by then"
+                    self.complain(path, f"{what}, expected inflate: {name} in a step after this one")
+            elif self._is_left_alone(piece, balloon, bubble, path):
                 piece.insert(int(path[1]), balloon, bubble)
 
-    def _full_before(self, path: Path, balloons: Iterable[str]) -> str | None:
-        """Return the first balloon that no step after one blows up; None where all are."""
-        later = {
-            name for name in balloons if name in self._pumped and int(self._pumped[name][1]) > int(path[1])
-        }
-        return next((name for name in balloons if name not in later), None)
+    def _full_before(self, path: Path, balloons: Iterable[str]) -> list[str]:
+        """Return the balloons that no step after one blows up."""
+        later = {name for name, at in self._pumped.items() if int(at[1]) > int(path[1])}
+        return [name for name in balloons if name not in later]
+
+    def _is_left_alone(self, piece: Workpiece, balloon: str, bubble: str, path: Path) -> bool:
+        """Say whether no step works on what lies in a bubble or bursts it, and complain of those that do."""
+        row, known = piece.row(balloon), len(self.complaints)
+        if len(row) > 1 or (row and len(piece.joint(Joint(row[0], "start"))) > 1):
+            what = f"hands reach nothing in {bubble}, but twist {quoted(balloon)}"
+            self.complain(path, f"{what}, expected nothing made of it but its rest")
+        for used, name in self._used_at:
+            if name in row:
+                what = f"bubble {quoted(name)} lies in {bubble}, where no hand reaches it"
+                self.complain(used, f"{what}, expected a bubble of another balloon")
+        for gone in (self._popped_at.get(bubble), self._cut_at.get(bubble)):
+            if gone is not None:
+                what = f"balloon {quoted(balloon)} lies in {quoted(bubble)}"
+                self.complain(gone, f"{what}, expected a bubble in which nothing lies")
+                break
+        return len(self.complaints) == known
 
     def make(self, name: str, path: Path, balloon: str | None, *, last: bool = False) -> bool:
         """Make a bubble behind those that are there, and say whether it is new.

@@ -34,6 +34,8 @@ USUAL_SHARE = 0.8
 """Share of the room in a bubble that is advised for the blown-up part of what lies in it."""
 MOST_GUESTS = 8
 """Most balloons that lie in one: hands bring no more to their places at a time."""
+LEAST_TESTED = 500
+"""Points of a balloon from a mesh that are tested at least, on its finer faces."""
 MOST_TESTED = 4000
 """Points of a balloon from a mesh that are tested for lying in another."""
 
@@ -79,17 +81,28 @@ def _blown_up_at(recipe: Recipe, balloon: str) -> int:
 def _too_large(guest: Strip, owner: Strip, host: Host) -> str:
     """Say why a tube has no room in a bubble of another; nothing where it has."""
     if guest.size.radius > NARROWER * owner.size.radius:
-        return f"a flat {guest.size.name} does not go into a {owner.size.name}, expected a narrower one"
-    bubble, whole = owner.bubbles[host.bubble], blown_length(guest) + nozzle_length(guest)
+        text = f"is {cm(2.0 * guest.size.radius)} wide while it is flat, and {owner.balloon} "
+        text += cm(2.0 * owner.size.radius)
+        return f"{text}, expected a tube of at most {at_most(2.0 * NARROWER * owner.size.radius)}"
+    bubble = owner.bubbles[host.bubble]
+    if bubble.length == 0.0:
+        return f"lies in {bubble.name}, which is flat for ever, expected a bubble with gas"
+    nozzle, blown = nozzle_length(guest), blown_length(guest) - guest.tail
+    whole = blown + guest.tail + nozzle
     wide = min(guest.inflated_radius / owner.inflated_radius, 1.0)
     narrowing = bubble.length * math.sqrt(1.0 - wide**2)
-    if blown_length(guest) - guest.tail > narrowing or whole > bubble.length:
-        text = f"is {cm(whole)} long with its nozzle and its flat tip"
-        text += f", expected at most {at_most(bubble.length)}"
-        room = bubble.length - nozzle_length(guest)
-        blown = min(blown_length(guest) - guest.tail, narrowing, USUAL_SHARE * room)
+    text = ""
+    if whole > bubble.length:
+        text = f"is {at_least(whole)} long with its nozzle and its flat tip"
+        text += f", expected at most {at_most(bubble.length)} in {bubble.name}"
+    elif blown > narrowing:
+        text = f"is {at_least(blown)} long when blown up, expected at most {at_most(narrowing)}"
+        text += f" between the ends of {bubble.name}"
+    if text:
+        room = bubble.length - nozzle
+        blown = min(blown, narrowing, USUAL_SHARE * room)
         flat = blown / maxwell_state(softened(guest.rubber)).bulged.b + min(guest.tail, room - blown)
-        return f"{text} in {bubble.name}, such as inflated: {at_most(blown)}, length: {at_most(flat)}"
+        return f"{text}, such as inflated: {at_most(blown)}, length: {at_most(flat)}"
     short = owner.size.radius + nozzle_length(guest) - host.along
     if short > 0.0:
         text = f"has no room in {owner.balloon}, which is {cm(owner.size.length)} long while it is flat"
@@ -102,16 +115,21 @@ def _misplaced(guest: Shaped, owner: Shaped, place: tuple[float, float, float]) 
 
     `place`: where the recipe has it, m.
     """
-    points, around = guest.surface.parted(), _start(owner)
-    some = points[:: -(-len(points) // MOST_TESTED)]
+    within, around = _start(guest), _start(owner)
+    points = within.points
+    # A coarse wall has points inside and yet goes through the other.
+    finer = within
+    while len(finer.points) < LEAST_TESTED:
+        finer = finer.split()
+    some = finer.points[:: -(-len(finer.points) // MOST_TESTED)]
     outside = int((~around.encloses(some)).sum())
-    if not outside:
+    if not outside and not within.encloses(around.points).any():
         return ""
     shift = _middle_of(around.points) - _middle_of(points)
-    expected = "a smaller one"
+    expected = "all of it inside, such as a smaller one or another place"
     if around.encloses(some + shift).all():
         expected = f"at: [{', '.join(f'{100.0 * value:g} cm' for value in np.add(shift, place).round(3))}]"
-    return f"lies outside with {outside} of {len(some)} points, expected {expected}"
+    return f"lies outside with {outside / len(some):.0%} of its wall, expected {expected}"
 
 
 def _crowded(name: str, owner: Shaped, shapes: list[Shaped]) -> str:

@@ -42,6 +42,26 @@ def balls(folder, text=BALLS, outer=0.08, inner=0.04):
     return plan(Recipe.parse(HEAD + text, file=str(folder / "figure.yaml")))
 
 
+def rod(least, size):
+    """Points and faces of a box from its corner with the least places, m."""
+    points = [[least[k] + size[k] * (n >> k & 1) for k in range(3)] for n in range(8)]
+    return points, [(0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6)]
+
+
+def u_shape(side):
+    """The same of a U of cubes, five wide and four high, open above."""
+    cubes = {(x, 0, z) for x in range(5) for z in range(4) if z == 0 or x in (0, 4)}
+    numbers, faces = {}, []
+    for cube in sorted(cubes):
+        for face in rod((0, 0, 0), (1, 1, 1))[1]:
+            corners = [tuple(cube[k] + (n >> k & 1) for k in range(3)) for n in face]
+            middle = [sum(corner[k] for corner in corners) / 4.0 - cube[k] - 0.5 for k in range(3)]
+            beside = tuple(cube[k] + round(2.0 * middle[k]) for k in range(3))
+            if beside not in cubes:
+                faces.append([numbers.setdefault(corner, len(numbers)) for corner in corners])
+    return [[side * k for k in corner] for corner in numbers], faces
+
+
 def test_flat_tubes_lie_behind_each_other_in_the_outer_one_and_go_to_the_middles_of_their_bubbles(planned):
     strips = planned(POD).strips
     hosts = hosts_of(strips)
@@ -80,7 +100,11 @@ def test_the_example_needs_no_caution():
 @pytest.mark.parametrize(
     ("old", "new", "told"),
     [
-        ("size: 160, length: 1.9", "size: 350, length: 1.9", "a flat 350 does not go into a 350"),
+        (
+            "size: 160, length: 1.9",
+            "size: 350, length: 1.9",
+            "is 1.3 cm wide while it is flat, and pod 1.3 cm, expected a tube of at most 1 cm",
+        ),
         ("one: {size: 160, length: 1.9", "one: {size: 160, length: 3.9", "is 14.4 cm long with its nozzle"),
         ("two: c", "two: a", "a holds two as well, expected a bubble for each"),
         (
@@ -143,7 +167,7 @@ def test_balls_lie_in_balls_where_their_files_say(tmp_path):
 @pytest.mark.parametrize(
     ("old", "new", "told"),
     [
-        ("unit: m, swell: 1.5", "unit: m, at: [5, 0, 0]", "points, expected at: [0 cm, 0 cm, 0 cm]"),
+        ("unit: m, swell: 1.5", "unit: m, at: [5, 0, 0]", "of its wall, expected at: [0 cm, 0 cm, 0 cm]"),
         (
             "unit: m, swell: 1.5",
             "unit: m, swell: 4",
@@ -159,8 +183,16 @@ def test_balls_that_do_not_fit_are_refused_with_what_would(tmp_path, old, new, t
 
 
 def test_a_ball_as_large_as_the_other_lies_in_no_place_of_it(tmp_path):
-    with pytest.raises(RecipeError, match="points, expected a smaller one"):
+    with pytest.raises(RecipeError, match="of its wall, expected all of it inside, such as a smaller one"):
         balls(tmp_path, outer=0.08, inner=0.09)
+
+
+def test_a_coarse_rod_whose_corners_lie_inside_goes_through_a_dent_of_another_all_the_same(tmp_path):
+    write_obj(tmp_path / "outer.obj", *u_shape(0.08))
+    write_obj(tmp_path / "inner.obj", *rod((0.02, 0.02, 0.2), (0.36, 0.02, 0.02)))
+    text = BALLS.replace("swell: 1.5", "swell: 1.2")
+    with pytest.raises(RecipeError, match="of its wall, expected all of it inside"):
+        plan(Recipe.parse(HEAD + text, file=str(tmp_path / "figure.yaml")))
 
 
 def test_two_balls_do_not_lie_in_one_place_of_another(tmp_path):
