@@ -112,7 +112,7 @@ class LaidOut:
     def bring_seconds(self, balloon: str) -> float:
         """Return how long hands bring what lies in a balloon to its place, s; 0 where nothing does."""
         guests = (host for host in hosts_of(self._strips).values() if host.balloon == balloon)
-        return max((host.way / BRINGING_SPEED for host in guests), default=0.0)
+        return max((abs(host.way) / BRINGING_SPEED for host in guests), default=0.0)
 
     def guides(self, bubble: str) -> tuple[int, ...]:
         """Return the guide rings inside a bubble, from its start to its end."""

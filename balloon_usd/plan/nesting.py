@@ -6,9 +6,8 @@ from collections import defaultdict
 from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
-import numpy as np
-
-from balloon_usd.plan.blown import blown_shape
+from balloon_usd.balloon.bubble_shape import pinch_length
+from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.plan.open_tube import inflated_tube, softened
 
 if TYPE_CHECKING:
@@ -83,30 +82,37 @@ def blown_length(strip: Strip) -> float:
 
 
 def _guests_of(owner: Strip, strips: Mapping[str, Strip]) -> Iterator[tuple[str, Host]]:
-    """Yield what lies in a balloon. Flat tubes lie in it where they will, or as far forward as they have room
-    behind each other.
+    """Yield what lies in a balloon. Flat tubes lie in it where they will, or as near to that as they have
+    room behind each other.
     """
     numbers = {bubble.name: number for number, bubble in enumerate(owner.bubbles)}
     inside = [(numbers[it.inside], it) for it in strips.values() if it.inside in numbers]
+    inside.sort(key=lambda each: each[0])
+    goals, places = [], []
+    free = owner.size.radius
+    for number, guest in inside:
+        goal = 0.0
+        if guest.shape is None:
+            goal = _middle(owner, number) - 0.5 * (blown_length(guest) - nozzle_length(guest))
+        goals.append(goal)
+        places.append(max(goal, free + nozzle_length(guest)) if guest.shape is None else 0.0)
+        free = places[-1] + guest.size.length + guest.size.radius
     free = owner.size.length - owner.size.radius
-    for number, guest in sorted(inside, key=lambda each: each[0], reverse=True):
-        if guest.shape is not None:
-            yield guest.balloon, Host(owner.balloon, number, 0.0, 0.0)
-            continue
-        goal = _middle(owner, number) - 0.5 * (blown_length(guest) - nozzle_length(guest))
-        along = min(goal, free - guest.size.length)
-        free = along - nozzle_length(guest) - guest.size.radius
+    for place, (_, guest) in reversed(list(enumerate(inside))):
+        if guest.shape is None:
+            places[place] = min(places[place], free - guest.size.length)
+            free = places[place] - nozzle_length(guest) - guest.size.radius
+    for goal, along, (number, guest) in zip(goals, places, inside, strict=True):
         yield guest.balloon, Host(owner.balloon, number, along, goal)
 
 
 def _middle(owner: Strip, number: int) -> float:
-    """Return the middle, m from the knot, of the stretch of a balloon that lies in a bubble all the time
-    while it and the others are twisted off: each pinch draws in what is on both sides of it.
-    """
-    shape = blown_shape(owner)
-    bubbles = owner.bubbles[:-1]
-    ends = shape.place_of(np.array([0.0, *(bubble.rest_end for bubble in bubbles)]))
-    drawn = 0.5 * (np.diff(ends) - [bubble.length for bubble in bubbles])
-    begin = max(ends[number], ends[number] - drawn[: max(number - 1, 0)].sum() + drawn[number:].sum())
-    last = shape.end if number == len(bubbles) else ends[number + 1]
-    return 0.5 * float(begin + last - drawn[:number].sum())
+    """Return where the middle of a bubble lies before anything is twisted off, m from the knot."""
+    rubber = softened(owner.rubber)
+    stretch, end = maxwell_state(rubber).bulged.b, 0.5 * pinch_length(owner.size, rubber)
+    flat = owner.size.length - owner.tail
+    bubble = owner.bubbles[number]
+    begin = max(stretch * bubble.rest_start - end, 0.0)
+    return 0.5 * (
+        begin + stretch * min(bubble.rest_end, flat) - end * (2.0 if bubble.rest_end > flat else 1.0)
+    )

@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from balloon_usd.solver.latex.motions.ball import amount_of, squeezed_ball
+from balloon_usd.solver.latex.motions.carry_inside import CarryInside
 from balloon_usd.solver.latex.motions.steady import steady
 from balloon_usd.solver.motions.motion import Motion
 from balloon_usd.solver.motions.smooth import smooth
@@ -40,6 +41,7 @@ class Pinch(Motion):
         self._hands.radius[self._joint] = self._wide
         steady(sculpture, move.ring)
         self._ball = squeezed_ball(sculpture, move.ring)
+        self._inside = CarryInside(sculpture, sculpture.balloons[move.ring])
         # All gas of a short bubble would leave through an open neck: what has to leave is pushed out.
         self._open = 1.0 if self._ball is None else 0.0
         self._hands.passage[self._joint] = self._open * math.pi * self._wide**2
@@ -51,6 +53,7 @@ class Pinch(Motion):
         """Close the neck by a share, at once to gas that has to stay; once it is shut, press gas through it
         until the bubble has what it is to keep.
         """
+        self._inside.advance()
         if self._ball is None:
             self._press_gas(share)
         closed = smooth(share)
