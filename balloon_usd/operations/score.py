@@ -246,9 +246,8 @@ class Score:
         self.add(Move(self.now, SETTLE_SECONDS, index, "inflated"))
         for balloon in balloons:
             if seconds := self.layout.bring_seconds(balloon):
-                self.add(
-                    BringInside(self.now, seconds, index, f"centre the contents: {balloon}", balloon=balloon)
-                )
+                text = f"centre the contents: {balloon}"
+                self.add(BringInside(self.now, seconds, index, text, balloon=balloon))
         self.let_go(index)
 
     def twist(self, bubble: str, turns: float, index: int) -> None:

@@ -9,6 +9,7 @@ from balloon_usd.language.choices import one_of, unknown
 from balloon_usd.language.joint import Joint, ends_of
 from balloon_usd.language.names import is_name, name_of_end
 from balloon_usd.language.problem import PROBLEMS_SHOWN, Complaint, Path, path_text, quoted
+from balloon_usd.operations.insertions import Insertions
 from balloon_usd.operations.workpiece import Workpiece
 
 if TYPE_CHECKING:
@@ -70,10 +71,7 @@ class Workbench:
         """Where the tip behind a rest was tied."""
         self._made_ever, self._rests = made_ever, rests
         self._pumped = pumped
-        self._put_in: dict[str, tuple[str, Path]] = {}
-        """Bubbles into which balloons are put, and where."""
-        self._used_at: list[tuple[Path, str]] = []
-        """Bubbles on which steps work, and these."""
+        self._insertions = Insertions(made_ever, pumped)
         self._told_flat: set[str] = set()
         """Balloons of which was told that they are worked on while they are flat."""
 
@@ -117,7 +115,7 @@ class Workbench:
     def require_blown_up(self, place: Place, balloon: str | None, bubbles: Iterable[str]) -> None:
         """Complain of work on a balloon, or on bubbles of one, before it is blown up: once a balloon."""
         bubbles = list(bubbles)
-        self._used_at += [(place.path, name) for name in bubbles]
+        self._insertions.used += [(place.path, name) for name in bubbles]
         for name in dict.fromkeys([balloon, *map(self._owner, bubbles)]):
             later = None if name is None else self._pumped.get(name)
             if name is None or later is None or int(later[1]) <= place.index or name in self._told_flat:
@@ -128,59 +126,23 @@ class Workbench:
 
     def insert(self, balloon: str, bubble: str, path: Path) -> None:
         """Put a flat balloon where a bubble of another will be."""
+        put_in = self._insertions.put_in
         if balloon not in self._balloons:
             if self._balloons:
                 self.complain(path, unknown("balloon", balloon, self._balloons))
-        elif balloon in self._put_in:
-            bubble, at = self._put_in[balloon]
+        elif balloon in put_in:
+            bubble, at = put_in[balloon]
             what = f"balloon {quoted(balloon)} was put into {bubble} at {path_text(at)}"
             self.complain(path, f"{what}, expected each balloon once")
         elif bubble in self._made_at:
             what = f"bubble {quoted(bubble)} was made at {path_text(self._made_at[bubble])}"
             self.complain(path, f"{what}, expected this step before the balloon is blown up")
         else:
-            self._put_in[balloon] = bubble, path
+            put_in[balloon] = bubble, path
 
     def lay_in(self, piece: Workpiece) -> None:
         """Put balloons into bubbles of a finished workpiece, and complain of those that hands get nowhere."""
-        for balloon, (bubble, path) in self._put_in.items():
-            made = piece.bubbles.get(bubble)
-            if made is None:
-                # What a step that is refused would have made is there, once that is right.
-                if bubble not in self._made_ever:
-                    known = [it.bubble for it in piece.bubbles.values() if it.balloon not in self._put_in]
-                    self.complain(path, unknown("bubble", bubble, known))
-            elif made.balloon in {balloon, *self._put_in}:
-                what = "itself" if made.balloon == balloon else f"{made.balloon}, which lies in another"
-                self.complain(path, f"lies in {what}, expected a bubble of a balloon that lies in none")
-            elif full := self._full_before(path, (balloon, made.balloon)):
-                for name in full:
-                    what = f"balloon {quoted(name)} is blown up by then"
-                    self.complain(path, f"{what}, expected inflate: {name} in a step after this one")
-            elif self._is_left_alone(piece, balloon, bubble, path):
-                piece.insert(int(path[1]), balloon, bubble)
-
-    def _full_before(self, path: Path, balloons: Iterable[str]) -> list[str]:
-        """Return the balloons that no step after one blows up."""
-        later = {name for name, at in self._pumped.items() if int(at[1]) > int(path[1])}
-        return [name for name in balloons if name not in later]
-
-    def _is_left_alone(self, piece: Workpiece, balloon: str, bubble: str, path: Path) -> bool:
-        """Say whether no step works on what lies in a bubble or bursts it, and complain of those that do."""
-        row, known = piece.row(balloon), len(self.complaints)
-        if len(row) > 1 or (row and len(piece.joint(Joint(row[0], "start"))) > 1):
-            what = f"hands reach nothing in {bubble}, but twist {quoted(balloon)}"
-            self.complain(path, f"{what}, expected nothing made of it but its rest")
-        for used, name in self._used_at:
-            if name in row:
-                what = f"bubble {quoted(name)} lies in {bubble}, where no hand reaches it"
-                self.complain(used, f"{what}, expected a bubble of another balloon")
-        for gone in (self._popped_at.get(bubble), self._cut_at.get(bubble)):
-            if gone is not None:
-                what = f"balloon {quoted(balloon)} lies in {quoted(bubble)}"
-                self.complain(gone, f"{what}, expected a bubble in which nothing lies")
-                break
-        return len(self.complaints) == known
+        self.complaints += self._insertions.lay_in(piece, self._cut_at | self._popped_at)
 
     def make(self, name: str, path: Path, balloon: str | None, *, last: bool = False) -> bool:
         """Make a bubble behind those that are there, and say whether it is new.

@@ -109,10 +109,10 @@ def _guests_of(owner: Strip, strips: Mapping[str, Strip]) -> Iterator[tuple[str,
 def _middle(owner: Strip, number: int) -> float:
     """Return where the middle of a bubble lies before anything is twisted off, m from the knot."""
     rubber = softened(owner.rubber)
-    stretch, end = maxwell_state(rubber).bulged.b, 0.5 * pinch_length(owner.size, rubber)
-    flat = owner.size.length - owner.tail
+    stretch, round_end = maxwell_state(rubber).bulged.b, 0.5 * pinch_length(owner.size, rubber)
     bubble = owner.bubbles[number]
-    begin = max(stretch * bubble.rest_start - end, 0.0)
-    return 0.5 * (
-        begin + stretch * min(bubble.rest_end, flat) - end * (2.0 if bubble.rest_end > flat else 1.0)
-    )
+    begin = max(stretch * bubble.rest_start - round_end, 0.0)
+    end = stretch * bubble.rest_end - round_end
+    if bubble is owner.bubbles[-1]:
+        end = stretch * (owner.size.length - owner.tail) - 2.0 * round_end
+    return 0.5 * (begin + end)

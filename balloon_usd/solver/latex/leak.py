@@ -30,6 +30,8 @@ class Leak:
         """Take note of the plans that want it; `bodies`: of every plan."""
         self.scene = scene
         self.hands = hands
+        self._hosts = scene.host_segment.numpy()
+        """Segment in which each segment lies, (S,); -1 for none."""
         self._worlds = [
             (
                 plan.choreography.let_go,
@@ -51,10 +53,10 @@ class Leak:
             shown = max(0.0, min(end, over) - max(begin, let_go))
             if shown > 0.0:
                 lost = self._lost(bubbles, leak * shown / (over - let_go), state)
-                host = self.scene.host_segment.numpy()[bubbles]
                 self.hands.lose_gas(bubbles, lost)
-                for guest in np.flatnonzero(host >= 0):
-                    self.hands.lose_gas(host[guest : guest + 1], -lost[guest : guest + 1])
+                hosts = self._hosts[bubbles]
+                for guest in np.flatnonzero(hosts >= 0):
+                    self.hands.lose_gas(hosts[guest : guest + 1], -lost[guest : guest + 1])
 
     def _lost(self, bubbles: NDArray[np.int64], seconds: float, state: Mapping[str, NDArray[Any]]) -> Floats:
         """Return what some bubbles lose in a time as long as they keep their walls, (bubbles,), mol.

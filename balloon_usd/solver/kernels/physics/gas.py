@@ -141,7 +141,7 @@ def press_chamber(
             space += without_guests(k, chambers, state)
             gas += chambers.amount[k]
         if begin <= into and into <= end and gas < pump_goal:
-            here = pressure_of(gas, space, air)
+            here = pressure_of(gas, space, air) - outside
             inflow = wp.min(pump_flow, pump_flow * wp.max(pump_limit - here, 0.0) / (0.1 * pump_limit))
             added = wp.min(wp.float64(inflow * dt), pump_goal - gas)
             chambers.amount[into] = chambers.amount[into] + added
