@@ -4,15 +4,22 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
-from pydantic import Field
+from pydantic import BeforeValidator, Field
 
 from balloon_usd.language.names import Name
+from balloon_usd.language.problem import quoted
 from balloon_usd.operations.operation import Operation
 
 if TYPE_CHECKING:
     from balloon_usd.language.quantities import Units
     from balloon_usd.operations.score import Score
     from balloon_usd.operations.workbench import Place, Workbench
+
+
+def _entries(value: object) -> object:
+    if not isinstance(value, dict):
+        raise ValueError(f"{quoted(value)} does not fit, expected entries such as {{bug: cocoon}}")
+    return value
 
 
 class Insert(Operation):
@@ -39,7 +46,7 @@ steps:
         "balloonhq.com, column of Dewey: balls put into a tube, for a caterpillar",
     )
 
-    insert: Annotated[dict[Name, Name], Field(min_length=1)]
+    insert: Annotated[dict[Name, Name], Field(min_length=1), BeforeValidator(_entries)]
     """Put flat balloons into others: the bubble in which each will lie, by its name."""
 
     @property

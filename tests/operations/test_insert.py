@@ -46,6 +46,7 @@ def test_it_may_lie_in_what_is_left_of_a_balloon_that_no_step_names():
             "{bog: belly}",
             '9:19: steps[0].insert.bog: unknown balloon "bog", did you mean "bug"?',
         ),
+        ("{bug: belly}", "[bug]", "does not fit, expected entries such as {bug: cocoon}"),
         (
             "{bug: belly}",
             "{bug: bely}",
