@@ -64,10 +64,20 @@ class ClosedShape:
         return math.sqrt(self.area / len(self.quads))
 
     @cached_property
+    def box(self) -> tuple[Floats, Floats]:
+        """Least and greatest corner of the box round it, (3,) each, m."""
+        return self.points.min(axis=0), self.points.max(axis=0)
+
+    @cached_property
     def size(self) -> tuple[float, float, float]:
         """Sides of the box round it, m."""
-        x, y, z = self.points.max(axis=0) - self.points.min(axis=0)
+        x, y, z = self.box[1] - self.box[0]
         return float(x), float(y), float(z)
+
+    def meets(self, other: ClosedShape) -> bool:
+        """Whether the box round it and that round another one overlap."""
+        (low, high), (least, most) = self.box, other.box
+        return bool((low <= most).all() and (least <= high).all())
 
     @cached_property
     def outward(self) -> Floats:
@@ -104,6 +114,11 @@ class ClosedShape:
         """Return the points (V, 3) with walls so far apart that there is some air between them."""
         lacking = max(THINNEST * self.ball_volume - self.volume, 0.0)
         return np.asarray(self.points + lacking / self.area * self.outward)
+
+    @cached_property
+    def start(self) -> ClosedShape:
+        """The same surface with its walls parted, as a balloon is at the start."""
+        return ClosedShape(self.parted(), self.quads)
 
 
 def shape_of_faces(points: Floats, faces: Sequence[Ints], *, keep_quads: bool = True) -> ClosedShape:

@@ -80,6 +80,7 @@ class StepEntry:
         place = Place(self.path, bench.balloon_of(self.path, self.balloon, makes=makes))
         for word in self.words:
             BY_WORD[word].check(self.entries[word], place, bench)
+        bench.note_use(self.path, self.uses)
         bench.require_blown_up(place, place.balloon if self.makes else None, self.uses)
         if not any(BY_WORD[word].across for word in self.words):
             bench.check_owner(self.path, self.balloon, self.uses)

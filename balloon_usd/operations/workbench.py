@@ -114,8 +114,6 @@ class Workbench:
 
     def require_blown_up(self, place: Place, balloon: str | None, bubbles: Iterable[str]) -> None:
         """Complain of work on a balloon, or on bubbles of one, before it is blown up: once a balloon."""
-        bubbles = list(bubbles)
-        self._insertions.used += [(place.path, name) for name in bubbles]
         for name in dict.fromkeys([balloon, *map(self._owner, bubbles)]):
             later = None if name is None else self._pumped.get(name)
             if name is None or later is None or int(later[1]) <= place.index or name in self._told_flat:
@@ -123,6 +121,10 @@ class Workbench:
             self._told_flat.add(name)
             what = f"balloon {quoted(name)} is flat until {path_text(later)} blows it up"
             self.complain(place.path, f"{what}: expected this step after that one")
+
+    def note_use(self, path: Path, bubbles: Iterable[str]) -> None:
+        """Take note of the bubbles on which a step works: hands reach none that lies in another balloon."""
+        self._insertions.used += [(path, name) for name in bubbles]
 
     def insert(self, balloon: str, bubble: str, path: Path) -> None:
         """Put a flat balloon where a bubble of another will be."""

@@ -239,11 +239,10 @@ def _loose_pieces(recipe: Recipe, strips: Mapping[str, Strip]) -> Iterator[Cauti
     if any(strip.shape is not None for strip in strips.values()):
         return
     outside = [strip for strip in strips.values() if strip.inside is None]
-    firsts = [
-        next(strip.bubbles[0] for strip in outside if strip.bubbles[0].name in piece)
-        for piece in recipe.piece.pieces()
-        if any(strip.bubbles[0].name in piece for strip in outside)
+    begun = [
+        [it.bubbles[0] for it in outside if it.bubbles[0].name in piece] for piece in recipe.piece.pieces()
     ]
+    firsts = [bubbles[0] for bubbles in begun if bubbles]
     if len(firsts) < 2:
         return
     names = [strip.balloon for strip in outside]

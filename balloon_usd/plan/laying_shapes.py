@@ -53,7 +53,7 @@ def shaped_strip(recipe: Recipe, name: str, rubber: Rubber) -> Strip:
         most = f"expected at most {math.floor(1e5 * THICKEST * surface.ball_radius) / 100.0:g} mm"
         raise RecipeError([recipe.problem(("balloons", name, "thickness"), f"{text}, {most}")])
     volume = swell**3 * surface.ball_volume
-    least = (LEAST_AIR * ClosedShape(surface.parted(), surface.quads).volume / surface.ball_volume) ** (1 / 3)
+    least = (LEAST_AIR * surface.start.volume / surface.ball_volume) ** (1 / 3)
     if swell < least:
         text = f"{swell:g} is less than {name} holds before it is blown up"
         text += f", expected at least {math.ceil(100.0 * least) / 100.0:g}"
@@ -97,16 +97,16 @@ def overlap_problems(recipe: Recipe, strips: Mapping[str, Strip]) -> Iterator[Pr
     start apart.
     """
     shapes = [
-        (name, strip.shape.surface.points)
+        (name, strip.shape.surface)
         for name, strip in strips.items()
         if strip.shape is not None and strip.inside is None
     ]
-    boxes = [(name, points.min(axis=0), points.max(axis=0)) for name, points in shapes]
-    free = max((float(high[0]) for _, _, high in boxes), default=0.0)
-    for at, (name, least, most) in enumerate(boxes):
-        met = [one for one, low, high in boxes[:at] if (least <= high).all() and (low <= most).all()]
+    free = max((float(surface.box[1][0]) for _, surface in shapes), default=0.0)
+    for at, (name, surface) in enumerate(shapes):
+        met = [one for one, other in shapes[:at] if surface.meets(other)]
         if not met:
             continue
+        least, most = surface.box
         x, y, z = recipe.balloons[name].at or (0.0, 0.0, 0.0)
         beside = math.ceil(1e3 * (x + free + APART - float(least[0]))) / 1e3
         free = beside - x + float(most[0])

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from balloon_usd.balloon.closed_shape import ClosedShape
 from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.language.lengths import at_least, at_most, cm
 from balloon_usd.operations.inflate import Inflate
@@ -18,15 +17,11 @@ from balloon_usd.plan.open_tube import softened
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from numpy.typing import NDArray
-
     from balloon_usd.language.problem import Problem
     from balloon_usd.plan.nesting import Host
     from balloon_usd.plan.shaped import Shaped
     from balloon_usd.plan.strip import Strip
     from balloon_usd.recipe import Recipe
-
-    Points = NDArray[np.float64]
 
 NARROWER = 0.75
 """Most radius of a flat tube that goes into another, in that of the other. Judged."""
@@ -115,8 +110,7 @@ def _misplaced(guest: Shaped, owner: Shaped, place: tuple[float, float, float]) 
 
     `place`: where the recipe has it, m.
     """
-    within, around = _start(guest), _start(owner)
-    points = within.points
+    within, around = guest.surface.start, owner.surface.start
     # A coarse wall has points inside and yet goes through the other.
     finer = within
     while len(finer.points) < LEAST_TESTED:
@@ -125,7 +119,7 @@ def _misplaced(guest: Shaped, owner: Shaped, place: tuple[float, float, float]) 
     outside = int((~around.encloses(some)).sum())
     if not outside and not within.encloses(around.points).any():
         return ""
-    shift = _middle_of(around.points) - _middle_of(points)
+    shift = np.mean(around.box, axis=0) - np.mean(within.box, axis=0)
     expected = "all of it inside, such as a smaller one or another place"
     if around.encloses(some + shift).all():
         expected = f"at: [{', '.join(f'{100.0 * value:g} cm' for value in np.add(shift, place).round(3))}]"
@@ -136,27 +130,12 @@ def _crowded(name: str, owner: Shaped, shapes: list[Shaped]) -> str:
     """Say why balloons from meshes have no room beside each other in one of this name; nothing where they
     have.
     """
-    boxes = [_box(shape.surface.parted()) for shape in shapes]
-    for low, high in boxes[1:]:
-        if (boxes[0][0] <= high).all() and (low <= boxes[0][1]).all():
-            return "lies where another does in it, expected its box beside that"
-    least = _start(owner).volume + sum(shape.volume for shape in shapes)
+    first, *others = (shape.surface.start for shape in shapes)
+    if any(first.meets(other) for other in others):
+        return "lies where another does in it, expected its box beside that"
+    least = owner.surface.start.volume + sum(shape.volume for shape in shapes)
     if least > owner.volume:
         swell = math.ceil(100.0 * (least / owner.surface.ball_volume) ** (1 / 3)) / 100.0
         text = f"takes {1e3 * sum(shape.volume for shape in shapes):.3g} L with all that lies there"
         return f"{text}, which would stretch {name} further, expected swell: {swell:g} of {name}"
     return ""
-
-
-def _start(owner: Shaped) -> ClosedShape:
-    """Return the wall of a balloon at the start."""
-    return ClosedShape(owner.surface.parted(), owner.surface.quads)
-
-
-def _box(points: Points) -> tuple[Points, Points]:
-    return points.min(axis=0), points.max(axis=0)
-
-
-def _middle_of(points: Points) -> Points:
-    low, high = _box(points)
-    return np.asarray(0.5 * (low + high))

@@ -30,12 +30,13 @@ def mesh_arrays(scene: FlatBodies, host: Arrays) -> None:
     host["quad_segment"] = np.concatenate([g + s[k] for k, g in enumerate(segments)]).astype(np.int32)
     host["quad_balloon"] = np.repeat(index, np.diff(q)).astype(np.int32)
     host["balloon_world"] = np.asarray(scene.worlds, dtype=np.int32)
+    around = scene.hosts
     host["world_guests"] = np.bincount(
-        host["balloon_world"], weights=scene.hosts >= 0, minlength=max(scene.worlds) + 1
+        host["balloon_world"], weights=around >= 0, minlength=max(scene.worlds) + 1
     ).astype(np.int32)
-    host["balloon_host"] = scene.hosts.astype(np.int32)
+    host["balloon_host"] = around.astype(np.int32)
     host["quad_host"] = host["balloon_host"][host["quad_balloon"]]
-    host["balloon_nested"] = ((scene.hosts >= 0) | np.isin(index, scene.hosts)).astype(np.int32)
+    host["balloon_nested"] = ((around >= 0) | np.isin(index, around)).astype(np.int32)
     host["vertex_balloon"] = np.repeat(index, np.diff(v)).astype(np.int32)
     places = [b.along_only if b.place is None else b.place for b in bodies]
     host["vertex_place"] = np.concatenate(places).astype(np.float32)

@@ -6,14 +6,19 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from balloon_usd.plan.nesting import hosts_of
 from balloon_usd.solver.latex.friction import Friction
+from balloon_usd.solver.latex.spins import VertexSet
 from balloon_usd.solver.latex.torsion import Torsion
 from balloon_usd.solver.sculpture import Sculpture
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from numpy.typing import NDArray
 
     from balloon_usd.plan import Plan
+    from balloon_usd.plan.nesting import Host
     from balloon_usd.solver.latex.controls import LatexControls
     from balloon_usd.solver.latex.scene import LatexScene
     from balloon_usd.solver.latex.struts import Struts
@@ -37,6 +42,14 @@ class LatexSculpture(Sculpture):
         """Time at which each body had its gas, s."""
         self.pose_kept: dict[tuple[int, ...], set[tuple[int, int]]] = {}
         """Pairs of joints (of the scene) whose distance friction keeps, by the weld whose it is."""
+
+    def contents(self, balloon: str) -> Iterator[tuple[VertexSet, Host]]:
+        """Yield the vertices of each balloon that lies in another one, and where it lies."""
+        start = self.scene.vertex_start
+        for name, host in hosts_of(self.plan.strips).items():
+            if host.balloon == balloon:
+                body = self.body[name]
+                yield VertexSet.of(np.arange(start[body], start[body + 1])), host
 
     def hold_pose(self) -> None:
         """Let the friction of the welds keep the pose that the figure has."""

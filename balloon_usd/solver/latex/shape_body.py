@@ -21,7 +21,7 @@ def shape_body(mesh: BalloonMesh, rubber: Rubber, thickness: float) -> LatexBody
     """Return the body of a closed surface, its walls a little apart at the start; `thickness` in m."""
     surface = ClosedShape(mesh.points.astype(np.float64), mesh.quads)
     near = NEIGHBOURS * surface.edge
-    start = ClosedShape(surface.parted(), surface.quads)
+    start = surface.start
     return LatexBody(
         points=start.points.astype(np.float32),
         rest=surface.points,

@@ -53,6 +53,11 @@ class Spins:
         """
         self._on[vertices] = fields
 
+    def shift(self, vertices: VertexSet, drift: NDArray[np.floating[Any]]) -> None:
+        """Displace some vertices in the coming frame as they are, at a velocity (3,), m/s."""
+        # Any axis: nothing turns.
+        self.turn(vertices, {"axis": np.array([1.0, 0.0, 0.0]), "drift": drift})
+
     def stop(self) -> None:
         """Turn nothing."""
         self._on.clear()

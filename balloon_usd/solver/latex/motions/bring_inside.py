@@ -6,8 +6,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from balloon_usd.plan.nesting import hosts_of
-from balloon_usd.solver.latex.spins import VertexSet
 from balloon_usd.solver.motions.motion import Motion
 from balloon_usd.solver.motions.smooth import smooth
 
@@ -24,12 +22,7 @@ class BringInside(Motion):
     def __init__(self, move: moves.BringInside, sculpture: LatexSculpture) -> None:
         """Find what lies in the balloon."""
         self._sculpture, self._gone = sculpture, 0.0
-        start = sculpture.scene.vertex_start
-        self._ways: dict[VertexSet, float] = {}
-        for name, host in hosts_of(sculpture.plan.strips).items():
-            if host.balloon == move.balloon:
-                body = sculpture.body[name]
-                self._ways[VertexSet.of(np.arange(start[body], start[body + 1]))] = host.way
+        self._ways = [(vertices, host.way) for vertices, host in sculpture.contents(move.balloon)]
 
     def advance(self, share: float) -> None:
         """Bring each a share of its way in the coming frame."""
@@ -37,5 +30,5 @@ class BringInside(Motion):
         rate = (smooth(share) - self._gone) / (end - begin)
         self._gone = smooth(share)
         forward = np.array([1.0, 0.0, 0.0])
-        for vertices, way in self._ways.items():
-            self._sculpture.hands.spins.turn(vertices, {"axis": forward, "drift": rate * way * forward})
+        for vertices, way in self._ways:
+            self._sculpture.hands.spins.shift(vertices, rate * way * forward)

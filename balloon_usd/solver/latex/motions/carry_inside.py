@@ -4,15 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from balloon_usd.plan.nesting import hosts_of
-from balloon_usd.solver.latex.spins import VertexSet
-
 if TYPE_CHECKING:
+    import numpy as np
     from numpy.typing import NDArray
 
     from balloon_usd.solver.latex.sculpture import LatexSculpture
+    from balloon_usd.solver.latex.spins import VertexSet
 
 
 class CarryInside:
@@ -25,13 +22,11 @@ class CarryInside:
         self._sculpture = sculpture
         self._carried: list[tuple[VertexSet, list[int]]] = []
         """Vertices of each, and the joints of the scene at the ends of its bubble."""
-        start, plan = sculpture.scene.vertex_start, sculpture.plan
-        for name, host in hosts_of(plan.strips).items():
-            if host.balloon == balloon:
-                body = sculpture.body[name]
-                rings = plan.table.ends(plan.strips[balloon].bubbles[host.bubble].name)
-                joints = [sculpture.joints[ring] for ring in rings if ring is not None]
-                self._carried.append((VertexSet.of(np.arange(start[body], start[body + 1])), joints))
+        plan = sculpture.plan
+        for vertices, host in sculpture.contents(balloon):
+            rings = plan.table.ends(plan.strips[balloon].bubbles[host.bubble].name)
+            joints = [sculpture.joints[ring] for ring in rings if ring is not None]
+            self._carried.append((vertices, joints))
         self._before = self._middles()
 
     def _middles(self) -> list[NDArray[np.float32]]:
@@ -44,6 +39,5 @@ class CarryInside:
         begin, end, _ = self._sculpture.frame
         now = self._middles()
         for (vertices, _), here, before in zip(self._carried, now, self._before, strict=True):
-            drift = (here - before) / (end - begin)
-            self._sculpture.hands.spins.turn(vertices, {"axis": np.array([1.0, 0.0, 0.0]), "drift": drift})
+            self._sculpture.hands.spins.shift(vertices, (here - before) / (end - begin))
         self._before = now
