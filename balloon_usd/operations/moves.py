@@ -382,6 +382,17 @@ class TurnFold(Move):
 
 
 @dataclass(frozen=True)
+class Sink(Move):
+    """Let what lies in other balloons sink to what will be their lowest place once the figure is posed."""
+
+    pose: Pose = "stand"
+    front: Facing = "forward"
+    """The side that will be turned to face -x."""
+    top: Facing | None = None
+    """The side that will be turned up; None for as little turned as needed."""
+
+
+@dataclass(frozen=True)
 class LetGo(Move):
     """Take the hands away."""
 

@@ -20,7 +20,7 @@ from balloon_usd.operations.score import Score
 from balloon_usd.operations.tempo import PACES
 from balloon_usd.plan.laid_out import LaidOut
 from balloon_usd.plan.nets import nets_of
-from balloon_usd.plan.posing import pose
+from balloon_usd.plan.posing import pose, sink_contents
 from balloon_usd.plan.setting_nets import set_nets
 from balloon_usd.plan.straightening import straighten
 
@@ -74,6 +74,8 @@ def choreograph(recipe: Recipe, strips: Mapping[str, Strip], table: RingTable) -
     if held and not blown_up:
         while isinstance(score.moves[-1], LetGo):
             score.moves.pop()
+    sink_contents(recipe, strips, score, mirrored=mirrored)
+    if held and not blown_up:
         seconds = NET_LOOSEN_SECONDS if nets else LOOSEN_SECONDS
         score.add(Loosen(score.now, seconds, len(recipe.steps), "loosen the grip"))
     score.add(LetGo(score.now, 0.0, len(recipe.steps), "let go", for_good=True))

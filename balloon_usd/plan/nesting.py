@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import defaultdict
 from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
@@ -71,6 +72,12 @@ def blown_volume(strip: Strip) -> float:
     return float(inflated_tube(strip.size, softened(strip.rubber), strip.tail).volume)
 
 
+def room_to_sink(strips: Mapping[str, Strip]) -> float:
+    """Return how far what lies in others can sink at most, m, once all are blown up; 0 where nothing does."""
+    pairs = ((strips[host.balloon], strips[name]) for name, host in hosts_of(strips).items())
+    return max((_width(host) - _width(guest) for host, guest in pairs), default=0.0)
+
+
 def nozzle_length(strip: Strip) -> float:
     """Return how far knot and lip of a tube reach, m."""
     return NOZZLE * strip.size.radius
@@ -79,6 +86,13 @@ def nozzle_length(strip: Strip) -> float:
 def blown_length(strip: Strip) -> float:
     """Return the length of a tube that is blown up and not twisted, m, from its knot to its flat tip."""
     return strip.bubbles[-1].end + strip.tail
+
+
+def _width(strip: Strip) -> float:
+    """Return how wide a balloon is that is blown up, m; one from a mesh, as a ball of its volume."""
+    if strip.shape is None:
+        return 2.0 * strip.inflated_radius
+    return float(2.0 * (0.75 * strip.shape.volume / math.pi) ** (1 / 3))
 
 
 def _guests_of(owner: Strip, strips: Mapping[str, Strip]) -> Iterator[tuple[str, Host]]:

@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from balloon_usd.operations.moves import LET_GO, OTHER_SIDE, TIPPED, Fall, Level, Move, SetDown
+from balloon_usd.operations.moves import LET_GO, OTHER_SIDE, TIPPED, Fall, Level, Move, SetDown, Sink
+from balloon_usd.plan.nesting import room_to_sink
 from balloon_usd.recipe.recipe import EARTH
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from balloon_usd.operations.moves import Facing, Vector
     from balloon_usd.operations.score import Score
+    from balloon_usd.plan.strip import Strip
     from balloon_usd.recipe import Recipe
 
 POSE_SECONDS = 2.0
@@ -48,6 +53,27 @@ NUDGE: Vector = (0.01, 0.007, 0.0)
 """Spin with which hands let go above the ground, rad/s: no hand is so steady that a heart stays on its point.
 """
 STILL: Vector = (0.0, 0.0, 0.0)
+SINK_SECONDS = 1.0
+"""What lies in other balloons comes to rest after it has sunk, s."""
+SINKING_SPEED = 0.07
+"""Mean speed at which it sinks, m/s."""
+
+
+def sink_contents(recipe: Recipe, strips: Mapping[str, Strip], score: Score, *, mirrored: bool) -> None:
+    """Let what lies in other balloons of a recipe sink, while hands still hold the figure."""
+    if recipe.piece.inside and _weighs_inside(recipe):
+        front, top = _sides(recipe, mirrored=mirrored)
+        seconds = SINK_SECONDS + room_to_sink(strips) / SINKING_SPEED
+        sink = Sink(score.now, seconds, len(recipe.steps), "what lies inside sinks")
+        score.add(replace(sink, pose=recipe.pose, front=front, top=top))
+
+
+def _weighs_inside(recipe: Recipe) -> bool:
+    """Whether what lies in other balloons sinks: also where hands or a thread hold the figure, but not where
+    all of it floats as it was made.
+    """
+    given = recipe.physics.gravity
+    return recipe.physics.traits.has_weight and (recipe.pose != "as made" if given is None else given > 0.0)
 
 
 def pose(recipe: Recipe, score: Score, *, mirrored: bool) -> None:

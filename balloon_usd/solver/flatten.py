@@ -53,8 +53,8 @@ def mesh_arrays(scene: FlatBodies, host: Arrays) -> None:
     )
     host["contact_arc"] = np.array([b.contact_arc for b in bodies], dtype=np.float32)
     host["balloon_radius"] = np.array([b.radius for b in bodies], dtype=np.float32)
+    host["gravity"] = np.tile(np.array([0.0, 0.0, -scene.settings.gravity], np.float32), (len(bodies), 1))
     for name, value in (
-        ("gravity", scene.settings.gravity),
         ("drag", scene.settings.drag),
         ("friction", scene.settings.friction),
     ):

@@ -51,7 +51,7 @@ def moved(s: Sample, device: str, forces, drag: float = 0.0, gravity: float = 0.
     balloons = len(LAWS)
     host = s.host() | {
         "vertex_joint": rings(len(s.x)),
-        "gravity": np.full(balloons, gravity),
+        "gravity": np.tile([0.0, 0.0, -gravity], (balloons, 1)),
         "drag": np.full(balloons, drag),
         "dt": DT,
         "fraction": FRACTION,

@@ -125,6 +125,7 @@ def test_hands_wait_while_nothing_moves_and_in_model_kosaka_where_nothing_is_blo
     waits = {kind for kind, motion in KOSAKA_MOTIONS.items() if motion is Wait}
     unmoved = {
         moves.BringInside,
+        moves.Sink,
         moves.Inflate,
         moves.Spin,
         moves.TurnFold,

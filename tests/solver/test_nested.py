@@ -10,11 +10,13 @@ from balloon_usd.balloon.closed_shape import ClosedShape
 from balloon_usd.balloon.detail import detail_named
 from balloon_usd.balloon.rubber import rubber_named
 from balloon_usd.operations.insert import Insert
+from balloon_usd.operations.moves import Sink
 from balloon_usd.plan import plan
 from balloon_usd.plan.laying_shapes import WALL, ball_pressure
 from balloon_usd.plan.meshing import made_meshes
 from balloon_usd.plan.nesting_fit import MOST_GUESTS
 from balloon_usd.recipe import Recipe
+from balloon_usd.recipe.recipe import EARTH
 from balloon_usd.solver.kernels.arrays.rows import SPINS
 from balloon_usd.solver.simulation import simulate_many
 from tests.crowd.watched import crossings, watched
@@ -30,7 +32,6 @@ balloons:
 steps:
   - insert: {inner: outer}
   - inflate: ORDER
-physics: {hold: 0.5, softening: false}
 """
 SQUEEZED = (
     Insert.example.replace("size: 260", "size: 350").replace("length: 9", "length: 10")
@@ -52,19 +53,25 @@ steps:
   - bubbles: {a: 9, b: 9, c: 9}
     balloon: pod
   - lock: {joints: [a.start, c.end]}
+pose: stand
 physics: {hold: 0.5}
 """
 
 
-def two_balls(folder, order):
+def two_balls(folder, order, end="physics: {hold: 0.5, softening: false}"):
     for name, radius in (("outer", 0.08), ("inner", 0.04)):
         shape = ball(radius, 6)
         write_obj(folder / f"{name}.obj", shape.points, shape.quads.tolist())
-    return plan(Recipe.parse(BALLS.replace("ORDER", order), file=str(folder / "balls.yaml")))
+    return plan(Recipe.parse(BALLS.replace("ORDER", order) + end, file=str(folder / "balls.yaml")))
 
 
 def frames_of(planned):
     return [frame for (frame,) in simulate_many([planned], detail="draft", device="cpu").frames()]
+
+
+def box_middle(points):
+    """Middle of the box of some points, (3,), m."""
+    return 0.5 * (points.min(axis=0) + points.max(axis=0))
 
 
 def outside(planned, frame, guest, host):
@@ -144,6 +151,36 @@ def test_what_two_hands_squeeze_through_a_wall_slips_aside_and_stays_inside():
     middles = np.array([frame.points[1].mean(axis=0) for frame in frames])
     assert np.linalg.norm(middles[-1] - middles[0]) > 0.01
     assert not any(outside(planned, frame, 1, 0) for frame in frames[::4])
+
+
+@pytest.mark.parametrize(
+    "pose",
+    ["pose: stand", "pose: stand\ntop: down", "front: down\nphysics: {gravity: 9.81, hold: 0.5}"],
+    ids=["stands", "upside down", "as made, under gravity"],
+)
+def test_what_lies_in_a_ball_sinks_and_lies_on_its_wall_with_its_own_weight(tmp_path, pose):
+    planned = two_balls(tmp_path, "[inner, outer]", pose)
+    frames = frames_of(planned)
+    sinking = [frame for frame in frames if frame.doing == "what lies inside sinks"]
+    # Hands hold the outer one meanwhile.
+    ways = [box_middle(frame.points[0]) - box_middle(sinking[0].points[0]) for frame in sinking]
+    assert np.linalg.norm(ways, axis=1).max() < 0.015
+    last = next(
+        frame for frame in frames if frame.doing == "hold" and frame.time_code > sinking[-1].time_code + 6
+    )
+    law = rubber_named()
+    surface = planned.strips["inner"].shape.surface
+    weight = 4.0 * np.pi * surface.ball_radius**2 * WALL * law.density * EARTH
+    assert last.contact == pytest.approx([weight, weight], rel=0.03)
+    posed = frames[-1].points
+    low = [points[:, 2].min() for points in posed]
+    assert low[0] < low[1] < low[0] + 0.01
+    assert outside(planned, frames[-1], 1, 0) == 0
+
+
+def test_what_lies_in_a_ball_that_floats_where_it_was_made_floats_too(tmp_path):
+    planned = two_balls(tmp_path, "[inner, outer]")
+    assert not any(isinstance(move, Sink) for move in planned.choreography.moves)
 
 
 def test_hands_bring_as_many_balloons_at_a_time_as_a_plan_puts_into_one():

@@ -53,6 +53,8 @@ class LatexControls(Hands):
         self.pump_goal = np.zeros(len(scene.bodies))
         self.packed_drag = np.zeros(len(scene.bodies), dtype=np.float32)
         """Drag on the rubber of every balloon that is folded up in a neck, besides, 1/s."""
+        self.gravity = scene.gravity.numpy().copy()
+        """Pull of gravity on every balloon, (B, 3), m/s2."""
         self.spins = Spins(scene)
         self.softening = scene.softening_rate.numpy().copy()
         self.amount, self.volume = scene.amount.numpy().copy(), scene.volume.numpy().copy()
@@ -215,6 +217,7 @@ class LatexControls(Hands):
                 "softening_rate": self.softening,
                 "spins": self.spins.rows,
                 "packed_drag": self.packed_drag,
+                "gravity": self.gravity,
             }
         )
 

@@ -51,6 +51,11 @@ class LatexSculpture(Sculpture):
                 body = self.body[name]
                 yield VertexSet.of(np.arange(start[body], start[body + 1])), host
 
+    def mass(self, body: int) -> float:
+        """Return the mass of the rubber of a body, kg."""
+        own = slice(*self.scene.vertex_start[body : body + 2].tolist())
+        return float(self.scene.true_mass.numpy()[own].sum())
+
     def hold_pose(self) -> None:
         """Let the friction of the welds keep the pose that the figure has."""
         self.struts.hold(self._kept_pairs())

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,18 +39,10 @@ class SetDown(Motion):
 
         `points`: its vertices, (V, 3), m.
         """
-        facing, arms = faced(move, self._sculpture, points)
-        thread = _thread(arms, facing, self._centre, self._sculpture)
-        down = DOWN
-        if move.pose == "stand":
-            down = standing_direction(arms, np.zeros(3), DOWN)
-        elif move.pose == "hang":
-            down = _unit(-thread)
-        tipping = turn_about(*turn_between(down, DOWN))
-        turn = tipping @ facing
+        turn, arms, thread = posed(move, self._sculpture, points)
         if move.pose == "as made":
             return turn, self._centre - turn @ self._centre
-        pivot = _pivot(move.pose, arms @ tipping.T, tipping @ thread)
+        pivot = _pivot(move.pose, arms, thread)
         return turn, np.array([0.0, 0.0, move.height]) - pivot - turn @ self._centre
 
     def advance(self, share: float) -> None:
@@ -61,7 +53,36 @@ class SetDown(Motion):
         self._sculpture.placement = Placement.by(turn, shift)
 
 
-def faced(move: moves.SetDown | moves.Level, sculpture: Sculpture, points: Floats) -> tuple[Floats, Floats]:
+class Posed(NamedTuple):
+    """A figure as its pose turns it."""
+
+    turn: Floats
+    """The turn, (3, 3)."""
+    arms: Floats
+    """Its vertices so turned, from the centre of its mass, (V, 3), m."""
+    thread: Floats
+    """Where a thread is tied, from there, (3,), m."""
+
+
+def posed(move: moves.SetDown | moves.Sink, sculpture: Sculpture, points: Floats) -> Posed:
+    """Return a figure with its front and top where they go, tipped as it stands or hangs.
+
+    `points`: its vertices as they are, (V, 3), m.
+    """
+    facing, arms = faced(move, sculpture, points)
+    thread = _thread(arms, facing, sculpture.centre(points), sculpture)
+    down = DOWN
+    if move.pose == "stand":
+        down = standing_direction(arms, np.zeros(3), DOWN)
+    elif move.pose == "hang":
+        down = _unit(-thread)
+    tipping = turn_about(*turn_between(down, DOWN))
+    return Posed(tipping @ facing, arms @ tipping.T, tipping @ thread)
+
+
+def faced(
+    move: moves.SetDown | moves.Level | moves.Sink, sculpture: Sculpture, points: Floats
+) -> tuple[Floats, Floats]:
     """Return the turn (3, 3) that brings a figure's front and top where they go, and its vertices so turned,
     from the centre of its mass, (V, 3), m.
 

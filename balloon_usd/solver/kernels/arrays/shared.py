@@ -86,7 +86,7 @@ class Balloons:
     balloon_host: wp.array[int] = array("balloons", meaning="balloon in which it lies; -1 for none")
     balloon_nested: wp.array[int] = array("balloons", meaning="1 where it lies in another, or another in it")
     balloon_radius: wp.array[float] = array("balloons", unit="m", meaning="unstressed radius")
-    gravity: wp.array[float] = array("balloons", unit="m/s2", meaning="pull of gravity")
+    gravity: wp.array[wp.vec3] = array("balloons", unit="m/s2", meaning="pull of gravity")
     drag: wp.array[float] = array("balloons", unit="1/s", meaning="drag of the air")
     packed_drag: wp.array[float] = array(
         "balloons", unit="1/s", meaning="drag on rubber that is folded up in a neck, besides"

@@ -43,7 +43,7 @@ def move_rubber(
     i = wp.tid()
     j = mesh.vertex_joint[i]
     law = net.constants[mesh.vertex_balloon[i]]
-    f = net.spring_pull[i] + net.air_pull[i] - wp.vec3(0.0, 0.0, balloons.gravity[mesh.vertex_balloon[i]])
+    f = net.spring_pull[i] + net.air_pull[i] + balloons.gravity[mesh.vertex_balloon[i]]
     drift = faces.drifts[faces.quad_cluster[mesh.corners[i][0] // 4]]
     f += gain_at(drift, state.x[i]) - balloons.drag[mesh.vertex_balloon[i]] * (
         state.v[i] - drift_at(drift, state.x[i])

@@ -114,7 +114,7 @@ def step_of_vertex(
     """
     b = int_at(mesh.vertex_balloon, i)
     spin = int_at(hands.vertex_spin, i)
-    pull = wp.vec3(0.0, 0.0, -float_at(balloons.gravity, b) * float_at(rubber.true_mass, i))
+    pull = float_at(rubber.true_mass, i) * vec3_at(balloons.gravity, b)
     # Drag takes from the velocity only: it must not weaken forces against those that act on whole rings.
     kept = wp.max(1.0 - float_at(balloons.drag, b) * dt, 0.0)
     packed = float_at(balloons.packed_drag, b)

@@ -37,6 +37,7 @@ KOSAKA_MOTIONS: Motions = {
     moves.SetDown: SetDown,
     # Only latex has a weight, bursts, softens, and has balloons in others.
     moves.BringInside: Wait,
+    moves.Sink: Wait,
     moves.Fall: Wait,
     moves.Pop: Wait,
     moves.Cut: Wait,

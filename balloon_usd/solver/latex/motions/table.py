@@ -25,6 +25,7 @@ from balloon_usd.solver.latex.motions.pop import Pop
 from balloon_usd.solver.latex.motions.press import LatexPress
 from balloon_usd.solver.latex.motions.set_down import LatexSetDown
 from balloon_usd.solver.latex.motions.set_net import LatexSetNet
+from balloon_usd.solver.latex.motions.sink import Sink
 from balloon_usd.solver.latex.motions.spin import Spin
 from balloon_usd.solver.latex.motions.straighten import Straighten
 from balloon_usd.solver.latex.motions.stretch_tip import StretchTip
@@ -43,6 +44,7 @@ if TYPE_CHECKING:
 LATEX_MOTIONS: Motions = {
     moves.Move: Wait,
     moves.Inflate: Inflate,
+    moves.Sink: Sink,
     moves.Pinch: Pinch,
     moves.Spin: Spin,
     moves.Gather: Gather,

@@ -1,0 +1,85 @@
+"""What lies in other balloons of latex sinks to their lowest place."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from balloon_usd.plan.nesting import hosts_of
+from balloon_usd.recipe.recipe import EARTH
+from balloon_usd.solver.latex.spins import VertexSet
+from balloon_usd.solver.motions.motion import Motion
+from balloon_usd.solver.motions.set_down import DOWN, posed
+from balloon_usd.solver.motions.smooth import smooth
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from balloon_usd.operations import moves
+    from balloon_usd.solver.latex.sculpture import LatexSculpture
+
+HEAVIER = 8.0
+"""Pull on what sinks at first, in its weight: its mesh is some hundred times as inert as its rubber. In the
+end its weight alone dents the wall below it.
+"""
+
+
+class Sink(Motion):
+    """Balloons in others that are pulled down to where it will be down once the figure is posed, and the
+    others up by as much.
+    """
+
+    def __init__(self, move: moves.Sink, sculpture: LatexSculpture) -> None:
+        """Find what sinks, and hold what has no rings for hands."""
+        self._hands, strips, body = sculpture.hands, sculpture.plan.strips, sculpture.body
+        # Before the first fold no walls of tubes do.
+        self._hands.touch(sculpture.bodies)
+        hosts = hosts_of(strips)
+        pairs = [(body[guest], body[host.balloon]) for guest, host in hosts.items()]
+        weight = EARTH * (DOWN @ posed(move, sculpture, sculpture.walls()).turn)
+        self._weights = np.zeros_like(self._hands.gravity)
+        for guest, host in pairs:
+            self._weights[guest] = weight
+            self._weights[host] -= weight * sculpture.mass(guest) / sculpture.mass(host)
+        self._pulled = np.unique(pairs)
+        whole = [k for k, host in enumerate(hosts.values()) if len(strips[host.balloon].bubbles) == 1]
+        alone = {pairs[k][1] for k in whole}
+        self._held = [_Held(sculpture, each, [g for g, host in pairs if host == each]) for each in alone]
+        self._twisted = np.setdiff1d(self._pulled, np.array([pairs[k] for k in whole], dtype=np.int64))
+
+    def advance(self, share: float) -> None:
+        """Pull less and less, in the end by weight alone; in tubes, whose necks it would bend, no more."""
+        heavier = 1.0 + (HEAVIER - 1.0) * (1.0 - smooth(share))
+        self._hands.gravity[self._pulled] = heavier * self._weights[self._pulled]
+        if share >= 1.0:
+            self._hands.gravity[self._twisted] = 0.0
+        for each in self._held:
+            each.hold()
+
+
+class _Held:
+    """A balloon that is kept where it is, with what lies in it."""
+
+    def __init__(self, sculpture: LatexSculpture, host: int, guests: Sequence[int]) -> None:
+        self._sculpture = sculpture
+        start = sculpture.scene.vertex_start
+        self._host = slice(*start[host : host + 2].tolist())
+        both = [np.arange(start[each], start[each + 1]) for each in (host, *guests)]
+        self._all = VertexSet.of(np.concatenate(both))
+        self._place = self._before = self._middle()
+        self._rate = np.zeros(3)
+        """Velocity at which all of it was displaced in the last frame, m/s."""
+
+    def _middle(self) -> NDArray[np.float64]:
+        places: NDArray[np.float64] = self._sculpture.hands.places[self._host].mean(axis=0, dtype=float)
+        return places
+
+    def hold(self) -> None:
+        """Displace it in the coming frame so that it ends where it was at first."""
+        hands, (begin, end, _), now = self._sculpture.hands, self._sculpture.frame, self._middle()
+        moving = (now - self._before) / (end - begin) - self._rate
+        self._rate, self._before = (self._place - now) / (end - begin) - moving, now
+        hands.spins.shift(self._all, self._rate)
