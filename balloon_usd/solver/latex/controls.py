@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 PULL = 1.4
 """Largest force of a hand that pulls a bubble out between its ends, in forces of its gas on the end."""
+SOFTENING_SECONDS = 0.1
+"""Time in which stretched rubber softens, s: longer than the waves that hands send through a heavy mesh."""
 Points = NDArray[np.float32] | NDArray[np.float64]
 
 
@@ -57,6 +59,7 @@ class LatexControls(Hands):
         """Pull of gravity on every balloon, (B, 3), m/s2."""
         self.spins = Spins(scene)
         self.softening = scene.softening_rate.numpy().copy()
+        """Share of a new largest energy that the rubber of every balloon takes note of in a substep, (B,)."""
         self.amount, self.volume = scene.amount.numpy().copy(), scene.volume.numpy().copy()
         """Gas of every segment, mol, and its volume, m3."""
         self.pressure = scene.pressure.numpy().copy()
@@ -121,9 +124,15 @@ class LatexControls(Hands):
         self.passage[joint] = self.passage_goal[joint] = OPEN_PASSAGE
         self.neck_closed[joint] = self.neck_wound[joint] = 0.0
 
-    def set_softening(self, balloon: int, rate: float) -> None:
-        """Set which share of a new largest energy the rubber of a balloon takes note of in one substep."""
-        self.softening[balloon] = rate
+    def keep_from_softening(self, balloon: int) -> None:
+        """Let a balloon's rubber not soften where it is stretched anew: gas that is pushed on has to move a
+        mesh of artificial inertia, and stretches what is behind.
+        """
+        self.softening[balloon] = 0.0
+
+    def let_soften(self, balloon: int) -> None:
+        """Let a balloon's rubber soften where it is stretched anew."""
+        self.softening[balloon] = self.scene.settings.dt / SOFTENING_SECONDS
 
     def turn(self, vertices: VertexSet, point: Floats, middle_of: VertexSet, rate: float) -> None:
         """Turn some vertices in this frame, at a rate (rad/s), about the axis from a point (3,), m, to the

@@ -31,8 +31,6 @@ BIRTH = 0.5
 """Share of the start in which the first bulge grows: it leans over the knot, and its walls may touch, which
 costs 30 % of the speed of a run; the hand keeps the tail taut.
 """
-SOFTENING_SECONDS = 0.1
-"""Time in which stretched rubber softens, s: longer than the waves that hands send through a heavy mesh."""
 
 
 class Inflate(Motion):
@@ -46,8 +44,7 @@ class Inflate(Motion):
         self._body = sculpture.body[move.balloon]
         self._room = room_left(sculpture.plan.strips, move.balloon)
         """Share of the balloon's volume that what lies in it leaves to its gas."""
-        # What the mesh's artificial inertia adds to the stretch behind the front must not soften it.
-        sculpture.hands.set_softening(self._body, 0.0)
+        sculpture.hands.keep_from_softening(self._body)
         shape = sculpture.plan.strips[move.balloon].shape
         self._tail: Tail | None = None
         self._touches = False
@@ -130,5 +127,5 @@ class Inflate(Motion):
         if self._tail is not None:
             self._tail.leave()
             hands.set_drag(self._body, settings.drag)
-        hands.set_softening(self._body, settings.dt / SOFTENING_SECONDS)
+        hands.let_soften(self._body)
         self._sculpture.inflated_at[self._body] = self._sculpture.frame.end
