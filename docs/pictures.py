@@ -2,7 +2,8 @@
 
 `python docs/pictures.py` draws all but the gallery on the CPU, `python docs/pictures.py press drop` some.
 `python docs/pictures.py gallery` draws the last frames of all recipes, on a GPU if there is one: a CPU takes
-a quarter of an hour. `python docs/pictures.py gallery tulip_bt` draws that of one.
+a quarter of an hour. `python docs/pictures.py gallery tulip_bt` draws that of one. The README shows some of
+these from one side.
 """
 
 from __future__ import annotations
@@ -35,15 +36,17 @@ DROP = "drop"
 """The pose that has a picture, too."""
 FALLEN = (0.0, 0.9, 1.25, 2.0, 5.0)
 """Times after the let-go at which the dog is drawn, s."""
-SIZE = ("300", "220")
-"""Width and height of one frame, pixels."""
+SIZE, FINE = ("300", "220"), ("600", "440")
+"""Width and height of one frame of an operation and of the gallery, pixels."""
 GALLERY = "gallery"
 VIEWS = ("three-quarter", "front-quarter")
 """From where every figure of the gallery is seen."""
 TITLE = HEADER + MARGIN
 """Height of what is above the frames of a contact sheet, pixels."""
-COLORS, PASSES = 256, 4
-"""In the palette of a picture, and passes that choose them: small files without steps in the shadows."""
+README = ("dog", "poodle", "dachshund", "giraffe", "elephant", "rabbit", "flower", "heart")
+"""Figures that the README shows."""
+QUALITY, EFFORT = 88, 6
+"""Of pictures in WebP: as small as with a palette of 256 colours, which shows steps on shining walls."""
 
 
 def draw(words: Sequence[str], folder: Path) -> None:
@@ -62,7 +65,7 @@ def draw(words: Sequence[str], folder: Path) -> None:
         if plans[word].graph.rings:
             # What closed rings make shows best from where the knot is.
             picture = _beside(picture, _sheet(stage, frames[-1:], "front-quarter"))
-        picture.quantize(COLORS, kmeans=PASSES).save(PICTURES / f"{word}.png", optimize=True)
+        _save(picture, PICTURES / word)
 
 
 def draw_drop(folder: Path) -> None:
@@ -74,7 +77,7 @@ def draw_drop(folder: Path) -> None:
     let_go = made.choreography.moves[-1].start
     frames = [1 + round(made.recipe.fps * (let_go + time)) for time in FALLEN]
     picture = _sheet(folder / made.recipe.name, frames, "side")
-    picture.quantize(COLORS, kmeans=PASSES).save(PICTURES.parent / f"{DROP}.png", optimize=True)
+    _save(picture, PICTURES.parent / DROP)
 
 
 def draw_gallery(folder: Path, names: Collection[str]) -> None:
@@ -89,16 +92,16 @@ def draw_gallery(folder: Path, names: Collection[str]) -> None:
     target = PICTURES.parent / GALLERY
     target.mkdir(exist_ok=True)
     for made in plans:
-        stage = folder / made.recipe.name
-        if stage.exists():
-            sheets = [_sheet(stage, [made.frame_count], view, "auto") for view in VIEWS]
-            frames = [
-                sheet.crop((MARGIN, TITLE, MARGIN + int(SIZE[0]), TITLE + int(SIZE[1]))) for sheet in sheets
-            ]
-            both = Image.new("RGB", (2 * int(SIZE[0]), int(SIZE[1])))
+        name = made.recipe.name
+        if (stage := folder / name).exists():
+            frames = [_last_frame(stage, made.frame_count, view) for view in VIEWS]
+            width, height = frames[0].size
+            both = Image.new("RGB", (2 * width, height))
             for at, frame in enumerate(frames):
-                both.paste(frame, (at * int(SIZE[0]), 0))
-            both.quantize(COLORS, kmeans=PASSES).save(target / f"{made.recipe.name}.png", optimize=True)
+                both.paste(frame, (at * width, 0))
+            _save(both, target / name)
+            if name in README:
+                _save(frames[0], PICTURES.parent / name)
 
 
 def gallery_recipes() -> list[Path]:
@@ -107,13 +110,29 @@ def gallery_recipes() -> list[Path]:
     return [file for folder in folders for file in sorted(folder.glob("*.yaml"))]
 
 
-def _sheet(stage: Path, frames: Sequence[int], view: str, device: str = "cpu") -> Image.Image:
+def _sheet(stage: Path, frames: Sequence[int], view: str) -> Image.Image:
     """Draw frames of a stage in a row."""
+    return _drawn(stage, frames, view, SIZE, "cpu")
+
+
+def _last_frame(stage: Path, frame: int, view: str) -> Image.Image:
+    """Draw one frame of a stage without title and text, finely."""
+    width, height = map(int, FINE)
+    sheet = _drawn(stage, [frame], view, FINE, "auto")
+    return sheet.crop((MARGIN, TITLE, MARGIN + width, TITLE + height))
+
+
+def _drawn(stage: Path, frames: Sequence[int], view: str, size: Sequence[str], device: str) -> Image.Image:
     file = stage.with_name(f"{stage.name}_{view}.png")
-    shown = ("--frames", ",".join(map(str, frames)), "--columns", str(len(frames)), "--size", *SIZE)
+    shown = ("--frames", ",".join(map(str, frames)), "--columns", str(len(frames)), "--size", *size)
     _call("preview", str(stage), "-o", str(file), *shown, "--view", view, "--device", device)
     with Image.open(file) as image:
         return image.convert("RGB")
+
+
+def _save(picture: Image.Image, file: Path) -> None:
+    """Save a picture; `file`: without its ending."""
+    picture.save(file.with_suffix(".webp"), quality=QUALITY, method=EFFORT)
 
 
 def _beside(sheet: Image.Image, more: Image.Image) -> Image.Image:

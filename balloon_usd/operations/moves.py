@@ -134,6 +134,13 @@ class Pinch(Move):
 
 
 @dataclass(frozen=True)
+class Halve(Move):
+    """Close a neck in the middle of gas that is shut in already, whose two parts share it."""
+
+    ring: int = 0
+
+
+@dataclass(frozen=True)
 class Spin(Move):
     """Turn the balloon beyond a closed ring about its own axis."""
 

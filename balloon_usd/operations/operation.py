@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from balloon_usd.operations.workbench import Place, Workbench
     from balloon_usd.operations.workpiece import Workpiece
 
-BubbleKind = Literal["bubble", "loop", "fold", "ear", "petal", "tulip", "rest", "shape"]
+BubbleKind = Literal["bubble", "loop", "fold", "ear", "half", "petal", "tulip", "rest", "shape"]
 Lengths = Annotated[dict[Name, Length], Field(min_length=1)]
 
 

@@ -250,12 +250,15 @@ class Score:
                 self.add(BringInside(self.now, seconds, index, text, balloon=balloon))
         self.let_go(index)
 
-    def twist(self, bubble: str, turns: float, index: int) -> None:
-        """Pinch and, where joints are wound, turn at the end of a bubble, unless that is the tip."""
+    def twist(self, bubble: str, turns: float, index: int, *, pinches: int = 1) -> None:
+        """Pinch and, where joints are wound, turn at the end of a bubble, unless that is the tip.
+
+        `pinches`: times in which others are pinched that this pinch takes, as it draws in more.
+        """
         ring = self.layout.ends(bubble)[1]
         if ring is None:
             return
-        seconds = DRAWING_SECONDS if self.blown_up else PINCH_SECONDS / self.pace.leading
+        seconds = DRAWING_SECONDS if self.blown_up else pinches * PINCH_SECONDS / self.pace.leading
         self.add(Pinch(self.now, seconds, index, f"pinch: {bubble}", ring=ring))
         if not self.blown_up:
             seconds = self.pace.turning_seconds(turns)

@@ -29,6 +29,7 @@ from balloon_usd.operations.push import Push
 from balloon_usd.operations.rest import Rest
 from balloon_usd.operations.roll import Roll
 from balloon_usd.operations.spiral import Spiral
+from balloon_usd.operations.split import Split
 from balloon_usd.operations.squeeze import Squeeze
 from balloon_usd.operations.tail_ball import TailBall
 from balloon_usd.operations.thread import Thread
@@ -49,6 +50,7 @@ OPERATIONS: tuple[type[Operation], ...] = (
     Loop,
     Fold,
     Ear,
+    Split,
     Gather,
     Tulip,
     Weave,

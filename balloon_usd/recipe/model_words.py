@@ -16,6 +16,7 @@ from balloon_usd.operations.pop import Pop
 from balloon_usd.operations.push import Push
 from balloon_usd.operations.roll import Roll
 from balloon_usd.operations.spiral import Spiral
+from balloon_usd.operations.split import Split
 from balloon_usd.operations.squeeze import Squeeze
 from balloon_usd.operations.tail_ball import TailBall
 from balloon_usd.operations.thread import Thread
@@ -53,6 +54,7 @@ LATEX_STEPS = {
     Spiral.word: (", whose walls hardly rub", "no such step"),
     Pop.word: (", whose air particles stay in", "no such step"),
     Cut.word: (", whose air particles stay in", "no such step"),
+    Split.word: (", whose air particles find no way into both halves", "ear"),
     Tulip.word: (", whose net is not turned inside out", "no such step"),
     Tie.word: (", whose balloons have neither nozzle nor flat tip", "lock: {joints: [...]}"),
     TailBall.word: (", whose springs do not soften", "no such step"),

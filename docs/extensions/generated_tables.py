@@ -56,9 +56,9 @@ class Gallery(SphinxDirective):
         """Return the pictures of a folder within `recipes`, in the order of their titles."""
         recipes = map(Recipe.load, (RECIPES / self.arguments[0]).glob("*.yaml"))
         pictures = Path(self.env.srcdir) / "pictures" / "gallery"
-        shown = sorted((each.title, each) for each in recipes if (pictures / f"{each.name}.png").exists())
+        shown = sorted((each.title, each) for each in recipes if (pictures / f"{each.name}.webp").exists())
         lines = [
-            f"![{title}](/pictures/gallery/{each.name}.png)\n\n**{title}**: `{_file(each)}`"
+            f"![{title}](/pictures/gallery/{each.name}.webp)\n\n**{title}**: `{_file(each)}`"
             for title, each in shown
         ]
         return self.parse_text_to_nodes("\n\n".join(lines))

@@ -80,14 +80,14 @@ def test_it_says_where_it_is_described(operation: type[Operation]) -> None:
 def test_it_has_a_page_that_shows_its_picture_and_what_its_code_knows(operation: type[Operation]) -> None:
     page = (DOCS / "reference" / "operations" / f"{operation.word}.md").read_text(encoding="utf-8")
     assert page.startswith(f"# {operation.word}: ")
-    assert f"](../../pictures/operations/{operation.word}.png)" in page
+    assert f"](../../pictures/operations/{operation.word}.webp)" in page
     assert f"```{{operation}} {operation.word}\n```" in page
     assert "\n## What is checked\n\n- " in page
 
 
 @each_operation
 def test_its_picture_is_one_of_three_frames_and_small(operation: type[Operation]) -> None:
-    file = DOCS / "pictures" / "operations" / f"{operation.word}.png"
+    file = DOCS / "pictures" / "operations" / f"{operation.word}.webp"
     with Image.open(file) as picture:
         assert picture.width > 3 * 300
         assert len(picture.convert("RGB").getcolors(picture.width * picture.height)) > 100

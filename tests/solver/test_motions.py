@@ -17,8 +17,9 @@ from balloon_usd.solver.kernels.physics.joints import GRIP_MODE, LEAD_MODE
 from balloon_usd.solver.kosaka.motions.draw import CLOSED_EARLY, Draw
 from balloon_usd.solver.kosaka.motions.table import KOSAKA_MOTIONS
 from balloon_usd.solver.latex.motions.ball import amount_of
+from balloon_usd.solver.latex.motions.closing_neck import SHUT
 from balloon_usd.solver.latex.motions.loosen import Loosen
-from balloon_usd.solver.latex.motions.pinch import SHUT, Pinch
+from balloon_usd.solver.latex.motions.pinch import Pinch
 from balloon_usd.solver.latex.motions.spin import Spin
 from balloon_usd.solver.latex.motions.table import LATEX_MOTIONS
 from balloon_usd.solver.motions.bring import Bring
@@ -387,6 +388,7 @@ def test_a_pinched_neck_closes_and_all_that_hangs_on_its_knots_side_is_steadied(
 
 def pinched(room):
     """Fingers on the neck of a bubble, its joint, the segment before it, and what gas it is to keep."""
+    room.hands.passage[room.joint("nose.end")] = 0.0
     pinch = Pinch(moves.Pinch(**DONE, ring=room.ring("left.end")), room.sculpture)
     joint = room.joint("left.end")
     (bubble,) = [b for b in room.plan.bubbles if b.name == "left"]

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from balloon_usd.solver.latex.motions import pinch
+from balloon_usd.solver.latex.motions import closing_neck
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -17,6 +17,6 @@ if TYPE_CHECKING:
 def free_fingers() -> Iterator[None]:
     """Let every neck be open to gas until it is closed, and nothing be pressed through it."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(pinch, "SHUT", 1.0)
-        patch.setattr(pinch, "LEAST_KEPT", 0.0)
+        patch.setattr(closing_neck, "SHUT", 1.0)
+        patch.setattr(closing_neck, "LEAST_KEPT", 0.0)
         yield

@@ -15,6 +15,8 @@ from balloon_usd.balloon.ringed_faces import polygon_share
 from balloon_usd.solver.motions.smooth import smooth
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from balloon_usd.plan.strip import PlannedBubble
     from balloon_usd.solver.latex.sculpture import LatexSculpture
 
@@ -22,23 +24,32 @@ HELD = 1.2
 """Length below which bubbles do not find their gas by themselves, in lengths of the shortest stable one."""
 
 
-def squeezed_ball(sculpture: LatexSculpture, ring: int) -> SqueezedBall | None:
-    """Return the bubble that a ring of the plan ends, if it has to be held while the ring closes."""
+def shut_in(sculpture: LatexSculpture, ring: int) -> Sequence[PlannedBubble]:
+    """Return the bubbles between the last neck that is shut and a ring of the plan, one but for both halves
+    of an ear.
+    """
     strip, name = sculpture.strip_of(ring), sculpture.plan.table.rings[ring].bubble
-    short = strip.balls(HELD)
-    held = (b for k, b in enumerate(strip.bubbles) if b.name == name and (k in short or b.gas < 1.0))
-    bubble = next(held, None)
-    return None if bubble is None else SqueezedBall(sculpture, ring, bubble)
+    before = sculpture.hands.beside[sculpture.joints[ring], 0]
+    first, _ = sculpture.hands.chambers()
+    end = 1 + next(k for k, bubble in enumerate(strip.bubbles) if bubble.name == name)
+    return strip.bubbles[max(end - 1 - int(before - first[before]), 0) : end]
+
+
+def is_held(sculpture: LatexSculpture, ring: int, bubbles: Sequence[PlannedBubble]) -> bool:
+    """Tell whether bubbles before a ring of the plan have to be held while the ring closes."""
+    strip = sculpture.strip_of(ring)
+    short = {strip.bubbles[k].name for k in strip.balls(HELD)}
+    return any(bubble.name in short or bubble.gas < 1.0 for bubble in bubbles)
 
 
 class SqueezedBall:
     """A short or soft bubble between two necks that hands bring to its length while the second one closes."""
 
-    def __init__(self, sculpture: LatexSculpture, ring: int, bubble: PlannedBubble) -> None:
-        """Take hold of its first neck, and of what hangs on it."""
+    def __init__(self, sculpture: LatexSculpture, ring: int, bubbles: Sequence[PlannedBubble]) -> None:
+        """Take hold of its first neck, and of what hangs on it; `bubbles`: what will be made of it."""
         self._sculpture, hands, middle = sculpture, sculpture.hands, sculpture.frame.middle
-        self._hands, self._length = hands, bubble.length
-        first = sculpture.plan.table.ends(bubble.name)[0]
+        self._hands, self._length = hands, sum(bubble.length for bubble in bubbles)
+        first = sculpture.plan.table.ends(bubbles[0].name)[0]
         self._start, self._end = sculpture.joints[first], sculpture.joints[ring]
         hanging, _ = sculpture.hanging_on((first, ring))
         for joint in hanging:
@@ -51,8 +62,8 @@ class SqueezedBall:
         along = self._places[-1] - middle[self._end]
         self._began = float(np.linalg.norm(along))
         self._along = along / max(self._began, 1e-9)
-        self._gas = float(hands.amount[hands.beside[self._end, 0]])
-        self._wanted = amount_of(sculpture, bubble)
+        self._gas = hands.amount_before(self._end)
+        self._wanted = sum(amount_of(sculpture, bubble) for bubble in bubbles)
         self._left = self._gas
 
     def squeeze(self, share: float) -> None:

@@ -11,6 +11,7 @@ from balloon_usd.solver.latex.motions.bring_inside import BringInside
 from balloon_usd.solver.latex.motions.curl import Curl
 from balloon_usd.solver.latex.motions.cut import Cut
 from balloon_usd.solver.latex.motions.fall import Fall
+from balloon_usd.solver.latex.motions.halve import Halve
 from balloon_usd.solver.latex.motions.hold import Hold
 from balloon_usd.solver.latex.motions.inflate import Inflate
 from balloon_usd.solver.latex.motions.invert import Invert
@@ -46,6 +47,7 @@ LATEX_MOTIONS: Motions = {
     moves.Inflate: Inflate,
     moves.Sink: Sink,
     moves.Pinch: Pinch,
+    moves.Halve: Halve,
     moves.Spin: Spin,
     moves.Gather: Gather,
     moves.Wrap: Wrap,
