@@ -33,29 +33,33 @@ class Sink(Motion):
     """
 
     def __init__(self, move: moves.Sink, sculpture: LatexSculpture) -> None:
-        """Find what sinks, and hold what has no rings for hands."""
+        """Find what sinks, and hold balloons that have no necks for hands."""
         self._hands, strips, body = sculpture.hands, sculpture.plan.strips, sculpture.body
-        # Before the first fold no walls of tubes do.
+        # Before the first fold walls of tubes touch nothing.
         self._hands.touch(sculpture.bodies)
         hosts = hosts_of(strips)
         pairs = [(body[guest], body[host.balloon]) for guest, host in hosts.items()]
+        single = {body[host.balloon] for host in hosts.values() if len(strips[host.balloon].bubbles) == 1}
         weight = EARTH * (DOWN @ posed(move, sculpture, sculpture.walls()).turn)
         self._weights = np.zeros_like(self._hands.gravity)
         for guest, host in pairs:
             self._weights[guest] = weight
             self._weights[host] -= weight * sculpture.mass(guest) / sculpture.mass(host)
         self._pulled = np.unique(pairs)
-        whole = [k for k, host in enumerate(hosts.values()) if len(strips[host.balloon].bubbles) == 1]
-        alone = {pairs[k][1] for k in whole}
-        self._held = [_Held(sculpture, each, [g for g, host in pairs if host == each]) for each in alone]
-        self._twisted = np.setdiff1d(self._pulled, np.array([pairs[k] for k in whole], dtype=np.int64))
+        in_tubes = [pair for pair in pairs if pair[1] not in single]
+        self._in_tubes = np.array(in_tubes, dtype=np.int64).ravel()
+        """Bodies of twisted tubes, and of what lies in them."""
+        self._held = [
+            _Held(sculpture, each, [guest for guest, host in pairs if host == each])
+            for each in sorted(single)
+        ]
 
     def advance(self, share: float) -> None:
         """Pull less and less, in the end by weight alone; in tubes, whose necks it would bend, no more."""
         heavier = 1.0 + (HEAVIER - 1.0) * (1.0 - smooth(share))
         self._hands.gravity[self._pulled] = heavier * self._weights[self._pulled]
         if share >= 1.0:
-            self._hands.gravity[self._twisted] = 0.0
+            self._hands.gravity[self._in_tubes] = 0.0
         for each in self._held:
             each.hold()
 
