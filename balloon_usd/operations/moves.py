@@ -389,17 +389,6 @@ class TurnFold(Move):
 
 
 @dataclass(frozen=True)
-class Sink(Move):
-    """Let what lies in other balloons sink to what will be their lowest place once the figure is posed."""
-
-    pose: Pose = "stand"
-    front: Facing = "forward"
-    """The side that will be turned to face -x."""
-    top: Facing | None = None
-    """The side that will be turned up; None for as little turned as needed."""
-
-
-@dataclass(frozen=True)
 class LetGo(Move):
     """Take the hands away."""
 
@@ -452,6 +441,14 @@ class SetDown(Move):
     """How far above the ground its lowest point comes, m."""
     gravity: float = 0.0
     """Under which it has to stand, m/s2; 0 where it floats."""
+
+
+@dataclass(frozen=True)
+class Sink(Move):
+    """Let what lies in other balloons sink to what will be their lowest place once the figure is posed."""
+
+    pose: SetDown | None = None
+    """How that will be done; None where it stays as it was made."""
 
 
 @dataclass(frozen=True)

@@ -74,8 +74,7 @@ def blown_volume(strip: Strip) -> float:
 
 def room_to_sink(strips: Mapping[str, Strip]) -> float:
     """Return how far what lies in others can sink at most, m, once all are blown up; 0 where nothing does."""
-    pairs = ((strips[host.balloon], strips[name]) for name, host in hosts_of(strips).items())
-    return max((_width(host) - _width(guest) for host, guest in pairs), default=0.0)
+    return max((_room(strips, name, host) for name, host in hosts_of(strips).items()), default=0.0)
 
 
 def nozzle_length(strip: Strip) -> float:
@@ -86,6 +85,13 @@ def nozzle_length(strip: Strip) -> float:
 def blown_length(strip: Strip) -> float:
     """Return the length of a tube that is blown up and not twisted, m, from its knot to its flat tip."""
     return strip.bubbles[-1].end + strip.tail
+
+
+def _room(strips: Mapping[str, Strip], guest: str, host: Host) -> float:
+    """Return how much wider, or of a tube longer, a bubble is than what lies in it, m."""
+    owner, inner = strips[host.balloon], strips[guest]
+    wider = _width(owner) - _width(inner)
+    return wider if owner.shape else max(wider, owner.bubbles[host.bubble].length - blown_length(inner))
 
 
 def _width(strip: Strip) -> float:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from balloon_usd.operations.moves import LET_GO, OTHER_SIDE, TIPPED, Fall, Level, Move, SetDown, Sink
@@ -62,10 +61,9 @@ SINKING_SPEED = 0.07
 def sink_contents(recipe: Recipe, strips: Mapping[str, Strip], score: Score, *, mirrored: bool) -> None:
     """Let what lies in other balloons of a recipe sink, while hands still hold the figure."""
     if recipe.piece.inside and _weighs_inside(recipe):
-        front, top = _sides(recipe, mirrored=mirrored)
         seconds = SINK_SECONDS + room_to_sink(strips) / SINKING_SPEED
-        sink = Sink(score.now, seconds, len(recipe.steps), "what lies inside sinks")
-        score.add(replace(sink, pose=recipe.pose, front=front, top=top))
+        pose = _set_down(recipe, score.now, mirrored=mirrored)
+        score.add(Sink(score.now, seconds, len(recipe.steps), "what lies inside sinks", pose=pose))
 
 
 def _weighs_inside(recipe: Recipe) -> bool:
@@ -79,36 +77,39 @@ def _weighs_inside(recipe: Recipe) -> bool:
 def pose(recipe: Recipe, score: Score, *, mirrored: bool) -> None:
     """Add what becomes of the finished figure of a recipe to the moves that make it."""
     last = len(recipe.steps)
-    doing, done = POSING[recipe.pose]
-    front, top = _sides(recipe, mirrored=mirrored)
-    turned = front != "forward" or top is not None
-    carried = turned or recipe.pose != "as made"
     weighs = recipe.gravity > 0.0 and recipe.physics.traits.has_weight
     if recipe.pose == "stand" and weighs and recipe.piece.has_limbs:
+        front, top = _sides(recipe, mirrored=mirrored)
         level = Level(score.now, LEVEL_SECONDS, last, "level its feet", front=front, top=top)
         score.retouch(level, LEVELLED_SECONDS)
-    if carried:
-        seconds = TURN_SECONDS if turned else POSE_SECONDS
-        height = _height(recipe)
-        seconds = max(seconds, height / LIFT_SPEED)
-        score.add(
-            SetDown(
-                score.now,
-                seconds,
-                last,
-                doing,
-                pose=recipe.pose,
-                front=front,
-                top=top,
-                height=height,
-                gravity=recipe.gravity,
-            )
-        )
+    set_down = _set_down(recipe, score.now, mirrored=mirrored)
+    if set_down is not None:
+        score.add(set_down)
     if weighs and recipe.pose in FALLING:
         if (seconds := _fall_seconds(recipe)) > 0.0:
             score.add(_fall(recipe, score.now, seconds))
-    elif carried:
-        score.add(Move(score.now, POSED_SECONDS, last, done))
+    elif set_down is not None:
+        score.add(Move(score.now, POSED_SECONDS, last, POSING[recipe.pose][1]))
+
+
+def _set_down(recipe: Recipe, start: float, *, mirrored: bool) -> SetDown | None:
+    """Return how the finished figure is carried to its pose from a time on (s); None where it is not."""
+    front, top = _sides(recipe, mirrored=mirrored)
+    turned = front != "forward" or top is not None
+    if not turned and recipe.pose == "as made":
+        return None
+    height = _height(recipe)
+    return SetDown(
+        start,
+        max(TURN_SECONDS if turned else POSE_SECONDS, height / LIFT_SPEED),
+        len(recipe.steps),
+        POSING[recipe.pose][0],
+        pose=recipe.pose,
+        front=front,
+        top=top,
+        height=height,
+        gravity=recipe.gravity,
+    )
 
 
 def _sides(recipe: Recipe, *, mirrored: bool) -> tuple[Facing, Facing | None]:

@@ -130,6 +130,21 @@ class Sculpture:
         return Carried(joints, by, middle[joints].astype(np.float64))
 
     @property
+    def outer_joints(self) -> NDArray[np.int64]:
+        """Joints of what lies in no other balloon."""
+        strips = self.plan.strips
+        pairs = zip(self.joints, self.balloons, strict=True)
+        found = [joint for joint, balloon in pairs if strips[balloon].inside is None]
+        return np.array(found, dtype=np.int64)
+
+    @property
+    def outer_vertices(self) -> NDArray[np.int64]:
+        """Vertices of what lies in no other balloon, among its own."""
+        start = self.scene.vertex_start - self.vertices.start
+        outer = [self.body[name] for name, strip in self.plan.strips.items() if strip.inside is None]
+        return np.concatenate([np.arange(start[b], start[b + 1]) for b in outer])
+
+    @property
     def vertices(self) -> slice:
         """All its vertices in the scene."""
         start = self.scene.vertex_start

@@ -204,3 +204,31 @@ def test_a_sculpture_of_a_batch_is_the_same_as_alone():
         if number == 40:
             assert all(np.array_equal(a, b) for a, b in zip(both[1].points, alone.points, strict=True))
             break
+
+
+RATTLE = """
+format: 1
+name: rattle
+units: cm
+balloons:
+  shell: {size: 350, inflated: 24}
+  bead: {size: 160, inflated: 5, length: 2}
+steps:
+  - insert: {bead: shell_rest}
+  - inflate: shell
+  - inflate: bead
+pose: hang
+physics: {hold: 0.5}
+"""
+
+
+def test_what_lies_in_a_tube_that_hangs_by_its_knot_lies_at_its_lower_end():
+    planned = plan(Recipe.parse(RATTLE))
+    frames = frames_of(planned)
+    shell, bead = frames[-1].points
+    # The thread is tied to the knot of the outer one, at the origin.
+    assert np.abs(shell[:, :2].mean(axis=0)).max() < 0.01
+    wide = shell[np.linalg.norm(shell[:, :2], axis=1) > 0.02]
+    # Its flat tip lies where the shell narrows towards its own.
+    assert bead[:, 2].min() < wide[:, 2].min() + 0.01
+    assert outside(planned, frames[-1], 1, 0) == 0

@@ -56,6 +56,11 @@ class LatexSculpture(Sculpture):
         own = slice(*self.scene.vertex_start[body : body + 2].tolist())
         return float(self.scene.true_mass.numpy()[own].sum())
 
+    def inertia(self, body: int) -> float:
+        """Return the mass of the mesh of a body, kg: more than of its rubber, as steps in time are long."""
+        own = slice(*self.scene.vertex_start[body : body + 2].tolist())
+        return float(self.scene.mass.numpy()[own].sum())
+
     def hold_pose(self) -> None:
         """Let the friction of the welds keep the pose that the figure has."""
         self.struts.hold(self._kept_pairs())

@@ -20,6 +20,10 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 DOWN = np.array([0.0, 0.0, -1.0])
+ALIKE = 5.0e-3
+"""Difference of the cosines of angles to the vertical that is none: of a tube that lies, rounding would tell
+by which end it hangs.
+"""
 
 
 class SetDown(Motion):
@@ -45,6 +49,11 @@ class SetDown(Motion):
         pivot = _pivot(move.pose, arms, thread)
         return turn, np.array([0.0, 0.0, move.height]) - pivot - turn @ self._centre
 
+    @property
+    def turn(self) -> Floats:
+        """The turn of the whole way, (3, 3)."""
+        return turn_about(self._axis, self._angle)
+
     def advance(self, share: float) -> None:
         """Carry it a share of the way."""
         progress = smooth(share)
@@ -64,7 +73,7 @@ class Posed(NamedTuple):
     """Where a thread is tied, from there, (3,), m."""
 
 
-def posed(move: moves.SetDown | moves.Sink, sculpture: Sculpture, points: Floats) -> Posed:
+def posed(move: moves.SetDown, sculpture: Sculpture, points: Floats) -> Posed:
     """Return a figure with its front and top where they go, tipped as it stands or hangs.
 
     `points`: its vertices as they are, (V, 3), m.
@@ -80,9 +89,7 @@ def posed(move: moves.SetDown | moves.Sink, sculpture: Sculpture, points: Floats
     return Posed(tipping @ facing, arms @ tipping.T, tipping @ thread)
 
 
-def faced(
-    move: moves.SetDown | moves.Level | moves.Sink, sculpture: Sculpture, points: Floats
-) -> tuple[Floats, Floats]:
+def faced(move: moves.SetDown | moves.Level, sculpture: Sculpture, points: Floats) -> tuple[Floats, Floats]:
     """Return the turn (3, 3) that brings a figure's front and top where they go, and its vertices so turned,
     from the centre of its mass, (V, 3), m.
 
@@ -93,15 +100,16 @@ def faced(
 
 
 def _thread(arms: Floats, facing: Floats, centre: Floats, sculpture: Sculpture) -> Floats:
-    """Return where a thread is tied, from the centre, (3,), m: where the figure stays most upright.
+    """Return where a thread is tied, from the centre, (3,), m: where the figure stays most upright, of joints
+    the first that does so.
 
     `arms`: its points from its centre, (N, 3), m, turned by `facing`, (3, 3).
     """
-    joints = sculpture.frame.middle[sculpture.all_joints].astype(np.float64)
-    if len(joints):
-        arms = (joints - centre) @ facing.T
-    lengths = np.maximum(np.linalg.norm(arms, axis=1), 1e-9)
-    found: Floats = arms[int(np.argmax(arms[:, 2] / lengths))]
+    joints = sculpture.frame.middle[sculpture.outer_joints].astype(np.float64)
+    arms = (joints - centre) @ facing.T if len(joints) else arms[sculpture.outer_vertices]
+    upright = arms[:, 2] / np.maximum(np.linalg.norm(arms, axis=1), 1e-9)
+    alike = ALIKE if len(joints) else 0.0
+    found: Floats = arms[int(np.argmax(upright >= upright.max() - alike))]
     return found
 
 

@@ -21,4 +21,4 @@ class Halve(ClosingNeck):
         strip, name = sculpture.strip_of(move.ring), sculpture.plan.table.rings[move.ring].bubble
         at = next(k for k, bubble in enumerate(strip.bubbles) if bubble.name == name)
         before, behind = (amount_of(sculpture, bubble) for bubble in strip.bubbles[at : at + 2])
-        self.keep(self.shut_in * before / (before + behind))
+        self.keep(self.gas * before / (before + behind))

@@ -8,9 +8,10 @@ import numpy as np
 
 from balloon_usd.plan.nesting import hosts_of
 from balloon_usd.recipe.recipe import EARTH
+from balloon_usd.solver.latex.motions.set_down import LatexSetDown
 from balloon_usd.solver.latex.spins import VertexSet
 from balloon_usd.solver.motions.motion import Motion
-from balloon_usd.solver.motions.set_down import DOWN, posed
+from balloon_usd.solver.motions.set_down import DOWN
 from balloon_usd.solver.motions.smooth import smooth
 
 if TYPE_CHECKING:
@@ -21,10 +22,12 @@ if TYPE_CHECKING:
     from balloon_usd.operations import moves
     from balloon_usd.solver.latex.sculpture import LatexSculpture
 
-HEAVIER = 8.0
-"""Pull on what sinks at first, in its weight: its mesh is some hundred times as inert as its rubber. In the
-end its weight alone dents the wall below it.
+SINKING = 0.5
+"""Acceleration with which it begins to sink, m/s2: its mesh is some hundred times as inert as its rubber, and
+would take a minute by its weight. In the end that alone dents the wall below it.
 """
+EASED = 0.6
+"""Share of the time from which on the pull is eased: by then it lies on the wall."""
 
 
 class Sink(Motion):
@@ -40,11 +43,14 @@ class Sink(Motion):
         hosts = hosts_of(strips)
         pairs = [(body[guest], body[host.balloon]) for guest, host in hosts.items()]
         single = {body[host.balloon] for host in hosts.values() if len(strips[host.balloon].bubbles) == 1}
-        weight = EARTH * (DOWN @ posed(move, sculpture, sculpture.walls()).turn)
-        self._weights = np.zeros_like(self._hands.gravity)
+        down = DOWN if move.pose is None else DOWN @ LatexSetDown(move.pose, sculpture).turn
+        self._first, self._last = (np.zeros_like(self._hands.gravity) for _ in range(2))
+        """Pull on every balloon at first and in the end, (B, 3), m/s2."""
         for guest, host in pairs:
-            self._weights[guest] = weight
-            self._weights[host] -= weight * sculpture.mass(guest) / sculpture.mass(host)
+            first = SINKING * sculpture.inertia(guest) / sculpture.mass(guest)
+            for pull, strength in ((self._first, max(first, EARTH)), (self._last, EARTH)):
+                pull[guest] = strength * down
+                pull[host] -= strength * down * sculpture.mass(guest) / sculpture.mass(host)
         self._pulled = np.unique(pairs)
         in_tubes = [pair for pair in pairs if pair[1] not in single]
         self._in_tubes = np.array(in_tubes, dtype=np.int64).ravel()
@@ -56,8 +62,9 @@ class Sink(Motion):
 
     def advance(self, share: float) -> None:
         """Pull less and less, in the end by weight alone; in tubes, whose necks it would bend, no more."""
-        heavier = 1.0 + (HEAVIER - 1.0) * (1.0 - smooth(share))
-        self._hands.gravity[self._pulled] = heavier * self._weights[self._pulled]
+        eased = smooth((share - EASED) / (1.0 - EASED))
+        pull = self._first + eased * (self._last - self._first)
+        self._hands.gravity[self._pulled] = pull[self._pulled]
         if share >= 1.0:
             self._hands.gravity[self._in_tubes] = 0.0
         for each in self._held:
