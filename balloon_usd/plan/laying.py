@@ -46,6 +46,8 @@ if TYPE_CHECKING:
 FULL_TOLERANCE = 0.02
 """An inflated length beyond the full one by this share means full: nominal lengths are rounded."""
 
+LEAST_BUBBLE = 0.5
+"""Length of the shortest bubble that is planned, in R0: less rubber than a neck is wide has no mesh."""
 LEAST_SHARE = 0.25
 """Share of their lengths to which bubbles are advised to be shortened."""
 
@@ -184,9 +186,13 @@ def _wanted(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> lis
 
 def _pinched(recipe: Recipe, tube: OpenTube, made: Made) -> tuple[BubbleShape, OpenTube]:
     """A bubble that a step twists off, and what is left of the tube."""
+    path: Path = ("steps", made.step, recipe.steps[made.step].word, made.bubble)
+    least = LEAST_BUBBLE * tube.size.radius
+    if made.length < least:
+        text = f"is shorter than a neck of a {tube.size.name} is wide, expected {at_least(least)} or more"
+        raise RecipeError([recipe.problem(path, text)])
     shape, left = tube.pinched(made.twisted)
     if not left.blown_up:
-        path: Path = ("steps", made.step, recipe.steps[made.step].word, made.bubble)
         raise RecipeError([recipe.problem(path, _misfit(recipe, made, tube))])
     return shape, left
 

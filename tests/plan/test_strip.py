@@ -183,3 +183,10 @@ def test_softening_reaches_the_strip_and_shapes_do_not_depend_on_it(planned):
     assert soft.rubber.softening is not None
     assert hard.rubber.softening is None
     assert soft.bubbles == hard.bubbles
+
+
+@pytest.mark.parametrize("length", ["1e-300", "0.01", "0.2"])
+def test_a_bubble_that_is_shorter_than_a_neck_is_wide_is_refused(planned, length):
+    body = f"balloons: {{main: {{size: 260, tail: 8}}}}\nsteps: [bubbles: {{a: 8, b: {length}}}]\n"
+    told = "steps[0].bubbles.b: is shorter than a neck of a 260 is wide, expected 0.3 cm or more"
+    assert told in problem_of(planned, body)
