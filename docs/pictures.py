@@ -110,19 +110,17 @@ def gallery_recipes() -> list[Path]:
     return [file for folder in folders for file in sorted(folder.glob("*.yaml"))]
 
 
-def _sheet(stage: Path, frames: Sequence[int], view: str) -> Image.Image:
-    """Draw frames of a stage in a row."""
-    return _drawn(stage, frames, view, SIZE, "cpu")
-
-
 def _last_frame(stage: Path, frame: int, view: str) -> Image.Image:
     """Draw one frame of a stage without title and text, finely."""
     width, height = map(int, FINE)
-    sheet = _drawn(stage, [frame], view, FINE, "auto")
+    sheet = _sheet(stage, [frame], view, FINE, "auto")
     return sheet.crop((MARGIN, TITLE, MARGIN + width, TITLE + height))
 
 
-def _drawn(stage: Path, frames: Sequence[int], view: str, size: Sequence[str], device: str) -> Image.Image:
+def _sheet(
+    stage: Path, frames: Sequence[int], view: str, size: Sequence[str] = SIZE, device: str = "cpu"
+) -> Image.Image:
+    """Draw frames of a stage in a row."""
     file = stage.with_name(f"{stage.name}_{view}.png")
     shown = ("--frames", ",".join(map(str, frames)), "--columns", str(len(frames)), "--size", *size)
     _call("preview", str(stage), "-o", str(file), *shown, "--view", view, "--device", device)

@@ -53,6 +53,10 @@ class FlatBodies:
             self.segment_start[body] + self.bodies[body].spare_segments, self.segment_start[body + 1]
         )
 
+    def vertices_of(self, body: int) -> slice:
+        """Vertices of one body."""
+        return slice(int(self.vertex_start[body]), int(self.vertex_start[body + 1]))
+
     @property
     def hosts(self) -> Ints:
         """The body in which each body lies, (B,); -1 for none."""

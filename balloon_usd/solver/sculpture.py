@@ -140,9 +140,9 @@ class Sculpture:
     @property
     def outer_vertices(self) -> NDArray[np.int64]:
         """Vertices of what lies in no other balloon, among its own."""
-        start = self.scene.vertex_start - self.vertices.start
         outer = [self.body[name] for name, strip in self.plan.strips.items() if strip.inside is None]
-        return np.concatenate([np.arange(start[b], start[b + 1]) for b in outer])
+        found: NDArray[np.int64] = np.r_[tuple(map(self.scene.vertices_of, outer))] - self.vertices.start
+        return found
 
     @property
     def vertices(self) -> slice:
@@ -176,7 +176,7 @@ class Sculpture:
         Raises:
             KeyError: no bubble of this name.
         """
-        name, index = self._place(bubble)
+        name, index = self.place(bubble)
         body = self.scene.bodies[self.body[name]]
         run = self._run(name, index)
         cap = (body.rings[0].around // 4) ** 2
@@ -190,7 +190,7 @@ class Sculpture:
         Raises:
             KeyError: no bubble of this name.
         """
-        name, index = self._place(bubble)
+        name, index = self.place(bubble)
         run, body = self._run(name, index), self.body[name]
         corners = self.scene.bodies[body].quads[run.start : run.stop]
         own = np.unique(corners) + int(self.scene.vertex_start[body])
@@ -206,8 +206,12 @@ class Sculpture:
         middle: NDArray[np.float64] = self.bubble_walls(bubble).mean(axis=0)
         return middle
 
-    def _place(self, bubble: str) -> tuple[str, int]:
-        """Return the balloon of a bubble, and its place in it."""
+    def place(self, bubble: str) -> tuple[str, int]:
+        """Return the balloon of a bubble, and its number in it.
+
+        Raises:
+            KeyError: no bubble of this name.
+        """
         for name, strip in self.plan.strips.items():
             for index, planned in enumerate(strip.bubbles):
                 if planned.name == bubble:

@@ -127,6 +127,7 @@ def test_hands_wait_while_nothing_moves_and_in_model_kosaka_where_nothing_is_blo
     unmoved = {
         moves.BringInside,
         moves.Sink,
+        moves.Halve,
         moves.Inflate,
         moves.Spin,
         moves.TurnFold,

@@ -103,8 +103,7 @@ class Hinge:
                 lies beyond (m); infinite where all of it lies on one side.
             segments: before and beyond the joint.
         """
-        spans = [np.arange(scene.vertex_start[b], scene.vertex_start[b + 1]) for b in beyond]
-        self._vertices = np.concatenate(spans)
+        self._vertices = np.r_[tuple(map(scene.vertices_of, beyond))]
         self._mass = scene.mass.numpy()[self._vertices].astype(float)
         self._beyond = np.concatenate([scene.bodies[b].along > at + CLEAR for b, at in beyond.items()])
         self._sides = [VertexSet.of(self._vertices[side]) for side in (~self._beyond, self._beyond)]

@@ -45,21 +45,17 @@ class LatexSculpture(Sculpture):
 
     def contents(self, balloon: str) -> Iterator[tuple[VertexSet, Host]]:
         """Yield the vertices of each balloon that lies in another one, and where it lies."""
-        start = self.scene.vertex_start
         for name, host in hosts_of(self.plan.strips).items():
             if host.balloon == balloon:
-                body = self.body[name]
-                yield VertexSet.of(np.arange(start[body], start[body + 1])), host
+                yield VertexSet(self.scene.vertices_of(self.body[name])), host
 
     def mass(self, body: int) -> float:
         """Return the mass of the rubber of a body, kg."""
-        own = slice(*self.scene.vertex_start[body : body + 2].tolist())
-        return float(self.scene.true_mass.numpy()[own].sum())
+        return float(self.scene.true_mass.numpy()[self.scene.vertices_of(body)].sum())
 
     def inertia(self, body: int) -> float:
         """Return the mass of the mesh of a body, kg: more than of its rubber, as steps in time are long."""
-        own = slice(*self.scene.vertex_start[body : body + 2].tolist())
-        return float(self.scene.mass.numpy()[own].sum())
+        return float(self.scene.mass.numpy()[self.scene.vertices_of(body)].sum())
 
     def hold_pose(self) -> None:
         """Let the friction of the welds keep the pose that the figure has."""

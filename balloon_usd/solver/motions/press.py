@@ -77,7 +77,7 @@ def patch_under(scene: Scene, body: int, move: moves.Press) -> Patch:
     The finger reaches at least the nearest vertex, however coarse the mesh is.
     """
     b = scene.bodies[body]
-    x = scene.x.numpy()[scene.vertex_start[body] : scene.vertex_start[body + 1]].astype(np.float64)
+    x = scene.x.numpy()[scene.vertices_of(body)].astype(np.float64)
     rings = np.array([b.along[first] for first, _ in b.mesh_rings])
     first, around = b.mesh_rings[int(np.argmin(np.abs(rings - move.along)))]
     middle = x[first : first + around].mean(axis=0)

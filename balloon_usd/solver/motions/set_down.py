@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,10 +43,18 @@ class SetDown(Motion):
 
         `points`: its vertices, (V, 3), m.
         """
-        turn, arms, thread = posed(move, self._sculpture, points)
+        facing, arms = faced(move, self._sculpture, points)
+        thread = _thread(arms, facing, self._centre, self._sculpture)
+        down = DOWN
+        if move.pose == "stand":
+            down = standing_direction(arms, np.zeros(3), DOWN)
+        elif move.pose == "hang":
+            down = _unit(-thread)
+        tipping = turn_about(*turn_between(down, DOWN))
+        turn = tipping @ facing
         if move.pose == "as made":
             return turn, self._centre - turn @ self._centre
-        pivot = _pivot(move.pose, arms, thread)
+        pivot = _pivot(move.pose, arms @ tipping.T, tipping @ thread)
         return turn, np.array([0.0, 0.0, move.height]) - pivot - turn @ self._centre
 
     @property
@@ -60,33 +68,6 @@ class SetDown(Motion):
         turn = turn_about(self._axis, progress * self._angle)
         shift = self._centre + progress * self._way - turn @ self._centre
         self._sculpture.placement = Placement.by(turn, shift)
-
-
-class Posed(NamedTuple):
-    """A figure as its pose turns it."""
-
-    turn: Floats
-    """The turn, (3, 3)."""
-    arms: Floats
-    """Its vertices so turned, from the centre of its mass, (V, 3), m."""
-    thread: Floats
-    """Where a thread is tied, from there, (3,), m."""
-
-
-def posed(move: moves.SetDown, sculpture: Sculpture, points: Floats) -> Posed:
-    """Return a figure with its front and top where they go, tipped as it stands or hangs.
-
-    `points`: its vertices as they are, (V, 3), m.
-    """
-    facing, arms = faced(move, sculpture, points)
-    thread = _thread(arms, facing, sculpture.centre(points), sculpture)
-    down = DOWN
-    if move.pose == "stand":
-        down = standing_direction(arms, np.zeros(3), DOWN)
-    elif move.pose == "hang":
-        down = _unit(-thread)
-    tipping = turn_about(*turn_between(down, DOWN))
-    return Posed(tipping @ facing, arms @ tipping.T, tipping @ thread)
 
 
 def faced(move: moves.SetDown | moves.Level, sculpture: Sculpture, points: Floats) -> tuple[Floats, Floats]:

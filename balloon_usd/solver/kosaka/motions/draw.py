@@ -18,7 +18,7 @@ CLOSED_EARLY = 0.75
 class Draw(Motion):
     """A ring that is drawn together by force."""
 
-    def __init__(self, move: moves.Pinch | moves.Halve, sculpture: KosakaSculpture) -> None:
+    def __init__(self, move: moves.Pinch, sculpture: KosakaSculpture) -> None:
         """Take hold of the ring."""
         self._hands, self._joint = sculpture.hands, sculpture.joints[move.ring]
         self._wide = sculpture.ring_width(self._joint)

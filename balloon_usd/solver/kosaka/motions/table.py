@@ -27,7 +27,7 @@ KOSAKA_MOTIONS: Motions = {
     moves.Spin: Wait,
     moves.TurnFold: Wait,
     moves.Pinch: Draw,
-    moves.Halve: Draw,
+    moves.Halve: Wait,
     moves.Gather: Gather,
     moves.LeadIn: LeadIn,
     moves.Bring: Bring,

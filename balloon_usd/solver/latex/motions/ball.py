@@ -28,11 +28,10 @@ def shut_in(sculpture: LatexSculpture, ring: int) -> Sequence[PlannedBubble]:
     """Return the bubbles between the last neck that is shut and a ring of the plan, one but for both halves
     of an ear.
     """
-    strip, name = sculpture.strip_of(ring), sculpture.plan.table.rings[ring].bubble
+    _, at = sculpture.place(sculpture.plan.table.rings[ring].bubble)
     before = sculpture.hands.beside[sculpture.joints[ring], 0]
     first, _ = sculpture.hands.chambers()
-    end = 1 + next(k for k, bubble in enumerate(strip.bubbles) if bubble.name == name)
-    return strip.bubbles[max(end - 1 - int(before - first[before]), 0) : end]
+    return sculpture.strip_of(ring).bubbles[max(at - int(before - first[before]), 0) : at + 1]
 
 
 def is_held(sculpture: LatexSculpture, ring: int, bubbles: Sequence[PlannedBubble]) -> bool:

@@ -36,8 +36,6 @@ class ClosingNeck(Motion):
         self._neck = float(self._hands.neck[self._joint])
         sculpture.torsion.pinch(ring, self._wide)
         self._hands.clasp(self._joint, sculpture.frame.middle)
-        self.gas = self._hands.amount_before(self._joint)
-        """Gas of the chamber that it parts, mol."""
         self._hands.split_gas(self._joint)
         self._hands.radius[self._joint] = self._wide
         self._wanted: float | None = None

@@ -36,6 +36,6 @@ class Cut(Motion):
         # Other sculptures of a batch lie in the same space.
         corners = corners[(corners[:, 0] >= walls.start) & (corners[:, 0] < walls.stop)]
         others = hands.places[corners[~own[corners].any(axis=1)]].mean(axis=1, dtype=np.float64)
-        balloon = hands.places[before : int(scene.vertex_start[body + 1])]
+        balloon = hands.places[scene.vertices_of(body)]
         sculpture.severed[move.bubble] = Severed(body - sculpture.bodies[0], stub.clear_of(balloon, others))
         sculpture.weigh_nothing(body, stub.vertices)

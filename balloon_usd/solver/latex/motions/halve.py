@@ -17,8 +17,9 @@ class Halve(ClosingNeck):
 
     def __init__(self, move: moves.Halve, sculpture: LatexSculpture) -> None:
         """Take the ring between the fingers."""
+        gas = sculpture.hands.amount_before(sculpture.joints[move.ring])
         super().__init__(move.ring, sculpture)
-        strip, name = sculpture.strip_of(move.ring), sculpture.plan.table.rings[move.ring].bubble
-        at = next(k for k, bubble in enumerate(strip.bubbles) if bubble.name == name)
-        before, behind = (amount_of(sculpture, bubble) for bubble in strip.bubbles[at : at + 2])
-        self.keep(self.gas * before / (before + behind))
+        _, at = sculpture.place(sculpture.plan.table.rings[move.ring].bubble)
+        halves = sculpture.strip_of(move.ring).bubbles[at : at + 2]
+        before, behind = (amount_of(sculpture, bubble) for bubble in halves)
+        self.keep(gas * before / (before + behind))

@@ -75,11 +75,9 @@ class _Held:
     """A balloon that is kept where it is, with what lies in it."""
 
     def __init__(self, sculpture: LatexSculpture, host: int, guests: Sequence[int]) -> None:
-        self._sculpture = sculpture
-        start = sculpture.scene.vertex_start
-        self._host = slice(*start[host : host + 2].tolist())
-        both = [np.arange(start[each], start[each + 1]) for each in (host, *guests)]
-        self._all = VertexSet.of(np.concatenate(both))
+        self._sculpture, scene = sculpture, sculpture.scene
+        self._host = scene.vertices_of(host)
+        self._all = VertexSet.of(np.r_[tuple(map(scene.vertices_of, (host, *guests)))])
         self._place = self._before = self._middle()
         self._rate = np.zeros(3)
         """Velocity at which all of it was displaced in the last frame, m/s."""
