@@ -50,8 +50,10 @@ class Batch:
         """
         self._fps = plans[0].recipe.fps
         self._counts = np.array(frame_counts)
-        self._over = np.zeros(len(plans), dtype=bool)
+        self._failed = np.zeros(len(plans), dtype=bool)
         """Plans that have failed."""
+        self._left = np.zeros(len(plans), dtype=bool)
+        """Plans that are over, and are advanced no more."""
         self._ahead = ahead
         with capture_lock():
             self.model: Model = model(plans, meshes, self._fps, substeps, device, threads)
@@ -116,21 +118,25 @@ class Batch:
                 points[:, 1] *= -1.0
 
     def _advance(self, index: int) -> None:
+        """Begin the frame of an index of the plans that have one."""
+        over = ~self._made(index)
+        if (fresh := over & ~self._left).any():
+            self.model.leave(np.flatnonzero(fresh))
+            self._left = over
         self.model.advance((index - 1) / self._fps, index / self._fps)
 
     def _made(self, index: int) -> NDArray[np.bool_]:
         """Return which plans have the frame of an index, (plans,)."""
-        return (index < self._counts) & ~self._over
+        return (index < self._counts) & ~self._failed
 
     def _changes(self, index: int, statuses: Sequence[Status], causes: dict[int, str]) -> list[Change]:
-        """Return the changes since the last frame, and give up the plans that have failed."""
+        """Return the changes since the last frame, and note the plans that have failed."""
         made = self._made(index)
         before, self._statuses = self._statuses, statuses
         fresh = {k: Change(k, *now) for k, now in enumerate(statuses) if now != before[k] and made[k]}
         for world, cause in causes.items():
             if made[world]:
-                self._over[world] = True
-                self.model.give_up(world)
+                self._failed[world] = True
                 failed = SimulationFailed(statuses[world].doing, index / self._fps, cause, index + 1)
                 fresh[world] = Change(world, *statuses[world], failed)
         return [fresh[world] for world in sorted(fresh)]

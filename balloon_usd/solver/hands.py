@@ -161,10 +161,6 @@ class Hands:
         """Let the walls of these balloons go on touching what they touch, and nothing else."""
         self.touching[balloons] = np.where(self.touching[balloons] > 0, LYING_MODE, 0)
 
-    def give_up(self, balloons: Iterable[int]) -> None:
-        """Leave balloons alone whose run has failed."""
-        self.stop_touching(balloons)
-
     def set_finger(self, balloon: int, share: Floats, **finger: Any) -> None:
         """Put a finger on a balloon for the coming frame.
 

@@ -37,15 +37,15 @@ class Layout:
         ]
         self._ring_world = np.repeat(scene.worlds, np.diff(scene.joint_start))
 
-    def astray(self, middle: NDArray[np.float32]) -> list[bool]:
-        """Tell which sculptures have flown apart, so that hands find their rings no more.
+    def astray(self, middle: NDArray[np.float32]) -> NDArray[np.bool_]:
+        """Tell which sculptures have flown apart, so that hands find their rings no more, (W,).
 
         `middle`: of all rings, (J, 3), m.
         """
         lost = np.zeros(len(self.places), dtype=bool)
         near = (np.abs(middle[: len(self._ring_world)]) < FARTHEST).all(axis=1)
         lost[self._ring_world[~near]] = True
-        return lost.tolist()
+        return lost
 
 
 def _spans(sizes: Sequence[int]) -> list[slice]:

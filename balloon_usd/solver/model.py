@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from itertools import chain
 from typing import TYPE_CHECKING, Any, Protocol
+
+import numpy as np
 
 from balloon_usd.solver.sculpture import ComingFrame
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    import numpy as np
     from numpy.typing import NDArray
 
     from balloon_usd.balloon.detail import Detail
@@ -48,6 +50,8 @@ class Model(ABC):
         self.severed: dict[int, tuple[Severed, ...]] = {}
         """What was cut off of sculptures, as of that state."""
         self._hands, self._bodies, self._readback = hands, bodies, readback
+        self._over = np.zeros(len(self.performers), dtype=bool)
+        """Sculptures that are over, (W,)."""
         self._state: dict[str, NDArray[Any]] = {}
         """Arrays of the state read back last, by name."""
 
@@ -56,9 +60,8 @@ class Model(ABC):
         middle = self._state["ring_middle"].copy()
         self._hands.begin_frame(self._state)
         frame = ComingFrame(begin, end, middle)
-        for performer, astray in zip(self.performers, self.layout.astray(middle), strict=True):
-            if not astray:
-                performer.act(frame)
+        for world in np.flatnonzero(~self._over & ~self.layout.astray(middle)).tolist():
+            self.performers[world].act(frame)
         self._start_physics(begin, end, middle)
 
     @abstractmethod
@@ -98,9 +101,10 @@ class Model(ABC):
     def failures(self) -> dict[int, str]:
         """Return failures that the frames do not show, by sculpture."""
 
-    def give_up(self, world: int) -> None:
-        """Leave a sculpture alone whose run has failed."""
-        self._hands.give_up(self._bodies[world])
+    def leave(self, worlds: NDArray[np.int64]) -> None:
+        """Leave sculptures alone whose run has ended or failed."""
+        self._over[worlds] = True
+        self._hands.stop_touching(chain.from_iterable(self._bodies[world] for world in worlds.tolist()))
 
 
 class ModelMaker(Protocol):

@@ -35,8 +35,8 @@ DEVICES = ["cpu", *GPUS]
 """Where simulations can run on this machine."""
 
 
-def head():
-    return plan(Recipe.parse(HEAD))
+def head(hold=0.1):
+    return plan(Recipe.parse(HEAD.replace("hold: 0.1", f"hold: {hold}")))
 
 
 def performed(device, *, copies=1, blocks=None, alone=None):
@@ -89,6 +89,19 @@ def test_larger_sculptures_get_more_blocks():
 def test_neither_the_number_of_blocks_nor_other_sculptures_change_a_bit(device):
     assert whole(device) == performed(device, blocks=[1]) == whole(device, 3)
     assert whole(device) == performed(device, copies=2, blocks=[2, 5])
+
+
+@pytest.mark.parametrize("device", DEVICES)
+def test_what_is_over_leaves_its_blocks_to_the_others_and_changes_no_bit_of_them(device):
+    simulation = simulate_many([head(), head(0.8)], device=device, threads=1)
+    short, long = simulation.frame_counts
+    *_, (over, last) = simulation.frames()
+    assert long > short + 10
+    assert over is None
+    *_, (alone,) = simulate_many([head(0.8)], device=device).frames()
+    assert last.points[0].tobytes() == alone.points[0].tobytes()
+    begin, middle, end = simulation.model.scene.world_block.numpy().tolist()
+    assert (begin == middle < end) or device == "cpu"
 
 
 @pytest.mark.parametrize("device", GPUS)

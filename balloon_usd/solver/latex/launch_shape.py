@@ -44,13 +44,19 @@ class SculptureLaunch:
         device = wp.get_device(scene.device)
         self._hosted = not device.is_cuda
         self._tiles, self.lanes, self._kernel = max(scene.worlds) + 1, 1, advance_sculptures
+        self._at_once = 0
+        """Blocks of a GPU that run at once, where several may share a sculpture."""
         if device.is_cuda:
-            blocks, self.lanes, resident = self._shape(device)
-            self.share_out(blocks)
+            self._need = self._counts("vertex") + WARP * self._counts("chunk")
+            """Threads for which each has work, (sculptures,): one warp for each chunk of quads, and one lane
+            for each vertex for contact.
+            """
+            self.lanes, resident, self._at_once = self._shape(device)
+            self.share_out(shares(self._need, max(self._at_once, len(self._need))))
             around = int(scene.joint_around.numpy().max())
             self._kernel = kernel_variant(
                 self.lanes,
-                shared=bool((blocks > 1).any()),
+                shared=self._at_once > 0,
                 resident_bytes=shared_memory_bytes(device) if resident else 0,
                 cores=any(body.packs for body in scene.bodies),
                 fingers=scene.settings.fingers,
@@ -60,8 +66,18 @@ class SculptureLaunch:
     def share_out(self, blocks: NDArray[np.int64]) -> None:
         """Give each sculpture so many blocks of a GPU: (sculptures,), all resident at once."""
         starts = np.concatenate([[0], np.cumsum(blocks)])
-        self._tiles = int(starts[-1])
+        self._tiles = max(self._at_once, int(starts[-1]))
         self.scene.world_block.assign(starts.astype(np.int32))
+
+    def leave(self, over: NDArray[np.bool_]) -> None:
+        """Leave sculptures as they are that are over, (sculptures,); a GPU gives their blocks to the others.
+
+        54 figures of 310 to 4943 frames: 101 s instead of 320 s on an H200.
+        """
+        if self._at_once and not over.all():
+            blocks = np.zeros_like(self._need)
+            blocks[~over] = shares(self._need[~over], self._at_once)
+            self.share_out(blocks)
 
     def advance(
         self, launcher: Launcher, substeps: int, begin: int, end: int, *, contact: bool, fingers: bool
@@ -79,24 +95,25 @@ class SculptureLaunch:
         launch.frame_seconds = launch.dt * substeps
         launcher.launch_each(self._kernel, self._tiles, lanes=self.lanes, launch=launch)
 
-    def _shape(self, device: wp.Device) -> tuple[NDArray[np.int64], int, bool]:
-        """Return how many blocks of a GPU each sculpture gets, of how many threads, and whether all are
-        resident in shared memory.
+    def _counts(self, name: str) -> NDArray[np.int64]:
+        """Return how many each sculpture has of something, (sculptures,)."""
+        counts: NDArray[np.int64] = np.diff(self.scene.arrays[f"world_{name}"].numpy()).astype(np.int64)
+        return counts
+
+    def _shape(self, device: wp.Device) -> tuple[int, bool, int]:
+        """Return of how many threads the blocks of a GPU are, whether all sculptures are resident in shared
+        memory, and how many blocks they share out: 0 where each has one.
         """
-        vertices, quads, chunks = (
-            np.diff(self.scene.arrays[f"world_{name}"].numpy()) for name in ("vertex", "quad", "chunk")
-        )
-        # One warp for each chunk of quads, and one lane for each vertex for contact.
-        need = vertices + WARP * chunks
-        most = BLOCKS_PER_SM * device.sm_count
-        size = 2 * int((VERTEX_BYTES * vertices + QUAD_BYTES * quads).max())
+        need, most = self._need, BLOCKS_PER_SM * device.sm_count
+        size = 2 * int((VERTEX_BYTES * self._counts("vertex") + QUAD_BYTES * self._counts("quad")).max())
         alike = min(-(-int(need.max()) // LANES), most // len(need))
         if alike <= BLOCKS_PER_SM and size <= shared_memory_bytes(device):
-            return np.ones_like(need), RESIDENT_LANES, True
-        blocks = shares(need, device.sm_count)
-        if (need > LANES * blocks).any():
-            blocks = shares(need, most)
-        return blocks, LANES if (blocks > 1).any() else SINGLE_BLOCK_LANES, False
+            return RESIDENT_LANES, True, 0
+        few = (need <= LANES * shares(need, device.sm_count)).all()
+        at_once = device.sm_count if few else most
+        if (shares(need, at_once) > 1).any():
+            return LANES, False, at_once
+        return SINGLE_BLOCK_LANES, False, 0
 
 
 def shares(need: NDArray[np.int64], blocks: int) -> NDArray[np.int64]:

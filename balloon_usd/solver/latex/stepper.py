@@ -19,6 +19,8 @@ from balloon_usd.solver.launch import Launcher
 from balloon_usd.solver.wall_search import WallSearch
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from balloon_usd.solver.latex.scene import LatexScene
     from balloon_usd.solver.readback import Readback
 
@@ -72,6 +74,10 @@ class Stepper:
         self._launcher.replay_together(
             (contact, fingers), lambda: self._frame(contact=contact, fingers=fingers)
         )
+
+    def leave(self, over: NDArray[np.bool_]) -> None:
+        """Leave sculptures as they are that are over, (sculptures,)."""
+        self._sculptures.leave(over)
 
     def start_readback(self, readback: Readback, *, contact: bool) -> None:
         """Start copying what frames are made of; where walls can touch, with the loads on them."""

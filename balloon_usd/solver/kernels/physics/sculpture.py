@@ -108,6 +108,8 @@ def substep_kernel(
         block = launch.member
         goal = int(0)
         if wp.static(not hosted):
+            if tile >= int_at(sculptures.world_block, sculptures.world_block.shape[0] - 1):
+                return
             w = wp.lower_bound(sculptures.world_block, tile + 1) - 1
             blocks = int_at(sculptures.world_block, w + 1) - int_at(sculptures.world_block, w)
             block = tile - int_at(sculptures.world_block, w)
