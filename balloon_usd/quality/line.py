@@ -26,9 +26,12 @@ def _parts(data: Data) -> Iterator[str]:
     for key, unit in (("gas", "%"), ("tail", "cm")):
         if data[key]["verdict"] != Verdict.NONE:
             yield _difference(key, data[key], unit)
+    # Records of earlier versions do not tell what is squeezed.
+    if _off(found := data.get("squeezed", {"verdict": Verdict.NONE})):
+        yield f"{found['worst']} squeezed by {CENTI * found['value']:.0f} %"
     yield _speed(data["speed"])
     yield from _creep(data["creep"])
-    # Records of earlier versions do not tell how figures stand.
+    # Nor how figures stand.
     if (lean := data.get("lean", {"value": None}))["value"] is not None:
         yield f"{'fell over' if _off(lean) else 'stands'}, leaning {lean['value']:.1f} degrees"
     yield from _joints(data["joints"])

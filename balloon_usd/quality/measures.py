@@ -55,7 +55,8 @@ def _table(*measures: Measure) -> dict[str, Measure]:
 
 
 MEASURES = _table(
-    Measure("gas", "1", 0.10, 4, "largest difference of a bubble's volume from the plan, as a share of it"),
+    Measure("gas", "1", 0.10, 4, "largest difference of a bubble's gas from the plan, as a share of it"),
+    Measure("squeezed", "1", 0.20, 4, "largest share of its volume by which others squeeze a bubble"),
     Measure("tail", "m", 0.01, 5, "largest difference of the flat tail left after a twist from the plan"),
     Measure("speed", "m/s", 0.005, 5, "largest speed of a vertex in the last half second"),
     Measure(

@@ -47,7 +47,7 @@ class Rest:
         code = frame.time_code
         self._undone |= dict.fromkeys(frame.undone)
         if frame.doing.startswith(COMES_UNDONE):
-            self._undone[frame.doing.removeprefix(COMES_UNDONE)] = None
+            self._undone |= dict.fromkeys(frame.doing.removeprefix(COMES_UNDONE).split(", "))
         kept = (self._let_go, self._half, self._rested)
         if code < self._late and code not in kept:
             return

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
-from balloon_usd.balloon.ringed_faces import polygon_share
 from balloon_usd.quality.crossing_counter import CrossingCounter
 from balloon_usd.quality.crossing_history import CrossingHistory
 from balloon_usd.quality.joint_history import JointHistory
@@ -21,6 +19,7 @@ from balloon_usd.quality.twists import TwistTails
 from balloon_usd.quality.walls import walls_of
 from balloon_usd.quality.wound import WoundBubbles
 from balloon_usd.recipe.held_words import EVERY, PLANNED
+from balloon_usd.solver.planned_gas import shares_of_planned_gas, squeezed
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
@@ -116,7 +115,8 @@ class QualityWatch:
             return None
         plan, meshes, end = self._plan, self._meshes, self._end
         found = {
-            "gas": MEASURES["gas"].largest(_gas(plan, meshes, end)),
+            "gas": MEASURES["gas"].largest(_gas_off(plan, meshes, end)),
+            "squeezed": MEASURES["squeezed"].largest(squeezed(plan, end)),
             "tail": MEASURES["tail"].largest(self._tails.off),
             **self._rest.results(),
             **self._standing.results(),
@@ -172,25 +172,6 @@ def counted_over_time(plan: Plan, codes: range) -> list[int]:
     return [*codes[::every], codes[-1]]
 
 
-def _gas(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame) -> dict[str, float]:
-    """Return by which share of it the volume of each bubble differs from the plan; not of those that share
-    their gas across a joint that has come undone, nor of limp ones.
-    """
-    # The plan counts round tubes.
-    polygon = {
-        name: polygon_share(mesh.around) if strip.has_tail else 1.0
-        for (name, strip), mesh in zip(plan.strips.items(), meshes, strict=True)
-    }
-    sharing = {
-        bubble.name
-        for strip in plan.strips.values()
-        for before, behind in pairwise(strip.bubbles)
-        if f"{before.name}.end" in frame.undone
-        for bubble in (before, behind)
-    }
-    left_out = sharing | plan.limp
-    return {
-        bubble.name: float(volume) / (polygon[bubble.balloon] * bubble.volume) - 1.0
-        for bubble, volume in zip(plan.bubbles, frame.volume, strict=True)
-        if bubble.volume > 0.0 and bubble.name not in left_out
-    }
+def _gas_off(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame) -> dict[str, float]:
+    """Return by which share of it the gas of each bubble differs from the plan, by name."""
+    return {name: share - 1.0 for name, share in shares_of_planned_gas(plan, meshes, frame).items()}

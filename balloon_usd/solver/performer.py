@@ -73,6 +73,6 @@ class Performer:
     def _update_status(self) -> None:
         """Set the status, a new object only where it differs."""
         loose, undone = self.sculpture.unwinding, self.sculpture.undone
-        doing = self._text if loose is None else f"{COMES_UNDONE}{loose}"
+        doing = f"{COMES_UNDONE}{', '.join(loose)}" if loose else self._text
         if (doing, undone) != self.status:
             self.status = Status(doing, undone)

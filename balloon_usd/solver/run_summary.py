@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from balloon_usd.balloon.air import ATMOSPHERE
-from balloon_usd.balloon.ringed_faces import polygon_share
 from balloon_usd.solver.bursting import NEAR, NO_LOAD, Bursting, WallLoad
 from balloon_usd.solver.flat_tails import FlatTails
+from balloon_usd.solver.planned_gas import shares_of_planned_gas
 
 if TYPE_CHECKING:
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
-    from balloon_usd.plan.strip import PlannedBubble, Strip
     from balloon_usd.solver.frame import Frame
 
 GAS_OFF = 0.1
@@ -94,19 +91,9 @@ class RunSummary:
         physics = plan.recipe.physics
         if last is None or last.time_code < plan.frame_count or physics.leak or not physics.traits.winds:
             return {}
-        number = {bubble.name: k for k, bubble in enumerate(plan.bubbles)}
-        found: dict[str, float] = {}
-        for mesh, strip in zip(self._meshes, plan.strips.values(), strict=True):
-            if not strip.has_tail:
-                continue
-            polygon = polygon_share(mesh.around)
-            for bubble in _closed(strip, last.undone):
-                if bubble.name in plan.limp:
-                    continue
-                k = number[bubble.name]
-                has = (ATMOSPHERE + float(last.pressure[k])) * float(last.volume[k]) / polygon
-                found[bubble.name] = has / ((ATMOSPHERE + (bubble.pressure or 0.0)) * bubble.volume)
-        return {name: share for name, share in found.items() if abs(share - 1.0) > GAS_OFF}
+        tubes = {bubble.name for strip in plan.strips.values() if strip.has_tail for bubble in strip.bubbles}
+        found = shares_of_planned_gas(plan, self._meshes, last).items()
+        return {name: share for name, share in found if name in tubes and abs(share - 1.0) > GAS_OFF}
 
     @property
     def tails_left(self) -> dict[str, float]:
@@ -114,12 +101,3 @@ class RunSummary:
         if self._last is None:
             return {}
         return dict(zip(self._tails.names, self._tails.left(self._last), strict=True))
-
-
-def _closed(strip: Strip, undone: tuple[str, ...]) -> list[PlannedBubble]:
-    """Return the bubbles of a tube whose necks have not come undone."""
-    if not strip.has_tail:
-        return []
-    ends = [f"{strip.balloon}.knot", *(f"{bubble.name}.end" for bubble in strip.bubbles[:-1])]
-    necks = zip(strip.bubbles, pairwise([*ends, f"{strip.balloon}.tip"]), strict=True)
-    return [bubble for bubble, both in necks if not set(both) & set(undone)]

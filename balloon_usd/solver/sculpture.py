@@ -83,9 +83,9 @@ class Sculpture:
         return found
 
     @property
-    def unwinding(self) -> str | None:
-        """Name of the joint that is coming undone, or None."""
-        return None
+    def unwinding(self) -> tuple[str, ...]:
+        """Names of the joints that are coming undone."""
+        return ()
 
     @property
     def undone(self) -> tuple[str, ...]:

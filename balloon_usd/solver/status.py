@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 COMES_UNDONE = "comes undone: "
-"""How what a sculpture is doing begins while a joint comes undone, before the name of the joint."""
+"""How what a sculpture is doing begins while joints come undone, before their names."""
 
 
 class Status(NamedTuple):

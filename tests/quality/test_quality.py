@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from balloon_usd.balloon.air import ATMOSPHERE
 from balloon_usd.balloon.detail import detail_named
 from balloon_usd.balloon.wound_neck import holding_friction
 from balloon_usd.operations.moves import LetGo
@@ -40,7 +41,8 @@ def as_planned(plan, meshes, code, **changes):
     around = np.pi / meshes[0].around
     polygon = np.tan(around) / around
     volume = np.array([bubble.volume * polygon for bubble in plan.bubbles], dtype=np.float32)
-    frame = Frame(code, (points_of(plan, meshes),), (np.ones(1, dtype=np.float32),), volume, volume, "hold")
+    pressure = np.array([bubble.pressure for bubble in plan.bubbles], dtype=np.float32)
+    frame = Frame(code, (points_of(plan, meshes),), (np.ones(1, dtype=np.float32),), pressure, volume, "hold")
     return replace(frame, **changes)
 
 
@@ -146,6 +148,22 @@ def test_bubbles_that_share_their_gas_across_a_joint_that_came_undone_are_left_o
     gas = quality_of(figure, joined)["gas"]
     assert gas["verdict"] == "good"
     assert {"nose", "left_ear"}.isdisjoint(gas["each"])
+
+
+def test_what_is_squeezed_has_its_gas_and_tells_how_much_smaller_it_is(figure, still):
+    assert still["squeezed"]["value"] < 1e-3
+
+    def pressed(frame):
+        volume, pressure = frame.volume.copy(), frame.pressure.copy()
+        pressure[3] = 1.5 * (ATMOSPHERE + pressure[3]) - ATMOSPHERE
+        volume[3] /= 1.5
+        return replace(frame, volume=volume, pressure=pressure)
+
+    quality = quality_of(figure, pressed)
+    assert quality["gas"]["value"] < 1e-3
+    assert quality["squeezed"]["each"]["neck"] == pytest.approx(1.0 / 3.0, abs=1e-3)
+    assert (quality["squeezed"]["worst"], quality["squeezed"]["verdict"]) == ("neck", "off")
+    assert "neck squeezed by 33 %" in quality_line(quality)
 
 
 def test_the_joints_that_are_meant_to_hold_are_those_of_the_finished_piece_that_do_not_untwist(figure):
@@ -414,8 +432,14 @@ def test_a_figure_whose_last_frame_was_not_seen_has_no_quality(figure):
         # A balloon of it is not twisted.
         ("book/maple_nj", {"symmetric_volume", "symmetric_length", "symmetric_place"}),
         # Capsules have no tail, nothing holds their twists.
-        ("kosaka/bubbles", {"tail", "joints", "symmetric_volume", "symmetric_length", "symmetric_place"}),
-        ("meshes/heart", {"tail", "joints", "symmetric_volume", "symmetric_length", "symmetric_place"}),
+        (
+            "kosaka/bubbles",
+            {"tail", "joints", "squeezed", "symmetric_volume", "symmetric_length", "symmetric_place"},
+        ),
+        (
+            "meshes/heart",
+            {"tail", "joints", "squeezed", "symmetric_volume", "symmetric_length", "symmetric_place"},
+        ),
     ],
 )
 def test_figures_of_any_kind_are_measured_in_what_they_have(recipe, nothing):
@@ -424,8 +448,9 @@ def test_figures_of_any_kind_are_measured_in_what_they_have(recipe, nothing):
     watch = QualityWatch(plan, meshes)
     points = tuple(mesh.points + np.float32([0, 0.3 * k, 0]) for k, mesh in enumerate(meshes))
     volume = np.array([bubble.volume for bubble in plan.bubbles], dtype=np.float32)
+    pressure = np.array([bubble.pressure or 0.0 for bubble in plan.bubbles], dtype=np.float32)
     for code in range(1, plan.frame_count + 1):
-        watch.add(Frame(code, points, (), volume, volume, "hold"))
+        watch.add(Frame(code, points, (), pressure, volume, "hold"))
     data = watch.data()
     # None of them is put on its feet.
     nothing |= {"lean", "passed", "unwound"}

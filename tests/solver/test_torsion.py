@@ -11,8 +11,9 @@ from balloon_usd.balloon.wound_neck import drawn_in_a_turn
 from balloon_usd.plan import plan
 from balloon_usd.plan.open_tube import softened
 from balloon_usd.recipe import Recipe
-from balloon_usd.solver.latex.hinge import HingedParts, Part, screw
-from balloon_usd.solver.latex.torsion import OPEN_ANGLE, WoundJoint
+from balloon_usd.solver.latex.hinges import Hinge, HingedParts, Limits, Part, screw
+from balloon_usd.solver.latex.unwinding import impulses_after
+from balloon_usd.solver.latex.wound_joint import OPEN_ANGLE, WoundJoint
 from balloon_usd.solver.rotations import rotation, rotation_vector
 
 CHAIN = "format: 1\nname: c\nunits: cm\nballoons: {main: {size: 260, length: 14, tail: 5}}\nsteps: [bubbles: {a: 8}]\n"
@@ -31,47 +32,108 @@ def blob(seed, shift):
 
 
 @pytest.fixture
-def pair():
-    """Vertices and masses of two parts that meet in the origin, and the parts."""
-    sides = [blob(1, [-0.05, 0.01, 0.0]), blob(2, [0.08, 0.0, 0.03])]
-    parts = [Part.of(arm, mass, arm.mean(axis=0)) for arm, mass in sides]
-    return sides, HingedParts(np.zeros(3), *parts)
+def chain():
+    """Vertices and masses of three parts that hang together in two joints, and the parts, turned by now."""
+    sides = [blob(1, [-0.05, 0.01, 0.0]), blob(2, [0.08, 0.0, 0.03]), blob(3, [0.2, 0.05, 0.0])]
+    parts = [Part.of(places, mass) for places, mass in sides]
+    joints = np.zeros(3), np.array([0.14, 0.02, 0.01])
+    hinges = [Hinge(0, 1, joints[0], parts[0].centre, parts[1].centre)]
+    hinges.append(Hinge(2, 1, joints[1], parts[2].centre, parts[1].centre))
+    hinged = HingedParts(parts, hinges)
+    hinged.turn(np.array([[0.4, 0.1, -0.3], [-1.0, 0.5, 0.2], [0.3, 2.0, -0.4]]), 0.5)
+    return sides, hinged
 
 
-def test_both_sides_of_a_hinge_spring_apart_without_momentum_or_angular_momentum(pair):
-    sides, parts = pair
-    _, motion = parts.response()
-    push, turn, scale = np.zeros(3), np.zeros(3), 0.0
-    for (arm, mass), spin in zip(sides, (motion[3:6], motion[6:]), strict=True):
-        speed = motion[:3] + np.cross(spin, arm)
-        push += (mass[:, None] * speed).sum(axis=0)
-        turn += (mass[:, None] * np.cross(arm, speed)).sum(axis=0)
-        scale += (mass * np.linalg.norm(speed, axis=1)).sum()
-    assert np.abs(push).max() < 1e-12 * scale
-    assert np.abs(turn).max() < 1e-12 * scale
+def moved(sides, hinged, response, hinge):
+    """Places and velocities of all vertices for an impulse in one hinge, each (V, 3), and their masses."""
+    places, speeds = [], []
+    centres = hinged.centres()
+    for k, part in enumerate(hinged.parts):
+        arms = part.arms @ part.turned.T
+        places.append(centres[k] + arms)
+        speeds.append(response.shifts[k, :, hinge] + np.cross(response.turns[k, :, hinge], arms))
+    return np.concatenate(places), np.concatenate(speeds), np.concatenate([mass for _, mass in sides])
 
 
-def test_the_inertia_of_a_hinge_is_that_of_the_energy_of_its_motion(pair):
-    sides, parts = pair
-    inertia, motion = parts.response()
-    energy = 0.0
-    for (arm, mass), spin in zip(sides, (motion[3:6], motion[6:]), strict=True):
-        energy += 0.5 * (mass * ((motion[:3] + np.cross(spin, arm)) ** 2).sum(axis=1)).sum()
-    assert 2.0 * energy == pytest.approx(inertia, rel=1e-9)
+def test_parts_stay_together_in_their_joints_and_their_middle_where_it_was(chain):
+    sides, hinged = chain
+    centres = hinged.centres()
+    for hinge in hinged.hinges:
+        ends = [centres[k] + hinged.parts[k].arm(hinge.joint) for k in (hinge.before, hinge.beyond)]
+        assert ends[0] == pytest.approx(ends[1], abs=1e-12)
+    places, _, mass = moved(sides, hinged, hinged.response(), 0)
+    before = np.concatenate([points for points, _ in sides])
+    assert mass @ places == pytest.approx(mass @ before, abs=1e-12)
+
+
+@pytest.mark.parametrize("hinge", [0, 1])
+def test_parts_spring_apart_without_momentum_or_angular_momentum(chain, hinge):
+    places, speeds, mass = moved(*chain, chain[1].response(), hinge)
+    scale = (mass * np.linalg.norm(speeds, axis=1)).sum()
+    assert np.abs(mass @ speeds).max() < 1e-12 * scale
+    assert np.abs(mass @ np.cross(places, speeds)).max() < 1e-12 * scale
+
+
+def test_the_compliance_of_a_hinge_is_that_of_the_energy_of_its_motion(chain):
+    response = chain[1].response()
+    for hinge in (0, 1):
+        _, speeds, mass = moved(*chain, response, hinge)
+        energy = 0.5 * (mass * (speeds**2).sum(axis=1)).sum()
+        assert 2.0 * energy == pytest.approx(response.compliance[hinge, hinge], rel=1e-9)
+    assert response.compliance[0, 1] == pytest.approx(response.compliance[1, 0], rel=1e-9)
+
+
+def test_the_velocities_of_parts_are_those_at_which_their_centres_go(chain):
+    _, hinged = chain
+    response, step = hinged.response(), 1e-9
+    before = hinged.centres()
+    hinged.turn(response.turns[:, :, 1], step)
+    assert (hinged.centres() - before) / step == pytest.approx(response.shifts[:, :, 1], rel=1e-3, abs=1e-3)
+
+
+def test_walls_move_no_faster_than_they_may(chain):
+    sides, hinged = chain
+    response = hinged.response()
+    found = hinged.fastest_walls(response)
+    for hinge in (0, 1):
+        _, speeds, _ = moved(sides, hinged, response, hinge)
+        fastest = np.linalg.norm(speeds, axis=1).max()
+        assert found[hinge] == pytest.approx(fastest, rel=1e-9)
+        turn, centre = (
+            np.linalg.norm(each[:, :, hinge], axis=1).max() for each in (response.turns, response.shifts)
+        )
+        impulses, none = np.eye(2)[hinge], Limits(math.inf, math.inf, math.inf)
+        for limits, share in (
+            (none._replace(wall=0.25 * fastest), 0.25),
+            (none._replace(centre=0.1 * centre), 0.1),
+            (none._replace(turn=0.5 * turn), 0.5),
+            (none, 1.0),
+        ):
+            assert hinged.share_below(response, impulses, limits) == pytest.approx(share)
 
 
 def test_two_coaxial_bubbles_spin_about_their_axis_as_their_inertias_ask():
     arm, mass = blob(3, [0.05, 0.0, 0.0])
     arm = np.concatenate([arm, arm * [1.0, -1.0, -1.0]])
     mass = np.concatenate([mass, mass])
-    parts = HingedParts(
-        np.zeros(3),
-        Part.of(-arm, 3.0 * mass, np.array([-0.05, 0.0, 0.0])),
-        Part.of(arm, mass, np.array([0.05, 0.0, 0.0])),
-    )
-    _, motion = parts.response()
-    assert motion[6] == pytest.approx(0.75, rel=0.2)
-    assert motion[3] == pytest.approx(motion[6] - 1.0, rel=1e-9)
+    parts = [Part.of(-arm, 3.0 * mass), Part.of(arm, mass)]
+    middles = np.array([-0.05, 0.0, 0.0]), np.array([0.05, 0.0, 0.0])
+    response = HingedParts(parts, [Hinge(0, 1, np.zeros(3), *middles)]).response()
+    before, beyond = response.turns[:, 0, 0] / response.compliance[0, 0]
+    assert beyond == pytest.approx(0.75, rel=0.2)
+    assert before == pytest.approx(beyond - 1.0, rel=1e-9)
+
+
+def test_a_bubble_between_two_alike_twists_is_in_balance():
+    arm, mass = blob(3, [0.0, 0.0, 0.0])
+    arm = np.concatenate([arm, -arm, arm * [1.0, -1.0, -1.0], arm * [-1.0, 1.0, 1.0]])
+    mass = np.concatenate([mass] * 4)
+    places = [np.array([0.1 * k, 0.0, 0.0]) for k in range(3)]
+    parts = [Part.of(arm + place, mass) for place in places]
+    hinges = [Hinge(k, k + 1, 0.5 * (places[k] + places[k + 1]), places[k], places[k + 1]) for k in (0, 1)]
+    turns = HingedParts(parts, hinges).response().turns @ np.ones(2)
+    assert np.abs(turns[1]).max() < 1e-9 * np.abs(turns[0]).max()
+    assert turns[0] == pytest.approx(-turns[2], rel=1e-9)
 
 
 def test_a_screw_kept_for_a_frame_ends_where_the_body_went():
@@ -100,8 +162,11 @@ def sprung_open(turns, inertia, step):
     """Seconds in which a joint without drag springs open, down to where it is as good as open."""
     joint, seconds = wound(turns), 0.0
     assert math.copysign(1.0, joint.torque) == math.copysign(1.0, turns)
+    compliance = np.array([[1.0 / inertia]])
     while joint.turns:
-        assert joint.spring_back(inertia, 0.0, math.inf, step) * turns < 0.0
+        (joint.impulse,) = impulses_after([joint], compliance, np.zeros(1), 0.0, step).tolist()
+        assert joint.impulse * turns < 0.0
+        joint.turn(joint.impulse / inertia * step)
         seconds += step
     return seconds
 
@@ -124,6 +189,30 @@ def test_a_joint_of_many_turns_springs_open_with_an_even_torque_at_first(turns):
     amplitude = math.hypot(elastic, speed / rate)
     swing = math.acos(OPEN_ANGLE / amplitude) - math.acos(elastic / amplitude)
     assert sprung_open(turns, inertia, step) == pytest.approx(even + swing / rate, abs=3.0 * step)
+
+
+def test_the_viscosity_of_a_neck_is_that_of_the_rate_at_which_it_unwinds_in_the_end():
+    joint, rate = wound(8.0), 40.0
+    viscosity = np.array([joint.most_torque / rate])
+    for _ in range(200):
+        (joint.impulse,) = impulses_after([joint], np.array([[1e6]]), viscosity, 0.0, 1e-3).tolist()
+    assert -1e6 * joint.impulse == pytest.approx(rate, rel=1e-4)
+
+
+def test_a_light_part_does_not_swing():
+    joint = wound(0.5)
+    for _ in range(20):
+        (joint.impulse,) = impulses_after([joint], np.array([[1e12]]), np.zeros(1), 0.0, 1e-3).tolist()
+        before = joint.turns
+        joint.turn(1e12 * joint.impulse * 1e-3)
+        assert 0.0 <= joint.turns < before or before == 0.0
+
+
+def test_gas_keeps_the_torque_of_an_open_neck_up():
+    closed, limp, full = wound(0.55), wound(0.3), wound(0.3)
+    closed.pressure = full.pressure = 7e3
+    assert closed.torque == wound(0.55).torque
+    assert limp.torque < full.torque == full.most_torque
 
 
 def test_a_wound_neck_springs_back_with_two_thousandths_of_a_newton_metre_whatever_its_turns():

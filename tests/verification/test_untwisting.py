@@ -10,7 +10,6 @@ import pytest
 
 from balloon_usd.plan import plan
 from balloon_usd.recipe import Recipe
-from balloon_usd.solver.latex.hinge import CLEAR, Hinge
 from balloon_usd.solver.simulation import simulate_many
 
 TWO = """
@@ -120,7 +119,7 @@ def test_a_figure_that_untwists_stays_where_it_is(verify):
     verify("V25", "drift of what untwists, in its length", drift / size, 0.0, 1e-3)
 
 
-def test_each_joint_unwinds_within_half_a_second(note):
+def test_all_loose_joints_unwind_at_once(note):
     simulation, seen = performed(3)
     begin = let_go(simulation)
     moments = {name: next(s.time for s in seen if name in s.frame.undone) - begin for name in BOTH}
@@ -128,24 +127,11 @@ def test_each_joint_unwinds_within_half_a_second(note):
     told = ", ".join(f"{name} after {time:.2f} s" for name, time in sorted(moments.items()))
     note("V25", f"three turns spring back with {1e3 * torque:.1f} mN m; open: {told}")
     first, second = sorted(moments.values())
+    # The neck of one opens, and its gas settles, before that of the other opens.
     assert 0.05 < first < 0.5
-    assert 0.05 < second - first < 0.5
-
-
-def test_the_reach_of_a_hinge_is_how_far_its_fastest_wall_goes():
-    simulation, _ = performed(3, 3, hold=1.5)
-    scene, place = simulation.model.scene, simulation.plans[0].bubbles[0].rest_end
-    x, point, angle = scene.x.numpy(), np.array([0.01, -0.02, 0.03], dtype=np.float32), 1e-5
-    hinge = Hinge(scene, {0: place}, (2, 3))
-    parts = hinge.parts(x, point)
-    _, motion = parts.response()
-    reach = hinge.reach(x, point, motion)
-    parts.move(motion, angle)
-    beyond = scene.bodies[0].along > place + CLEAR
-    arms = x.astype(float) - point
-    turned = [arms[side] @ part.turned.T for side, part in ((~beyond, parts.before), (beyond, parts.beyond))]
-    went = [after - arms[side] + parts.moved for side, after in zip((~beyond, beyond), turned, strict=True)]
-    assert reach == pytest.approx(np.linalg.norm(np.concatenate(went), axis=1).max() / angle, rel=1e-4)
+    assert second < 0.8
+    free = [s.frame.doing for s in seen if begin < s.time < begin + first]
+    assert set(free) == {"comes undone: first.end, second.end"}
 
 
 @pytest.mark.parametrize("turns", [0.5, 3])

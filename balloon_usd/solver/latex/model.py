@@ -95,8 +95,10 @@ class LatexModel(Model):
         )
         rings = sum(len(b.rings) for b in bodies)
         struts, slots = _room_for_struts(plans)
+        # A tree of so many loose joints has one part more.
+        parts = sum(2 * len(plan.loose) for plan in plans)
         self.scene = build_scene(
-            bodies, worlds, settings, device, rings, max(struts, STRUTS_PER_JOINT * rings), slots
+            bodies, worlds, settings, device, rings, max(struts, STRUTS_PER_JOINT * rings), slots, parts
         )
         self.scene.stretch_limit.assign(stretch_limits(plans, runs))
         self.stepper = Stepper(self.scene, substeps, threads)

@@ -11,7 +11,7 @@ import warp as wp
 
 from balloon_usd.balloon.air import AIR_DENSITY, GAS_CONSTANT, ROOM_TEMPERATURE
 from balloon_usd.solver.kernels.arrays.latex import Chambers, Cores, Crossings, Forces, Rubber, Struts
-from balloon_usd.solver.kernels.arrays.rows import STRUT_SLOTS, Air, Law
+from balloon_usd.solver.kernels.arrays.rows import SPINS, STRUT_SLOTS, Air, Law
 from balloon_usd.solver.latex.cores import core_arrays
 from balloon_usd.solver.latex.device_law import device_laws
 from balloon_usd.solver.latex.hidden_rubber import HiddenRubber
@@ -52,13 +52,16 @@ def build_scene(
     weld_count: int,
     strut_count: int,
     strut_slots: int = STRUT_SLOTS,
+    part_count: int = 0,
 ) -> LatexScene:
     """Put bodies on a device.
 
     `worlds`: sculpture of every body; bodies of different sculptures never touch. `weld_count`,
-    `strut_count`: capacity for welds and struts; `strut_slots`: for struts that end at one joint.
+    `strut_count`: capacity for welds and struts; `strut_slots`: for struts that end at one joint;
+    `part_count`: for parts that turn against each other when hands let go.
     """
     scene = LatexScene.of(bodies, worlds, settings, device)
+    scene.arrays.set_size("spins", SPINS * (max(worlds) + 1) + part_count)
     data = [
         membrane_data(b, settings.dt, settings.atmosphere, scale_mass=settings.scale_mass) for b in bodies
     ]

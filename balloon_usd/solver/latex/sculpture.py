@@ -83,8 +83,8 @@ class LatexSculpture(Sculpture):
         self.scene.true_mass.assign(mass)
 
     @property
-    def unwinding(self) -> str | None:
-        """Name of the joint that is coming undone, or None."""
+    def unwinding(self) -> tuple[str, ...]:
+        """Names of the joints that are coming undone."""
         return self.torsion.unwinding
 
     @property

@@ -80,6 +80,8 @@ OPEN_PASSAGE = 1.0
 """Passage (m2) of a joint that is not being closed: more than any neck."""
 WIDE_OPEN = 0.5 * OPEN_PASSAGE
 """Passage (m2) from which segments on both sides of a joint form one chamber."""
+LEAST_VOLUME = wp.constant(1.0e-12)
+"""Volume of two chambers below which no gas flows between them, m3."""
 HIGHEST_PRESSURE = wp.constant(1.5e5)
 """Largest gauge pressure of a chamber, Pa, that of gas squeezed to two fifths: what has turned inside out is
 blown up with it again. The air in a knot between joints went below no volume, to minus one atmosphere, and
@@ -169,12 +171,11 @@ def blow_through(
     difference = float_at(pressure, s) - float_at(pressure, end)
     speed = wp.sqrt(2.0 * wp.abs(difference) / air.density)
     blown = air.discharge * gap * speed * dt * (float_at(pressure, end) + air.atmosphere)
-    # No more than a share of what would even out both chambers, were their walls rigid.
-    both = (
-        float_at(chamber_volume, s)
-        * float_at(chamber_volume, end)
-        / (float_at(chamber_volume, s) + float_at(chamber_volume, end))
-    )
+    # No more than a share of what would even out both chambers, were their walls rigid; nothing where one has
+    # gone through itself.
+    one = wp.max(float_at(chamber_volume, s), 0.0)
+    other = wp.max(float_at(chamber_volume, end), 0.0)
+    both = one * other / wp.max(one + other, LEAST_VOLUME)
     most = air.equalise * wp.abs(difference) * both
     return wp.float64(wp.sign(difference) * wp.min(blown, most)) / air.molar_energy
 

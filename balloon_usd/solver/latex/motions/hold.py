@@ -40,7 +40,7 @@ class Hold(Motion):
     def advance(self, _: float) -> None:
         """Put it down further, unless it is coming undone."""
         sculpture = self._sculpture
-        if sculpture.unwinding is not None:
+        if sculpture.unwinding:
             return
         self._seconds += sculpture.frame.end - sculpture.frame.begin
         growing = self._drag * math.exp(self._seconds / PUT_DOWN_SECONDS)

@@ -25,10 +25,10 @@ class LatexLetGo(LetGo):
     @property
     def ended(self) -> bool:
         """Whether nothing untwists any more."""
-        return not self._for_good or self._sculpture.unwinding is None
+        return not self._for_good or not self._sculpture.unwinding
 
     def advance(self, _: float) -> None:
-        """Let the next loose joint untwist."""
+        """Let all loose joints untwist."""
         if self._for_good:
             begin, end, middle = self._sculpture.frame
             self._sculpture.torsion.unwind(end - begin, middle)

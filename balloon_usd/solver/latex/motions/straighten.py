@@ -43,7 +43,7 @@ class Straighten(Motion):
         self._joints = self._all[self._led]
         self._twins = [(_rings(sculpture, left), _rings(sculpture, right)) for left, right in move.twins]
         self._between = [_rings(sculpture, name) for name in move.between]
-        self._leads = sculpture.unwinding is None and not sculpture.undone
+        self._leads = not (sculpture.unwinding or sculpture.undone)
         self._round, self._loosens = -1, False
 
     def advance(self, share: float) -> None:
