@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from itertools import product
 from typing import TYPE_CHECKING, NamedTuple, Self
 
 import numpy as np
@@ -23,6 +24,10 @@ Floats = NDArray[np.float64]
 
 CLEAR = 1e-6
 """What lies farther than this beyond a joint turns with what lies beyond it, m."""
+DIRECTIONS = np.array([way for way in product((-1.0, 0.0, 1.0), repeat=3) if any(way)])
+"""In which the vertices of a part are looked for that may be the fastest, (26, 3): others are faster by 8 %
+at most.
+"""
 
 
 @dataclass
@@ -36,7 +41,7 @@ class Part:
     inertia: Floats
     """Moment of inertia about its centre, before it turned, (3, 3), kg m2."""
     arms: Floats
-    """Its vertices from its centre, before it turned, (V, 3), m."""
+    """The outermost of its vertices from its centre, before it turned, (E, 3), m."""
     turned: Floats = field(default_factory=lambda: np.eye(3))
     """How it has turned so far, (3, 3)."""
 
@@ -47,7 +52,8 @@ class Part:
         arms = places - centre
         weighted = mass[:, None] * arms
         inertia = float((weighted * arms).sum()) * np.eye(3) - weighted.T @ arms
-        return cls(float(mass.sum()), centre, inertia, arms)
+        outermost = np.unique((arms @ DIRECTIONS.T).argmax(axis=0))
+        return cls(float(mass.sum()), centre, inertia, arms[outermost])
 
     def arm(self, place: Floats) -> Floats:
         """Return what points from its centre to a place of it, given as it was before it turned, (3,), m."""
@@ -175,7 +181,7 @@ def _from_first(hinges: Sequence[Hinge]) -> list[tuple[int, int, Floats]]:
         near, far = (hinge.before, hinge.beyond) if hinge.before in reached else (hinge.beyond, hinge.before)
         way.append((near, far, hinge.joint))
         reached.add(far)
-        left.remove(hinge)
+        left = [other for other in left if other is not hinge]
     return way
 
 
