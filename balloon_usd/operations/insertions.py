@@ -48,7 +48,7 @@ class Insertions:
             if bubble not in self.made_ever:
                 known = [it.bubble for it in piece.bubbles.values() if it.balloon not in self.put_in]
                 yield Complaint(path, unknown("bubble", bubble, known))
-        elif made.balloon in {balloon, *self.put_in}:
+        elif made.balloon == balloon or self._lies(piece, made.balloon):
             what = "itself" if made.balloon == balloon else f"{made.balloon}, which lies in another"
             yield Complaint(path, f"lies in {what}, expected a bubble of a balloon that lies in none")
         elif full := self._full_before(path, (balloon, made.balloon)):
@@ -57,6 +57,12 @@ class Insertions:
                 yield Complaint(path, f"{what}, expected inflate: {name} in a step after this one")
         else:
             yield from self._disturbances(piece, balloon, bubble, gone)
+
+    def _lies(self, piece: Workpiece, balloon: str) -> bool:
+        """Whether a balloon is put into a bubble of another."""
+        host, _ = self.put_in.get(balloon, ("", None))
+        made = piece.bubbles.get(host)
+        return balloon in self.put_in and (made is None or made.balloon != balloon)
 
     def _full_before(self, path: Path, balloons: Iterable[str]) -> list[str]:
         """Return the balloons that no step after one blows up."""

@@ -31,6 +31,8 @@ MOST_STRANDS = 6
 """Bubbles that are wound round each other at most: about more of them there is a hole as wide as two."""
 EASY = 1.4
 """Length from which on bubbles are wound without creases, in the least that has room."""
+FEWEST = 0.5
+"""Turns that can be asked for at least."""
 PLACES_A_TURN = 6.0
 """At how many places hands hold each strand for a turn of it."""
 SPRING_BACK = 0.3
@@ -50,7 +52,7 @@ class WoundBubbles(Entries):
 
     bubbles: Annotated[tuple[Name, ...], Field(min_length=1, max_length=MOST_STRANDS)]
     """Bubbles between the same two joints, or one that closes on itself, whose halves are wound."""
-    turns: Annotated[float, Between(0.5, 10.0, "turns")] = 1.0
+    turns: Annotated[float, Between(FEWEST, 10.0, "turns")] = 1.0
     """Full turns of one joint against the other, right-handed; left-handed in a mirrored recipe."""
 
 
@@ -127,9 +129,10 @@ steps:
         """Yield more turns than there is length for."""
         strand, least = self._strand(layout), self._least(layout)
         if strand < least:
-            most = most_turns(self.spiral.turns * strand / least)
+            most = self.spiral.turns * strand / least
+            fewer = f"at most {most_turns(most)}, or " if most >= FEWEST else ""
             text = f"{cm(strand)} of {self.strands} strands of a {self.widest(layout).size} are too short for"
-            text += f" {turns_text(self.spiral.turns)}, expected at most {most}, or {at_least(least)}"
+            text += f" {turns_text(self.spiral.turns)}, expected {fewer}{at_least(least)}"
             yield (self.word, "turns"), text
 
     def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:

@@ -110,6 +110,11 @@ def test_what_hands_cannot_do_is_told_with_its_place_and_what_they_can(old, new,
     assert any(line in each for each in told(TEXT.replace(old, new, 1)))
 
 
+def test_what_is_wrong_with_one_balloon_is_not_told_of_another():
+    (line,) = told(TEXT.replace("{bug: belly}", "{bug: belly, shell: belly}", 1))
+    assert "steps[0].insert.shell: lies in itself" in line
+
+
 def test_air_particles_have_no_balloons_in_others():
     lines = told(TEXT + "physics: {model: kosaka}\n")
     assert any("steps[0].insert: makes no sense with model kosaka" in each for each in lines)

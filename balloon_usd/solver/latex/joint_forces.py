@@ -68,7 +68,8 @@ class JointForces:
         # The last is of the ends that no weld holds.
         most = np.zeros(self._count + 1, dtype=np.float32)
         force = strut_force[self._of_struts]
-        np.maximum.at(most, self._holders, np.sqrt(np.einsum("ij,ij->i", force, force)))
+        # Struts of what has flown apart have no force.
+        np.fmax.at(most, self._holders, np.sqrt(np.einsum("ij,ij->i", force, force)))
         found: Floats = most[self._ends]
         return found
 
