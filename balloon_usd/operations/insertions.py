@@ -60,9 +60,10 @@ class Insertions:
 
     def _lies(self, piece: Workpiece, balloon: str) -> bool:
         """Whether a balloon is put into a bubble of another."""
-        host, _ = self.put_in.get(balloon, ("", None))
-        made = piece.bubbles.get(host)
-        return balloon in self.put_in and (made is None or made.balloon != balloon)
+        if balloon not in self.put_in:
+            return False
+        made = piece.bubbles.get(self.put_in[balloon][0])
+        return made is None or made.balloon != balloon
 
     def _full_before(self, path: Path, balloons: Iterable[str]) -> list[str]:
         """Return the balloons that no step after one blows up."""

@@ -8,7 +8,7 @@ import numpy as np
 
 from balloon_usd.operations.moves import Fall
 from balloon_usd.quality.measures import MEASURES
-from balloon_usd.solver.status import COMES_UNDONE
+from balloon_usd.solver.status import coming_undone
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -45,9 +45,7 @@ class Rest:
     def add(self, frame: Frame) -> None:
         """Take the next frame."""
         code = frame.time_code
-        self._undone |= dict.fromkeys(frame.undone)
-        if frame.doing.startswith(COMES_UNDONE):
-            self._undone |= dict.fromkeys(frame.doing.removeprefix(COMES_UNDONE).split(", "))
+        self._undone |= dict.fromkeys([*frame.undone, *coming_undone(frame.doing)])
         kept = (self._let_go, self._half, self._rested)
         if code < self._late and code not in kept:
             return

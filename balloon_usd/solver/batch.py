@@ -52,8 +52,6 @@ class Batch:
         self._counts = np.array(frame_counts)
         self._failed = np.zeros(len(plans), dtype=bool)
         """Plans that have failed."""
-        self._left = np.zeros(len(plans), dtype=bool)
-        """Plans that are over, and are advanced no more."""
         self._ahead = ahead
         with capture_lock():
             self.model: Model = model(plans, meshes, self._fps, substeps, device, threads)
@@ -120,9 +118,8 @@ class Batch:
     def _advance(self, index: int) -> None:
         """Begin the frame of an index of the plans that have one."""
         over = ~self._made(index)
-        if (fresh := over & ~self._left).any():
-            self.model.leave(np.flatnonzero(fresh))
-            self._left = over
+        if (over != self.model.over).any():
+            self.model.leave(over)
         self.model.advance((index - 1) / self._fps, index / self._fps)
 
     def _made(self, index: int) -> NDArray[np.bool_]:

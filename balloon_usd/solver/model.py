@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from itertools import chain
+from itertools import chain, compress
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
@@ -50,8 +50,8 @@ class Model(ABC):
         self.severed: dict[int, tuple[Severed, ...]] = {}
         """What was cut off of sculptures, as of that state."""
         self._hands, self._bodies, self._readback = hands, bodies, readback
-        self._over = np.zeros(len(self.performers), dtype=bool)
-        """Sculptures that are over, (W,)."""
+        self.over = np.zeros(len(self.performers), dtype=bool)
+        """Sculptures that are left alone, since their runs have ended or failed, (W,)."""
         self._state: dict[str, NDArray[Any]] = {}
         """Arrays of the state read back last, by name."""
 
@@ -60,7 +60,7 @@ class Model(ABC):
         middle = self._state["ring_middle"].copy()
         self._hands.begin_frame(self._state)
         frame = ComingFrame(begin, end, middle)
-        for world in np.flatnonzero(~self._over & ~self.layout.astray(middle)).tolist():
+        for world in np.flatnonzero(~self.over & ~self.layout.astray(middle)).tolist():
             self.performers[world].act(frame)
         self._start_physics(begin, end, middle)
 
@@ -101,10 +101,10 @@ class Model(ABC):
     def failures(self) -> dict[int, str]:
         """Return failures that the frames do not show, by sculpture."""
 
-    def leave(self, worlds: NDArray[np.int64]) -> None:
-        """Leave sculptures alone whose run has ended or failed."""
-        self._over[worlds] = True
-        self._hands.stop_touching(chain.from_iterable(self._bodies[world] for world in worlds.tolist()))
+    def leave(self, over: NDArray[np.bool_]) -> None:
+        """Leave sculptures alone whose runs have ended or failed, (W,)."""
+        self.over = over
+        self._hands.stop_touching(chain.from_iterable(compress(self._bodies, over)))
 
 
 class ModelMaker(Protocol):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from balloon_usd.solver.status import COMES_UNDONE, Status
+from balloon_usd.solver.status import Status, comes_undone
 
 if TYPE_CHECKING:
     from balloon_usd.operations.moves import Move
@@ -73,6 +73,6 @@ class Performer:
     def _update_status(self) -> None:
         """Set the status, a new object only where it differs."""
         loose, undone = self.sculpture.unwinding, self.sculpture.undone
-        doing = f"{COMES_UNDONE}{', '.join(loose)}" if loose else self._text
+        doing = comes_undone(loose) if loose else self._text
         if (doing, undone) != self.status:
             self.status = Status(doing, undone)

@@ -9,10 +9,11 @@ from balloon_usd.balloon.air import ATMOSPHERE
 from balloon_usd.balloon.ringed_faces import polygon_share
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
+    from balloon_usd.plan.strip import PlannedBubble
     from balloon_usd.solver.frame import Frame
 
 
@@ -26,14 +27,10 @@ def shares_of_planned_gas(plan: Plan, meshes: Sequence[BalloonMesh], frame: Fram
         name: polygon_share(mesh.around) if strip.has_tail else 1.0
         for (name, strip), mesh in zip(plan.strips.items(), meshes, strict=True)
     }
-    left_out = _sharing(plan, frame) | plan.limp
     found: dict[str, float] = {}
-    for bubble, volume, pressure in zip(plan.bubbles, frame.volume, frame.pressure, strict=True):
-        if bubble.volume > 0.0 and bubble.name not in left_out:
-            share = float(volume) / (polygon[bubble.balloon] * bubble.volume)
-            if bubble.pressure is not None:
-                share *= pressing(float(pressure), bubble.pressure)
-            found[bubble.name] = share
+    for bubble, volume, pressure in _tight(plan, frame):
+        share = volume / (polygon[bubble.balloon] * bubble.volume)
+        found[bubble.name] = share * (1.0 if bubble.pressure is None else _density(pressure, bubble.pressure))
     return found
 
 
@@ -41,25 +38,29 @@ def squeezed(plan: Plan, frame: Frame) -> dict[str, float]:
     """Return by which share of its volume each bubble is squeezed, by name: so much its pressure is above the
     planned. Not those without a planned pressure, nor those that `shares_of_planned_gas` leaves out.
     """
-    left_out = _sharing(plan, frame) | plan.limp
     return {
-        bubble.name: max(0.0, 1.0 - 1.0 / pressing(float(pressure), bubble.pressure))
-        for bubble, pressure in zip(plan.bubbles, frame.pressure, strict=True)
-        if bubble.pressure is not None and bubble.volume > 0.0 and bubble.name not in left_out
+        bubble.name: max(0.0, 1.0 - 1.0 / _density(pressure, bubble.pressure))
+        for bubble, _, pressure in _tight(plan, frame)
+        if bubble.pressure is not None
     }
 
 
-def pressing(pressure: float, planned: float) -> float:
+def _density(pressure: float, planned: float) -> float:
     """Return how many times as dense gas is at a gauge pressure as at the planned one, Pa (isothermal)."""
     return (ATMOSPHERE + pressure) / (ATMOSPHERE + planned)
 
 
-def _sharing(plan: Plan, frame: Frame) -> set[str]:
-    """Return the bubbles beside joints that have come undone."""
-    return {
+def _tight(plan: Plan, frame: Frame) -> Iterator[tuple[PlannedBubble, float, float]]:
+    """Yield the bubbles that have gas of their own, with its volume (m3) and gauge pressure (Pa): not those
+    beside a joint that has come undone, nor limp ones.
+    """
+    sharing = {
         bubble.name
         for strip in plan.strips.values()
         for before, behind in pairwise(strip.bubbles)
         if f"{before.name}.end" in frame.undone
         for bubble in (before, behind)
     }
+    for bubble, volume, pressure in zip(plan.bubbles, frame.volume, frame.pressure, strict=True):
+        if bubble.volume > 0.0 and bubble.name not in sharing | plan.limp:
+            yield bubble, float(volume), float(pressure)

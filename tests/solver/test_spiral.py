@@ -151,6 +151,16 @@ def test_what_cannot_be_wound_is_refused_with_what_would_go(step, told):
     assert told in str(caught.value)
 
 
+@pytest.mark.parametrize(
+    ("length", "advice"), [(15, "expected at most 0.7, or 41.6 cm"), (8, "for 2 turns, expected 41.6 cm")]
+)
+def test_fewer_turns_are_named_only_where_so_few_can_be_asked_for(length, advice):
+    short = PAIR.replace("one: 29, other: 29", f"one: {length}, other: {length}")
+    with pytest.raises(RecipeError) as caught:
+        plan(Recipe.parse(f"{short}  - spiral: {{bubbles: [one, other], turns: 2}}\n"))
+    assert advice in str(caught.value)
+
+
 def test_what_is_left_of_a_balloon_ends_in_no_joint_and_a_popped_bubble_has_no_gas():
     rest = PAIR + "  - rest: end\n  - spiral: {bubbles: [one, end]}\n"
     with pytest.raises(RecipeError, match="one and end do not begin and end"):

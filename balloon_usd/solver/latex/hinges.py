@@ -193,7 +193,7 @@ class HingedFigure:
         scene: LatexScene,
         beyond: Sequence[Mapping[int, float]],
         joints: Sequence[int],
-        segments: Sequence[tuple[int, int]],
+        segments: NDArray[np.int32],
     ) -> None:
         """Part some bodies.
 
@@ -202,7 +202,7 @@ class HingedFigure:
             beyond: for every hinge the place along each body, unstressed distance from the knot, beyond which
                 it turns with what lies beyond (m); infinite where all of it lies on one side.
             joints: of the hinges, in the scene.
-            segments: before and beyond each hinge.
+            segments: before and beyond each hinge, (H, 2).
         """
         self._joints, self._segments = joints, segments
         self._vertices = np.r_[tuple(map(scene.vertices_of, beyond[0]))]

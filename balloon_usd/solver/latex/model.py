@@ -126,10 +126,10 @@ class LatexModel(Model):
         """Return the substeps of a frame at 24 frames per second: a finer mesh needs more."""
         return detail.substeps
 
-    def leave(self, worlds: NDArray[np.int64]) -> None:
-        """Leave sculptures alone whose run has ended or failed."""
-        super().leave(worlds)
-        self.stepper.leave(self._over)
+    def leave(self, over: NDArray[np.bool_]) -> None:
+        """Leave sculptures alone whose runs have ended or failed, (W,)."""
+        super().leave(over)
+        self.stepper.leave(over)
 
     def _start_physics(self, begin: float, end: float, middle: NDArray[np.float32]) -> None:
         self._reached = end

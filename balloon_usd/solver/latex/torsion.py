@@ -99,11 +99,7 @@ class Torsion:
             assert ring is not None, "two bubbles meet in a loose joint"
             self.joints[ring].held = False
             own, along = self.plan.table.rings[ring].balloon, self.plan.table.rings[ring].along
-            loose.append(
-                LooseNeck(
-                    str(joint.end), self._ring[ring], self._beside(own, joint.end.bubble), self.joints[ring]
-                )
-            )
+            loose.append(LooseNeck(str(joint.end), self._ring[ring], self.joints[ring]))
             # Every other balloon lies wholly on one side.
             sides = {
                 name: -math.inf if strip.bubbles[0].name in joint.beyond else math.inf
@@ -111,20 +107,14 @@ class Torsion:
                 if strip.bubbles[0].name in figure
             }
             beyond.append({self._body[name]: at for name, at in (sides | {own: along}).items()})
-        return Unwinding(self.scene, loose, beyond)
-
-    def _beside(self, balloon: str, bubble: str) -> tuple[int, int]:
-        """Segments of the scene before and beyond the end of a bubble."""
-        names = [planned.name for planned in self.plan.strips[balloon].bubbles]
-        first = int(self.scene.bubbles_of(self._body[balloon])[0]) + names.index(bubble)
-        return first, first + 1
+        return Unwinding(self.scene, self.hands, loose, beyond)
 
     def unwind(self, seconds: float, middle: Floats) -> None:
         """Let all loose joints unwind in the coming frame; `middle`: of all joints, (J, 3), m."""
         for figure in self._unwinding:
             for neck in figure.necks:
-                neck.wound.pressure = float(self.hands.pressure[list(neck.beside)].min())
-            for neck in figure.advance(self.hands, seconds, middle):
+                neck.wound.pressure = float(self.hands.pressure[self.hands.beside[neck.joint]].min())
+            for neck in figure.advance(seconds, middle):
                 wound = neck.wound
                 self.hands.draw_rubber(neck.joint, wound.drawn)
                 if wound.angle < CLOSED_ANGLE and neck.name not in self.undone:

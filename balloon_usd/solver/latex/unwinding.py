@@ -62,8 +62,6 @@ class LooseNeck:
     name: str
     joint: int
     """Of the scene."""
-    beside: tuple[int, int]
-    """Segments of the scene before and beyond it."""
     wound: WoundJoint
 
 
@@ -71,28 +69,33 @@ class Unwinding:
     """The loose necks of a figure."""
 
     def __init__(
-        self, scene: LatexScene, necks: Sequence[LooseNeck], beyond: Sequence[Mapping[int, float]]
+        self,
+        scene: LatexScene,
+        hands: LatexControls,
+        necks: Sequence[LooseNeck],
+        beyond: Sequence[Mapping[int, float]],
     ) -> None:
         """Begin at rest; `beyond`: of every neck, as of `HingedFigure`."""
+        self._hands = hands
         self._drag = scene.settings.drag
         self._all = tuple(necks)
         self._opened: dict[LooseNeck, float] = {}
         """Necks that have opened, and how long ago, s."""
-        joints, beside = [neck.joint for neck in necks], [neck.beside for neck in necks]
-        self._figure = HingedFigure(scene, beyond, joints, beside)
+        joints = [neck.joint for neck in necks]
+        self._figure = HingedFigure(scene, beyond, joints, hands.beside[joints])
 
     @property
     def necks(self) -> list[LooseNeck]:
         """Those that still unwind."""
         return [neck for neck in self._all if neck.wound.turns]
 
-    def advance(self, hands: LatexControls, seconds: float, middle: NDArray[np.float32]) -> list[LooseNeck]:
+    def advance(self, seconds: float, middle: NDArray[np.float32]) -> list[LooseNeck]:
         """Let them unwind in the coming frame of so many seconds; return those that did.
 
         `middle`: of all joints, (J, 3), m.
         """
         moving = [number for number, neck in enumerate(self._all) if neck.wound.turns]
-        parts = self._figure.parts(hands.places, middle, moving)
+        parts = self._figure.parts(self._hands.places, middle, moving)
         necks = [self._all[number] for number in moving]
         wound, limits = [neck.wound for neck in necks], Limits(MOST_SPEED, SWING, MOST_ANGLE / seconds)
         alone = _rates_alone(parts)
@@ -106,7 +109,7 @@ class Unwinding:
             for joint, own, rate in zip(wound, impulses, response.compliance @ impulses, strict=True):
                 joint.impulse = float(own)
                 joint.turn(float(rate) * seconds / STEPS)
-        self._figure.follow(hands, parts, seconds)
+        self._figure.follow(self._hands, parts, seconds)
         self._opened = {neck: ago + seconds for neck, ago in self._opened.items()}
         self._opened |= {neck: 0.0 for neck in necks if not neck.wound.turns}
         return necks
@@ -117,12 +120,17 @@ class Unwinding:
         """
         open_yet = [neck for neck, ago in self._opened.items() if ago < SETTLING_SECONDS]
         open_yet += [neck for neck in necks if neck.wound.angle < CLOSED_ANGLE]
-        moving = {segment for neck in open_yet for segment in neck.beside}
+        moving = {segment for neck in open_yet for segment in self._beside(neck)}
         for neck in necks:
-            nearly = CLOSED_ANGLE <= neck.wound.angle < NEARLY_OPEN
-            neck.wound.waits = nearly and not moving.isdisjoint(neck.beside)
+            nearly, beside = CLOSED_ANGLE <= neck.wound.angle < NEARLY_OPEN, self._beside(neck)
+            neck.wound.waits = nearly and not moving.isdisjoint(beside)
             if nearly and not neck.wound.waits:
-                moving.update(neck.beside)
+                moving.update(beside)
+
+    def _beside(self, neck: LooseNeck) -> list[int]:
+        """Return the segments of the scene before and beyond a neck."""
+        beside: list[int] = self._hands.beside[neck.joint].tolist()
+        return beside
 
 
 def _rates_alone(parts: HingedParts) -> Floats:
