@@ -103,7 +103,17 @@ def workbench_of(balloons: Iterable[str], steps: Sequence[StepEntry]) -> Workben
     pumped: dict[str, Path] = {}
     for step in steps:
         pumped = step.pumped | pumped
-    return Workbench(names, made_ever, _unnamed_rests(names, steps, made_ever), pumped)
+    rests = _unnamed_rests(names, steps, made_ever)
+    return Workbench(names, made_ever, rests, pumped, _rows(names, steps))
+
+
+def _rows(balloons: Sequence[str], steps: Sequence[StepEntry]) -> dict[str, list[str]]:
+    """Return all bubbles that steps make of each balloon, from its knot on."""
+    only = balloons[0] if len(balloons) == 1 else None
+    rows: dict[str, list[str]] = {balloon: [] for balloon in balloons}
+    for step in steps:
+        rows.get(step.balloon or only or "", []).extend(step.makes)
+    return rows
 
 
 def _unnamed_rests(

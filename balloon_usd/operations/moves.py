@@ -322,8 +322,8 @@ class PassThrough(Move):
     """Unit direction in which it points in the end; None for where it pointed before."""
 
     @property
-    def middle(self) -> int:
-        """Ring nearest the middle of the bubble."""
+    def held(self) -> int:
+        """Ring of the bubble for which it is asked whether it has gone through: nearest its middle."""
         return self.led[self.row + (len(self.led) - self.row - 1) // 2]
 
 
@@ -333,6 +333,15 @@ class Thread(PassThrough):
 
     flat: int = 0
     """How many of the last rings lie on the flat tail."""
+    more: int = 0
+    """How many of the last rings are of what is made later, behind the bubble."""
+
+    @property
+    def held(self) -> int:
+        """Ring for which it is asked whether it has gone through: nearest the middle of the bubble, or that
+        of the round end of the tube where more is made of it, for short bubbles lie beside the ring.
+        """
+        return self.led[-1 - self.flat] if self.more else super().held
 
 
 @dataclass(frozen=True)

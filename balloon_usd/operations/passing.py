@@ -105,20 +105,29 @@ class Passing(OnBalloon, Pointed, Timed, Operation):
     @classmethod
     def check(cls, value: object, place: Place, bench: Workbench) -> None:
         """Bring a bubble that is there, and has its gas, into a closed ring of others."""
-        path, written = (*place.path, cls.word), cls._names_in(value)
-        places = [((*path, *at), name) for at, name in written]
+        path, names = (*place.path, cls.word), cls.uses(value)
+        piece = cls.piece_with(names[0], place, bench) if names else bench.piece
         found = [
-            isinstance(name, str) and bench.has_name(name, at) and bench.find_firm(name, at)
-            for at, name in places
+            isinstance(name, str) and cls.finds(name, (*path, *at), piece, bench)
+            for at, name in cls._names_in(value)
         ]
-        names = cls.uses(value)
-        if len(names) < 2 or not all(found) or not bench.knows(names):
+        if len(names) < 2 or not all(found) or not set(names) <= piece.bubbles.keys():
             return
-        fault = next(cls._faults(bench.piece, names[0], names[1:]), None)
+        fault = next(cls._faults(piece, names[0], names[1:]), None)
         if fault is None and cls.fits(names[0], (*path, "bubble"), bench):
             bench.piece.touch(place.index, cls.word, names[0], names[1:])
         elif fault is not None:
             bench.complain(path, fault)
+
+    @classmethod
+    def piece_with(cls, name: str, place: Place, bench: Workbench) -> Workpiece:
+        """Return the workpiece on which a bubble of a name is brought into a ring."""
+        return bench.piece
+
+    @classmethod
+    def finds(cls, name: str, path: Path, piece: Workpiece, bench: Workbench) -> bool:
+        """Say whether a bubble is there and has its gas, and complain if it does not."""
+        return bench.has_name(name, path) and bench.find_firm(name, path)
 
     @classmethod
     def _faults(cls, piece: Workpiece, name: str, ring: Sequence[str]) -> Iterator[str]:
@@ -179,14 +188,14 @@ class Passing(OnBalloon, Pointed, Timed, Operation):
 
     def misfits(self, layout: Layout) -> Iterator[tuple[tuple[str, ...], str]]:
         """Yield a bubble that is far too long for its ring."""
-        length, depth = layout.bubble(self.bubble).length, depth_of(layout, self.ring)
+        length, depth = self.length(layout), depth_of(layout, self.ring)
         if length > LONGEST * depth:
             what = f"{self.bubble} is {cm(length)} long, and {all_of(self.ring)} only {cm(depth)} deep"
             yield (self.word, "bubble"), f"{what}, expected {at_most(LONGEST * depth)} or less"
 
     def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:
         """Warn of a bubble that gets stuck in its ring."""
-        length, depth = layout.bubble(self.bubble).length, depth_of(layout, self.ring)
+        length, depth = self.length(layout), depth_of(layout, self.ring)
         most = (STUCK_IN_LOOP if len(self.ring) == 1 else STUCK_IN_RING) * depth
         if length > most:
             yield Caution(
@@ -195,6 +204,14 @@ class Passing(OnBalloon, Pointed, Timed, Operation):
                 f"the ring is {cm(depth)} deep, and it gets stuck at its far end",
                 f"make it {cm(most)} long, or less",
             )
+
+    def brought(self, layout: Layout) -> tuple[str, ...]:
+        """Return what goes through: the bubble, and what hangs on it."""
+        return (self.bubble,)
+
+    def length(self, layout: Layout) -> float:
+        """Return how long that is, m."""
+        return sum(layout.bubble(name).length for name in self.brought(layout))
 
     def hand_seconds(self, length: float) -> float:
         """Return how long a calm maker takes to bring a bubble of a length (m) there, s."""
@@ -209,8 +226,9 @@ class Passing(OnBalloon, Pointed, Timed, Operation):
         layout, bubble = score.layout, score.layout.bubble(self.bubble)
         opening = _around(score, self.ring)
         base, row, led = _held_and_led(score, self.bubble, opening)
+        more = [ring for name in self.brought(layout)[1:] for ring in layout.along(name)[1:]]
         text = f"{self.word}: {self.bubble}"
-        seconds = self.hand_seconds(bubble.length)
+        seconds = self.hand_seconds(self.length(layout))
         doing = f"bring {self.bubble} through its ring"
         score.refuse_haste(index, self.seconds, seconds + SETTLE_SECONDS, doing)
         move = PassThrough(
@@ -220,7 +238,7 @@ class Passing(OnBalloon, Pointed, Timed, Operation):
             text,
             bubble=self.bubble,
             base=base,
-            led=(*row, *led),
+            led=(*row, *led, *more),
             row=len(row),
             opening=opening,
             width=bubble.width,

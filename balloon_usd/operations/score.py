@@ -75,6 +75,10 @@ class Ring(Protocol):
         """Its balloon."""
 
     @property
+    def along(self) -> float:
+        """Unstressed distance from the knot, m."""
+
+    @property
     def joint(self) -> bool:
         """Whether it can be closed."""
 
@@ -119,6 +123,10 @@ class PlacedBubble(Protocol):
         """Flat rubber that its gas does not fill, m: of what is left of a tube, its tail."""
 
     @property
+    def front(self) -> float:
+        """Unstressed distance of the gas's end from the knot before it is twisted off, m."""
+
+    @property
     def tip_gives_way(self) -> bool:
         """Whether the tip of its balloon, once stretched, bulges at the pressure of the tube."""
 
@@ -155,6 +163,9 @@ class Layout(Protocol):
 
     def guides(self, bubble: str) -> tuple[int, ...]:
         """Return the guide rings inside a bubble, from its start to its end."""
+
+    def onward(self, bubble: str) -> tuple[str, ...]:
+        """Return a bubble and those behind it on its balloon, away from the knot."""
 
     def along(self, bubble: str) -> tuple[int, ...]:
         """Return all rings of a bubble, from its start to its end; the tip has none."""

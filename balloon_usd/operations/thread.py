@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
 from balloon_usd.language.choices import all_of
 from balloon_usd.language.lengths import at_least, cm
 from balloon_usd.language.names import Name
+from balloon_usd.language.problem import quoted
 from balloon_usd.operations import moves
 from balloon_usd.operations.caution import Caution
 from balloon_usd.operations.modifiers import Entries
@@ -18,8 +20,8 @@ if TYPE_CHECKING:
 
     from balloon_usd.language.problem import Path
     from balloon_usd.operations.score import Layout
-    from balloon_usd.operations.workbench import Workbench
-    from balloon_usd.operations.workpiece import ContactKind
+    from balloon_usd.operations.workbench import Place, Workbench
+    from balloon_usd.operations.workpiece import ContactKind, Workpiece
 
 SHORTEST = 5.8
 """Length below which a bubble cannot be bent round into its ring, in its widths: in simulations of a 260 one
@@ -39,7 +41,7 @@ class ThreadedBubble(Entries):
     """What is pulled through what."""
 
     bubble: Name
-    """What is left of a balloon, beside the ring."""
+    """What is left of a balloon, beside the ring: its rest, or the bubble that is made of it next."""
     through: Ring
     """The bubbles of the ring: one that closes on itself, or those of a lock."""
 
@@ -75,17 +77,34 @@ steps:
     """Pull what is left of a balloon through a closed ring of bubbles."""
 
     @classmethod
+    def piece_with(cls, name: str, place: Place, bench: Workbench) -> Workpiece:
+        """Return the workpiece, with what is left of a balloon as its last bubble if the next has a name."""
+        return bench.with_next(name, place)
+
+    @classmethod
+    def finds(cls, name: str, path: Path, piece: Workpiece, bench: Workbench) -> bool:
+        """Say whether a bubble is there, or is made of what is left next, and complain if it is not."""
+        if name in piece.bubbles and name not in bench.piece.bubbles:
+            return True
+        if path[-1] == "bubble" and (other := bench.made_before(name)) is not None:
+            what = f"bubble {quoted(name)} is made after {quoted(other)}"
+            bench.complain(path, f"{what}, expected {quoted(other)}, with which what is left begins")
+            return False
+        return super().finds(name, path, piece, bench)
+
+    @classmethod
     def fits(cls, name: str, path: Path, bench: Workbench) -> bool:
         """Say whether a bubble is what is left of a balloon, and complain if it is not."""
-        return bench.has_tail(name, path)
+        return bench.has_tail(name, path, expected="its rest, or the bubble that is made of it next")
 
     def misfits(self, layout: Layout) -> Iterator[tuple[tuple[str, ...], str]]:
         """Yield a bubble that is too short to be bent round."""
-        bubble = layout.bubble(self.bubble)
-        if bubble.length < (least := SHORTEST * bubble.width):
-            what = f"{cm(bubble.length)} of a {bubble.size} are too short to be bent round into a ring"
+        bubble, length = layout.bubble(self.bubble), self.length(layout)
+        if length < (least := SHORTEST * bubble.width):
+            what = f"{cm(length)} of a {bubble.size} are too short to be bent round into a ring"
             beside = {ring for name in self.ring for ring in layout.ends(name)}
-            fits = bubble.length <= LONGEST * depth_of(layout, self.ring)
+            alone = self.brought(layout) == (self.bubble,)
+            fits = alone and length <= LONGEST * depth_of(layout, self.ring)
             other = ", or push" if fits and layout.ends(self.bubble)[0] in beside else ""
             yield (self.word, "bubble"), f"{what}, expected at least {at_least(least)}{other}"
 
@@ -100,10 +119,21 @@ steps:
                 f"make the way round it at least {at_least(2.0 * least)} long",
             )
 
+    def brought(self, layout: Layout) -> tuple[str, ...]:
+        """Return all that is left of the balloon, of which more bubbles may be made later."""
+        return layout.onward(self.bubble)
+
     def hand_seconds(self, length: float) -> float:
         """Return how long a calm maker takes to pull a tube of a length (m) through, s."""
         return BENDING_SECONDS + length / PULLING_SPEED
 
     def as_moved(self, move: moves.PassThrough, layout: Layout) -> moves.PassThrough:
         """Return the move that pulls it through, given what all such moves have."""
-        return moves.Thread(**vars(move), flat=sum(layout.ring(ring).flat for ring in move.led))
+        front = layout.bubble(self.bubble).front
+        blown = tuple(ring for ring in move.led if layout.ring(ring).along <= front)
+        beyond = move.led[len(blown) :]
+        # Of its flat tail the tip alone is led: held at more places, a tube got stuck in a pair of 6 cm.
+        led = (*blown, *beyond[-1:])
+        end = layout.ends(self.bubble)[1]
+        more = 0 if end is None else len(led) - 1 - led.index(end)
+        return moves.Thread(**vars(replace(move, led=led)), flat=len(led) - len(blown), more=more)

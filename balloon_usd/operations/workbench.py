@@ -49,6 +49,7 @@ class Workbench:
         made_ever: Mapping[str, Path],
         rests: Mapping[str, UnnamedRest],
         pumped: Mapping[str, Path],
+        rows: Mapping[str, Sequence[str]],
     ) -> None:
         """Begin with balloons of which nothing is made.
 
@@ -57,6 +58,7 @@ class Workbench:
             made_ever: where each bubble is made that any step makes, for words about steps in a wrong order.
             rests: what is left of balloons in the end, by the names that it gets.
             pumped: where each balloon is blown up that is not so from the beginning.
+            rows: all bubbles that steps make of each balloon, from its knot on.
         """
         self.complaints: list[Complaint] = []
         self._balloons = tuple(balloons)
@@ -70,7 +72,7 @@ class Workbench:
         self._tied_at: dict[str, Path] = {}
         """Where the tip behind a rest was tied."""
         self._made_ever, self._rests = made_ever, rests
-        self._pumped = pumped
+        self._pumped, self._rows = pumped, rows
         self._insertions = Insertions(made_ever, pumped)
         self._told_flat: set[str] = set()
         """Balloons of which was told that they are worked on while they are flat."""
@@ -303,15 +305,37 @@ class Workbench:
         if len(self.complaints) == known and name not in self._rests:
             self.has_tail(name, path)
 
-    def has_tail(self, name: str, path: Path) -> bool:
+    def with_next(self, name: str, place: Place) -> Workpiece:
+        """Return the workpiece as it is, what is left of a balloon as its last bubble where the next that is
+        made of it has a name.
+        """
+        for balloon in self._rows:
+            if name == self._next(balloon):
+                found = self.piece.after(place.index)
+                found.make(place.index, name, balloon, last=True)
+                return found
+        return self.piece
+
+    def made_before(self, name: str) -> str | None:
+        """Return the bubble that is made next of the balloon of which one of a name is made later; None where
+        none is.
+        """
+        balloons = (it for it, row in self._rows.items() if name in row and name not in self._made_at)
+        found = {self._next(balloon) for balloon in balloons} - {name}
+        return found.pop() if found else None
+
+    def _next(self, balloon: str) -> str | None:
+        return next((each for each in self._rows[balloon] if each not in self._made_at), None)
+
+    def has_tail(self, name: str, path: Path, *, expected: str = "its rest") -> bool:
         """Say whether a bubble that is there is what is left of a balloon, and complain if it is not."""
         if name in self._tied_at:
             at = path_text(self._tied_at[name])
             self.complain(path, f"the tip of {quoted(name)} was tied at {at}, expected one that is free")
             return False
         if name in self.piece.bubbles and not self.piece.bubbles[name].last:
-            what = f"bubble {quoted(name)} has no tail, expected what is left of a balloon"
-            self.complain(path, f"{what}, which a step rest names")
+            what = f"bubble {quoted(name)} is not what is left of a balloon"
+            self.complain(path, f"{what}, expected {expected}")
             return False
         return True
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
@@ -211,7 +211,14 @@ class Workpiece:
         for made in self._made.values():
             if made.last and made.balloon in begun and made.bubble not in found._made:
                 found._do(made)
+                found._call_left(self.row(made.balloon), made)
         return found
+
+    def _call_left(self, names: Container[str], left: Made) -> None:
+        """Let contacts of bubbles of some names that are not made yet be of what is left of their balloon."""
+        for at, event in enumerate(self.history):
+            if isinstance(event, Contact) and event.bubble in names and event.bubble not in self._made:
+                self.history[at] = replace(event, bubble=left.bubble)
 
     # What there is.
 
@@ -309,13 +316,17 @@ class Workpiece:
 
         That is where just two bubbles meet, not brought together by any step, and neither belongs to a closed
         ring, lies in one, or in a row that leads back into one: there, turning one bubble would have to turn
-        the ring.
+        the ring. Behind a bubble that lies in a ring by a thread, what was made later turns beside that.
         """
-        bridges = self.bridges() - self.gripped() - self._in_rows()
+        held = self.gripped() | self._in_rows()
+        behind = {Joint(contact.bubble, "end") for contact in self.contacts if contact.kind == "thread"}
+        free = {bubble for bubble in self.bridges() if bubble not in held}
         return [
             ends
             for ends in self.joints
-            if len(ends) == 2 and not self.is_merged(ends) and bridges.issuperset(end.bubble for end in ends)
+            if len(ends) == 2
+            and not self.is_merged(ends)
+            and all(end.bubble in free or end in behind for end in ends)
         ]
 
     def free_to_spin(self, end: Joint) -> bool:
@@ -360,10 +371,12 @@ class Workpiece:
 
     def row_from(self, ring: Iterable[str], bubble: str) -> tuple[str, ...] | None:
         """Return the bubbles of its balloon between a joint of a ring and the start of a bubble, without ears
-        and loops; None where more than these hangs there.
+        and loops; None where more than these hangs there, or it is not made yet.
         """
         corners = {joint for each in ring for joint in self._ends(each)}
-        trail = next(trail for trail in self.trails if bubble in trail)
+        trail = next((trail for trail in self.trails if bubble in trail), None)
+        if trail is None:
+            return None
         found: list[str] = []
         beside = {self._ends(bubble)[0]: {bubble}}
         """Bubbles of the row at each of its joints."""

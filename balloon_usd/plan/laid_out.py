@@ -61,6 +61,10 @@ class _Placed:
         return planned.rest_end - self.strip.rest_place(planned, planned.length)
 
     @property
+    def front(self) -> float:
+        return self.planned.front
+
+    @property
     def tip_gives_way(self) -> bool:
         return bulges_once_stretched(self.strip.rubber)
 
@@ -117,6 +121,10 @@ class LaidOut:
     def guides(self, bubble: str) -> tuple[int, ...]:
         """Return the guide rings inside a bubble, from its start to its end."""
         return self._table.guides(bubble)
+
+    def onward(self, bubble: str) -> tuple[str, ...]:
+        """Return a bubble and those behind it on its balloon, away from the knot."""
+        return self._table.onward(bubble)
 
     def along(self, bubble: str) -> tuple[int, ...]:
         """Return all rings of a bubble, from its start to its end; the tip has none."""

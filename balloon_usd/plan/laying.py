@@ -113,7 +113,9 @@ def _tube(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> Strip
     bubbles: list[PlannedBubble] = []
     along, rest_along, drawn_before = 0.0, 0.0, 0.0
     bent = {each for step in recipe.steps if isinstance(step, Curves) for each in step.names}
-    bent |= {step.bubble for step in recipe.steps if isinstance(step, Thread)}
+    row = recipe.piece.row(name)
+    threaded = [step.bubble for step in recipe.steps if isinstance(step, Thread) and step.bubble in row]
+    bent.update(*(row[row.index(each) :] for each in threaded))
     places = {each: count for s in recipe.steps for each, count in s.held_at(recipe.piece).items()}
     for made in _wound(recipe, name, size, rubber):
         shape, left = (_closed if made.length == ALL else _pinched)(recipe, tube, made)
@@ -124,11 +126,14 @@ def _tube(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> Strip
         planned = PlannedBubble(bubble, name, kind, length, *place, shape.volume, index, pressure)
         drawn_in = drawn_before, drawn
         planned = replace(planned, bent=bubble in bent, places=places.get(bubble, 0))
-        bubbles.append(replace(planned, gas=gas, drawn=drawn_in, slack=slack))
+        front = size.length - tube.tail
+        bubbles.append(
+            replace(planned, gas=gas, drawn=drawn_in, slack=slack, front=front, leads=bubble in threaded)
+        )
         tube, along, rest_along, drawn_before = left, along + length, rest_end, drawn
     rest = _rest_of_tube(recipe, name, tube, along, rest_along)
     rest = replace(rest, bent=rest.name in bent, places=places.get(rest.name, 0))
-    bubbles.append(replace(rest, drawn=(drawn_before, 0.0)))
+    bubbles.append(replace(rest, drawn=(drawn_before, 0.0), front=size.length - tube.tail))
     return Strip(name, size, rubber, tail, tuple(bubbles))
 
 

@@ -65,13 +65,14 @@ class RingTable:
         for k, ring in enumerate(self.rings):
             if not ring.joint:
                 self._guides[ring.bubble] = (*self._guides.get(ring.bubble, ()), k)
-        self._last = {strip.bubbles[-1].name for strip in strips.values()}
+        rows = [tuple(bubble.name for bubble in strip.bubbles) for strip in strips.values()]
+        self._onward = {row[at]: row[at:] for row in rows for at in range(len(row))}
 
     def joint(self, end: Joint) -> int | None:
         """Return the ring of a bubble's end, or None for the tip, which has none."""
         if end.end == "start":
             return self._index[self._starts[end.bubble]]
-        return None if end.bubble in self._last else self._index[f"{end.bubble}.end"]
+        return None if self._onward[end.bubble] == (end.bubble,) else self._index[f"{end.bubble}.end"]
 
     def ends(self, bubble: str) -> tuple[int, int | None]:
         """Return the rings of a bubble's start and end."""
@@ -82,6 +83,10 @@ class RingTable:
     def guides(self, bubble: str) -> tuple[int, ...]:
         """Return the guide rings inside a bubble, from its start to its end."""
         return self._guides.get(bubble, ())
+
+    def onward(self, bubble: str) -> tuple[str, ...]:
+        """Return a bubble and those behind it on its balloon, away from the knot."""
+        return self._onward[bubble]
 
     def along(self, bubble: str) -> tuple[int, ...]:
         """Return all rings of a bubble, from its start to its end; the tip has none."""
@@ -120,20 +125,33 @@ def _rings(strip: Strip) -> list[PlannedRing]:
 
 def _guide_shares(bubble: PlannedBubble, strip: Strip) -> tuple[float, ...]:
     apart = LEAST_APART * strip.size.radius / bubble.rest_length
+    fronts = [
+        (front - bubble.rest_start) / bubble.rest_length
+        for front in _fronts_led(strip)
+        if bubble.rest_start < front < bubble.rest_end
+    ]
     if bubble.kind != "rest":
         own = BY_KIND[bubble.kind].guides
         round_end = strip.inflated_radius / bubble.length
         # Their places alone tell the directions of a bent bubble's ends.
         ends = (round_end, 1.0 - round_end) if bubble.bent and round_end < SLENDER else ()
         evenly = [k / (bubble.places + 1) for k in range(1, bubble.places + 1)]
-        return tuple(sorted([*own, *_parted([*ends, *evenly], apart, 1.0 - apart, own)]))
+        return tuple(sorted([*own, *_parted([*ends, *evenly, *fronts], apart, 1.0 - apart, own)]))
     stretch = 1.0 if strip.capsule else maxwell_state(strip.rubber).bulged.b
     share = min(REST_GUIDE / stretch / bubble.rest_length, 0.5)
     tip = max(1.0 - TIP_GUIDE * strip.size.radius / bubble.rest_length, 0.5 * (1.0 + share))
     shares = (*_along_the_bend(bubble, strip, tip), tip) if bubble.bent else (share, tip)
     # Behind the last ring of the tube comes the round tip.
     last = 1.0 - strip.size.radius / bubble.rest_length
-    return tuple(_parted(shares, apart, last)) or (0.5,)
+    return tuple(_parted((*shares, *fronts), apart, last)) or (0.5,)
+
+
+def _fronts_led(strip: Strip) -> list[float]:
+    """Return the unstressed distances from the knot (m) of the round ends of a tube that hands lead by them
+    before more is made of it.
+    """
+    round_end = strip.inflated_radius / maxwell_state(strip.rubber).bulged.b
+    return [bubble.front - round_end for bubble in strip.bubbles[:-1] if bubble.leads]
 
 
 def _parted(shares: Iterable[float], apart: float, last: float, others: Iterable[float] = ()) -> list[float]:

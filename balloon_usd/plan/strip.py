@@ -78,6 +78,10 @@ class PlannedBubble:
     """Unstressed rubber that turns draw in all into the necks before and behind it, half of it from it, m."""
     slack: float = 1.0
     """Rubber that hands gather for it, in that of a firm bubble of its length."""
+    front: float = 0.0
+    """Unstressed distance of the gas's end from the knot before it is twisted off, m; only of tubes."""
+    leads: bool = False
+    """Whether hands lead all that is left of its balloon before it is twisted off."""
 
     @property
     def twisted(self) -> Twisted:

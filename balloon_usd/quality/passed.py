@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -33,6 +34,10 @@ LINKED = 0.3
 """Share of it by which what is before a neck and what is behind it see a ring differently in which the neck
 lies: 0.64 to 1.09 in 42 simulations, and below 0.1 in 8 in which it does not.
 """
+FAR = 0.15
+"""Share of it by which that of a ring changes in a frame from which on it is followed between frames, too."""
+BETWEEN = 16
+"""Steps in which that is done, as if all went straight."""
 COLUMNS = 4
 """Lines along the wall of such a ring that are taken for it: the middles of a dented tube are no ring."""
 FINE = 4
@@ -126,7 +131,7 @@ class _Followed(ABC):
 
 
 class _Passing(_Followed):
-    """The middle of one bubble, and the ring that it passes: a half is in the plane of the ring."""
+    """A ring of one bubble, and the ring that it passes: a half is in the plane of that."""
 
     inside_from = INSIDE
     seen_before = True
@@ -135,19 +140,28 @@ class _Passing(_Followed):
         self, plan: Plan, meshes: Sequence[BalloonMesh], move: PassThrough, ring: Sequence[str]
     ) -> None:
         super().__init__(plan.recipe.fps, move, ring)
-        self._rings = [RingCorners.of(plan, meshes, at) for at in (move.middle, *move.opening)]
-        """That of the middle of the bubble, and those of the ring that it passes."""
-        self._begun: float | None = None
-        self._before = 0.0
+        self._rings = [RingCorners.of(plan, meshes, at) for at in (move.held, *move.opening)]
+        """That of the bubble, and those of the ring that it passes."""
+        self._places: Floats | None = None
+        """Their middles in the frame before, (N, 3), m."""
+        self._angle = 0.0
+        """How far the solid angle of the ring has changed, sr."""
 
     def _look(self, frame: Frame) -> float:
-        middle, *ring = (each.places(frame).mean(axis=0) for each in self._rings)
-        angle = float(solid_angles(middle[None], np.array(ring))[0])
-        if self._begun is None:
-            self._begun = self._before = angle
-        # Known but for whole spheres: no bubble goes through half of a ring in one frame.
-        self._before += math.remainder(angle - self._before, WHOLE)
-        return abs(self._before - self._begun) / WHOLE
+        places = np.array([each.places(frame).mean(axis=0) for each in self._rings])
+        before = places if self._places is None else self._places
+        # Each step is known but for whole spheres.
+        step = self._step(before, places)
+        if abs(step) > FAR * WHOLE:
+            way = before + np.linspace(0.0, 1.0, BETWEEN + 1)[:, None, None] * (places - before)
+            step = sum(self._step(here, there) for here, there in pairwise(way))
+        self._angle += step
+        self._places = places
+        return abs(self._angle) / WHOLE
+
+    def _step(self, before: Floats, after: Floats) -> float:
+        here, there = (float(solid_angles(each[:1], each[1:])[0]) for each in (before, after))
+        return math.remainder(there - here, WHOLE)
 
 
 class _Wrapped(_Followed):

@@ -305,7 +305,10 @@ def test_springs_have_no_tail_balls() -> None:
 @pytest.mark.parametrize(
     ("steps", "told"),
     [
-        (f"{REST}  - tail_ball: {{a: 2.5}}\n", 'bubble "a" has no tail, expected what is left of a balloon'),
+        (
+            f"{REST}  - tail_ball: {{a: 2.5}}\n",
+            'bubble "a" is not what is left of a balloon, expected its rest',
+        ),
         (f"{REST}  - tail_ball: {{tial: 2.5}}\n", 'unknown bubble "tial", did you mean "tail"?'),
         (f"{REST}  - tail_ball: {{}}\n", "tail_ball: is empty"),
         (f"{REST}  - tail_ball: {{tail: -1}}\n", "out of range"),

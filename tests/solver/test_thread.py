@@ -5,8 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from balloon_usd.operations.moves import Thread as ThreadMove
 from balloon_usd.operations.thread import Thread
 from balloon_usd.plan import plan
+from balloon_usd.plan.after_step import after_step
 from balloon_usd.recipe import Recipe, RecipeError
 from tests.solver.into_ring import IntoRing
 
@@ -126,6 +128,66 @@ def test_it_goes_where_the_recipe_says():
     assert up.points()[2] > 0.9
 
 
+MADE = """
+format: 1
+name: made
+units: cm
+balloons:
+  main: {size: 260, length: 22, tail: 9}
+steps:
+  - bubbles: {head: 5, left: 7, right: 7}
+  - lock: [left, right]
+    point: up
+  - thread: {bubble: body, through: [left, right]}
+  - bubbles: {body: 10}
+  - loop: {foot: 20}
+    point: down
+  - rest: tail
+"""
+"""The forelegs of a dog come round its body before that is made."""
+
+
+@pytest.fixture(scope="module")
+def made():
+    return Threaded(MADE)
+
+
+def test_more_is_made_of_what_was_threaded_and_the_ring_lies_about_its_first_bubble(made):
+    assert (made.stuck, made.slipped) == ([], [])
+    assert made.result["through"]["body"] > 0.9
+    assert sum(made.crossings) == 0
+    base, ring, body = (made.place(made.move.base), made.middle("left"), made.middle("body"))
+    along = (body - base) / np.linalg.norm(body - base)
+    assert 0.0 < (ring - base) @ along < 0.1
+    before, after = (made.middle("left", at) - made.place(made.move.base, at) for at in (0, -1))
+    assert before[2] > 0.02
+    assert after[2] < 0.0
+
+
+def test_all_that_is_left_is_led_its_flat_tail_by_the_tip_alone():
+    found = plan(Recipe.parse(MADE))
+    move = next(move for move in found.choreography.moves if isinstance(move, ThreadMove))
+    rings = [found.table.rings[ring] for ring in move.led]
+    assert {ring.bubble for ring in rings} == {"body", "foot", "tail"}
+    (tail,) = {bubble.front for bubble in found.bubbles if bubble.name == "body"}
+    assert [ring.along > tail for ring in rings].count(True) == move.flat == 1
+    # Its round end is held, too, though the plan has none there once more is made.
+    assert 0.0 < tail - found.table.rings[move.held].along < 0.01
+
+
+def test_a_twist_behind_what_was_threaded_unwinds_and_none_before_it_does():
+    loose = MADE.replace("  - loop: {foot: 20}\n    point: down\n", "")
+    told = [caution.what for caution in plan(Recipe.parse(loose)).cautions]
+    assert told == ["the twist between body and tail will unwind"]
+    assert plan(Recipe.parse(MADE)).cautions == ()
+
+
+def test_before_its_bubble_is_made_what_is_left_lies_in_the_ring():
+    found = plan(Recipe.parse(MADE))
+    told = [[contact.text for contact in after_step(found, step).graph.contacts] for step in (1, 2, 3)]
+    assert told == [[], ["threads tail through left, right"], ["threads body through left, right"]]
+
+
 BLADE = "  - rest: blade\n"
 
 
@@ -134,7 +196,20 @@ BLADE = "  - rest: blade\n"
     [
         (f"{BLADE}  - thread: {{bubble: blade, through: [guard]}}", None),
         ("  - thread: {bubble: main_rest, through: [guard]}", '"main_rest" has no name of its own yet'),
-        ("  - thread: {bubble: grip, through: [guard]}", '"grip" has no tail, expected what is left'),
+        (
+            "  - thread: {bubble: grip, through: [guard]}",
+            '"grip" is not what is left of a balloon, expected its rest, or the bubble that is made of it next',
+        ),
+        (f"  - thread: {{bubble: blade, through: [guard]}}\n{BLADE}", None),
+        (
+            f"  - thread: {{bubble: blade, through: [guard]}}\n  - ear: {{stop: 4}}\n{BLADE}",
+            'bubble "blade" is made after "stop", expected "stop", with which what is left begins',
+        ),
+        (
+            f"  - bubbles: {{more: 5}}\n  - thread: {{bubble: a, through: [guard]}}\n  - bubbles: {{a: 5}}\n{BLADE}"
+            "  - thread: {bubble: a, through: [guard]}",
+            "a is in a ring already, expected each bubble once",
+        ),
         (f"{BLADE}  - thread: {{bubble: blade, through: [grip]}}", "grip is no closed ring"),
         (f"{BLADE}  - thread: {{bubble: blade, through: []}}", "is empty"),
         (

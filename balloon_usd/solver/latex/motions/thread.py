@@ -45,6 +45,8 @@ BEFORE = 0.6
 """Distance of the tip from the hole as it is led there, in widths of the bubble."""
 FULL_FORCE = 0.05
 """Width of a tube from which on hands pull with all their force, m: with it they tore a 160."""
+DRAWN = 0.15
+"""How far hands draw it beyond its length: else a bend of a 260 stayed before a pair of 6 to 8 cm."""
 PLACES = 2000
 """Places along the bubble at which its curve is found."""
 
@@ -79,24 +81,26 @@ class Thread(IntoRing):
     def advance(self, share: float) -> None:
         """Spread the ring, bend the bubble round, pull it through until it is taut, and turn both back."""
         places = self._bent(share)
+        turned = smooth((share - TAUT) / (1.0 - TAUT))
         if share > PULLED:
             # What is still before the ring follows by itself.
             follows = self._along < self._left(share)
             follows[: self._row] = False
             self._hands.mode[self._led[follows]] = 0
             taut = smooth((share - PULLED) / (TAUT - PULLED))
-            places = places + taut * (self._taut(places) - places)
+            places = places + taut * (self._taut(places, 1.0 + DRAWN * (1.0 - turned)) - places)
         axis, angle = self._back
-        turned = smooth((share - TAUT) / (1.0 - TAUT))
         back = turn_about(axis, angle * turned)
         spread = smooth(share / SPREAD) * (1.0 - turned)
         self._lead((self._ring + spread * self._spread) @ back.T, places @ back.T)
 
-    def _taut(self, places: Floats) -> Floats:
-        """Return where its rings are once it is taut, (N, 3), m: straight on from a row, which stays."""
+    def _taut(self, places: Floats, stretch: float) -> Floats:
+        """Return where its rings are once it is stretched so much, (N, 3), m: straight on from a row, which
+        stays.
+        """
         row, along = self._row, self._along
         begin, before = (places[row - 1], along[row - 1]) if row else (np.zeros(3), 0.0)
-        straight: Floats = begin + (along - before)[:, None] * self._end
+        straight: Floats = begin + stretch * (along - before)[:, None] * self._end
         straight[:row] = places[:row]
         return straight
 
