@@ -18,6 +18,7 @@ from balloon_usd.operations.moves import (
 )
 from balloon_usd.operations.score import Score
 from balloon_usd.operations.tempo import PACES
+from balloon_usd.plan.holding import hold_seconds
 from balloon_usd.plan.laid_out import LaidOut
 from balloon_usd.plan.nets import nets_of
 from balloon_usd.plan.posing import pose, sink_contents
@@ -79,7 +80,7 @@ def choreograph(recipe: Recipe, strips: Mapping[str, Strip], table: RingTable) -
         seconds = NET_LOOSEN_SECONDS if nets else LOOSEN_SECONDS
         score.add(Loosen(score.now, seconds, len(recipe.steps), "loosen the grip"))
     score.add(LetGo(score.now, 0.0, len(recipe.steps), "let go", for_good=True))
-    score.add(Hold(score.now, recipe.physics.hold, len(recipe.steps), "hold"))
+    score.add(Hold(score.now, hold_seconds(recipe), len(recipe.steps), "hold"))
     straighten(recipe, strips, score)
     pose(recipe, score, mirrored=mirrored)
     return Choreography(tuple(score.moves), score.now, mirrored)

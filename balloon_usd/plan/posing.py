@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from balloon_usd.operations.moves import LET_GO, OTHER_SIDE, TIPPED, Fall, Level, Move, SetDown, Sink
+from balloon_usd.plan.holding import hold_seconds
 from balloon_usd.plan.nesting import room_to_sink
 from balloon_usd.recipe.recipe import EARTH
 
@@ -153,4 +154,4 @@ def _fall_seconds(recipe: Recipe) -> float:
     if recipe.pose in LET_GO:
         # Speeds go with the root of gravity.
         return (_height(recipe) / SLOW_FALL + LANDING_SECONDS) * math.sqrt(EARTH / recipe.gravity)
-    return recipe.physics.hold if recipe.pose == "as made" else POSED_SECONDS
+    return hold_seconds(recipe) if recipe.pose == "as made" else POSED_SECONDS

@@ -10,6 +10,7 @@ import math
 from typing import TYPE_CHECKING
 
 from balloon_usd.language.quantities import duration_entry
+from balloon_usd.plan.holding import hold_seconds
 from balloon_usd.plan.settings_kosaka import kosaka_problems
 from balloon_usd.recipe.physics import MOST_SUBSTEPS
 
@@ -96,7 +97,7 @@ def _unscaled_masses(recipe: Recipe, tubes: Mapping[str, BalloonSize]) -> Iterat
 
 
 def _hasty_leak(recipe: Recipe) -> Iterator[Problem]:
-    leak, hold = recipe.physics.leak, recipe.physics.hold
+    leak, hold = recipe.physics.leak, hold_seconds(recipe)
     if leak is None or leak <= LEAK_IN_A_SECOND * hold:
         return
     needed = f"hold: {math.ceil(leak / LEAK_IN_A_SECOND)}"

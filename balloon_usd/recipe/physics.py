@@ -31,8 +31,8 @@ class Physics(Entries):
     """Time steps in a frame; chosen by the level of detail when absent."""
     burst: Literal["report", "stop"] = "report"
     """What to do when a balloon bursts."""
-    hold: Annotated[float, Between(0.0, 60.0, "s")] = 2.0
-    """Seconds shown after the hands let go."""
+    hold: Annotated[float, Between(0.0, 60.0, "s")] | None = None
+    """Seconds shown after the hands let go; chosen by the plan when absent."""
     leak: Duration | None = None
     """How long the finished sculpture leaks while it is held, such as 6 h or 2 days; not at all when absent;
     s in Python."""

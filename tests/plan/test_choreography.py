@@ -67,6 +67,17 @@ def test_the_hands_let_go_at_the_end_and_the_pose_is_held_for_two_seconds():
     assert made.taken_up - last.start == pytest.approx(2.0)
 
 
+@pytest.mark.parametrize(("hold", "shown"), [(None, 4.1), (0.5, 0.5), (0.0, 0.0)])
+def test_twists_that_nothing_holds_are_given_the_time_to_unwind_if_the_recipe_gives_none(hold, shown):
+    def chain(builder):
+        builder = builder.bubbles(nose=0.1, body=0.1).rest("tail")
+        return builder if hold is None else builder.physics(hold=hold)
+
+    made = moves(chain)
+    (last,) = (move for move in kinds(made, LetGo) if move.for_good)
+    assert made.seconds - last.start == pytest.approx(shown)
+
+
 def test_a_step_takes_the_seconds_that_the_recipe_gives_it():
     def slow(builder):
         return builder.bubbles(nose=0.1, body=0.1, seconds=7.0).rest("tail")

@@ -41,7 +41,7 @@ def test_a_short_recipe_has_the_documented_defaults() -> None:
     assert (step.turns, step.seconds, step.note, step.balloon) == (3.0, None, None, None)
     assert (physics.model, physics.rubber, physics.softening) == ("latex", "ogden", True)
     assert (physics.gravity, physics.friction, physics.substeps) == (None, 0.8, None)
-    assert (physics.burst, physics.hold, physics.mass_scaling) == ("report", 2.0, "selective")
+    assert (physics.burst, physics.hold, physics.mass_scaling) == ("report", None, "selective")
 
 
 def test_bubbles_keep_their_order_and_become_metres() -> None:

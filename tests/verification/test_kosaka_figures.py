@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from balloon_usd.operations.moves import Weld
+from balloon_usd.plan.holding import hold_seconds
 from tests.crossing import deepest_crossing
 from tests.verification.kosaka_experiments import (
     joints,
@@ -86,7 +87,7 @@ def test_a_loop_stays_open(verify, loop):
     centre, wide = ring.mean(axis=1), 0.5 * ring_diameters(ring)
     across = np.linalg.norm(centre - centre[::-1], axis=1) - wide - wide[::-1]
     hole = 1e3 * across.max()
-    told = f"{hole:.1f} mm wide after {loop.plan.recipe.physics.hold:g} s"
+    told = f"{hole:.1f} mm wide after {hold_seconds(loop.plan.recipe):g} s"
     verify("K7e", "loop, what its hole lacks of 10 mm", max(HOLE - hole, 0.0), 0.0, 1e-6, told)
 
 
