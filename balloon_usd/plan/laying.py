@@ -205,12 +205,15 @@ def _pinched(recipe: Recipe, tube: OpenTube, made: Made) -> tuple[BubbleShape, O
 def _closed(recipe: Recipe, tube: OpenTube, made: Made) -> tuple[BubbleShape, OpenTube]:
     """What is left of a tube as a bubble that is closed at its front, and the flat tip that ties its end."""
     least, (shape, left) = LEAST_STRING * tube.size.radius, tube.closed()
-    flat = left.rest_length if tube.tail > 0.0 else 0.0
+    flat = max(left.rest_length, 0.0) if tube.tail > 0.0 else 0.0
     if flat < least:
         end, balloon = Joint(made.bubble, "end"), recipe.piece.bubbles[made.bubble].balloon
         step = next(k for k, s in enumerate(recipe.steps) if isinstance(s, Tie) and s.tie.end == end)
         text = f"only {cm(flat)} of flat tail are left behind {made.bubble}"
         text += f", expected {at_least(least)} to tie: a longer tail of {balloon}"
+        if tube.tail > 0.0:
+            # As much longer as what is left: all before it takes the same gas.
+            text += f", by {at_least(least - left.rest_length)}"
         raise RecipeError([recipe.problem(("steps", step, Tie.word, "end"), text)])
     return shape, left
 

@@ -126,10 +126,15 @@ def test_a_flat_tip_too_short_to_be_wound_is_refused_with_what_would_do(planned)
         RecipeError, match=r"tie\.end: only [\d.]+ cm of flat tail are left behind r"
     ) as caught:
         tied(planned, tail=4)
-    left, least = map(
-        float, re.search(r"only ([\d.]+) cm .* expected ([\d.]+) cm", str(caught.value)).groups()
-    )
-    assert tied(planned, tail=4 + least - left + 0.2)
+    longer = float(re.search(r"a longer tail of main, by ([\d.]+) cm$", str(caught.value))[1])
+    assert tied(planned, tail=4 + longer)
+    with pytest.raises(RecipeError, match="of flat tail are left behind r"):
+        tied(planned, tail=4 + longer - 0.2)
+
+
+def test_a_tail_that_is_used_up_before_is_told_as_none(planned):
+    with pytest.raises(RecipeError, match=r"only 0 cm of flat tail are left behind r, .* tail of main"):
+        tied(planned, tail=2)
 
 
 REFUSED = {
