@@ -90,6 +90,11 @@ class Operation(Entries):
         return f"{self.word}: {', '.join(self.names)}"
 
     @property
+    def does(self) -> str:
+        """What hands do with joints or bubbles, in a word, such as `locks`."""
+        return f"{self.word}s"
+
+    @property
     def names(self) -> tuple[str, ...]:
         """What it makes or works on."""
         return tuple(self.lengths)

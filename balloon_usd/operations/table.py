@@ -21,6 +21,7 @@ from balloon_usd.operations.inflate import Inflate
 from balloon_usd.operations.insert import Insert
 from balloon_usd.operations.lock import Lock
 from balloon_usd.operations.loop import Loop
+from balloon_usd.operations.marriage import Marriage
 from balloon_usd.operations.modifiers import Burped, OnBalloon, Pointed, Timed, Turned
 from balloon_usd.operations.operation import Operation
 from balloon_usd.operations.pop import Pop
@@ -54,6 +55,7 @@ OPERATIONS: tuple[type[Operation], ...] = (
     Gather,
     Tulip,
     Weave,
+    Marriage,
     Rest,
     Bend,
     Curl,

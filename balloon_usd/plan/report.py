@@ -143,14 +143,14 @@ def _graph_lines(plan: Plan) -> Iterator[str]:
             hold = "holds" if len(event.others) == 1 else "hold"
             yield f"  step {event.step + 1} {event.text}, which {hold} it"
         if isinstance(event, Popped):
-            yield f"  step {event.step + 1} {plan.recipe.steps[event.step].word}s {event.bubble}"
+            yield f"  step {event.step + 1} {plan.recipe.steps[event.step].does} {event.bubble}"
         if isinstance(event, Joined):
             for balloon in [name for name, step in led_in.items() if step == event.step]:
                 del led_in[balloon]
                 side = "right" if _aside(plan)[balloon] > 0.0 else "left"
                 yield f"  step {event.step + 1} leads in {balloon} from the {side}"
         if isinstance(event, Joined) and not plan.recipe.steps[event.step].closes:
-            what = f"{plan.recipe.steps[event.step].word}s {', '.join(map(str, event.ends))}"
+            what = f"{plan.recipe.steps[event.step].does} {', '.join(map(str, event.ends))}"
             yield f"  step {event.step + 1} {what} (joint {graph.joint_of(event.ends[0]).index})"
     yield from joint_lines(graph, margins_of(plan.recipe, graph))
 

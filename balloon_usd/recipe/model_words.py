@@ -12,6 +12,7 @@ from balloon_usd.operations.cut import Cut
 from balloon_usd.operations.entries import steps_in
 from balloon_usd.operations.inflate import Inflate
 from balloon_usd.operations.insert import Insert
+from balloon_usd.operations.marriage import Marriage
 from balloon_usd.operations.pop import Pop
 from balloon_usd.operations.push import Push
 from balloon_usd.operations.roll import Roll
@@ -49,6 +50,7 @@ LATEX_STEPS = {
     Push.word: (", whose walls hardly rub", "no such step"),
     Roll.word: (", whose walls hardly rub", "no such step"),
     Thread.word: (", whose walls hardly rub", "no such step"),
+    Marriage.word: (", whose walls hardly rub", "weave"),
     Wrap.word: (", whose walls hardly rub", "no such step"),
     Braid.word: (", whose walls hardly rub", "no such step"),
     Spiral.word: (", whose walls hardly rub", "no such step"),

@@ -62,14 +62,8 @@ balloons:
   one: {size: 260, length: 12, tail: 6}
   two: {size: 260, length: 12, tail: 6}
 steps:
-  - {bubbles: {a1: 8}, balloon: one}
-  - {bubbles: {b1: 8}, balloon: two}
-  - lock: {joints: [a1.start, b1.start]}
-  - lock: {joints: [a1.end, b1.end]}
-  - {bubbles: {a2: 8}, balloon: one}
-  - roll: {bubble: a2, between: [a1, b1]}
-  - {bubbles: {b2: 8}, balloon: two}
-  - lock: {joints: [a2.end, b2.end]}
+  - {bubbles: {b1: 8, b2: 8}, balloon: two}
+  - {marriage: {bubbles: {a1: 8, a2: 8}, to: [b1, b2]}, balloon: one}
 """
 MEATBALL = """
 format: 1

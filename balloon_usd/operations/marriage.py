@@ -1,0 +1,153 @@
+"""`marriage`: a row of bubbles twisted side by side to those of another balloon, pair rolled through pair."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import TYPE_CHECKING, Annotated, ClassVar
+
+from pydantic import Field
+
+from balloon_usd.language.joint import Joint, ends_of
+from balloon_usd.language.lengths import cm
+from balloon_usd.language.names import Name
+from balloon_usd.language.quantities import Length
+from balloon_usd.operations.caution import Caution
+from balloon_usd.operations.modifiers import Entries
+from balloon_usd.operations.roll import Roll
+from balloon_usd.operations.strands import UNEQUAL
+from balloon_usd.operations.weaving import WeavesRow
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from balloon_usd.operations.score import Layout, Score
+    from balloon_usd.operations.workbench import Place, Workbench
+
+
+class MarriedRow(Entries):
+    """What is married to what."""
+
+    bubbles: Annotated[dict[Name, Length], Field(min_length=2)]
+    """Bubbles of the row, in order."""
+    to: tuple[Name, ...] = Field(min_length=2)
+    """A bubble of another balloon for each, in order along it."""
+
+
+class Marriage(WeavesRow):
+    """Twist a row of bubbles side by side to those of another balloon; roll every second through the pair
+    before.
+    """
+
+    word: ClassVar[str] = "marriage"
+    value_model: ClassVar[type[Entries] | None] = MarriedRow
+    example: ClassVar[str] = """\
+format: 1
+name: two_tone
+units: cm
+balloons:
+  red: {size: 260, color: red, length: 20, tail: 8}
+  main: {size: 260, color: white, length: 20, tail: 8}
+steps:
+  - bubbles: {red_1: 8, red_2: 8, red_3: 8, red_4: 8}
+    balloon: red
+  - marriage:
+      bubbles: {white_1: 8, white_2: 8, white_3: 8, white_4: 8}
+      to: [red_1, red_2, red_3, red_4]
+    balloon: main
+"""
+    sources: ClassVar[tuple[str, ...]] = (
+        "professorwonder.com, balloon 41: two balloons married",
+        "twisters' lists of twists: the marriage, by name",
+    )
+
+    marriage: MarriedRow
+    """Twist bubbles to those of another balloon, side by side; roll every second through the pair before."""
+
+    @property
+    def does(self) -> str:
+        """What hands do with joints."""
+        return "marries"
+
+    @property
+    def joints(self) -> tuple[Joint, ...]:
+        """Where the first of the others begins, and where each ends."""
+        return _joints_of(self.marriage.to)
+
+    @classmethod
+    def joints_in(cls, value: object) -> tuple[Joint, ...]:
+        """Return the joints of the bubbles that a value names, as far as they can be read."""
+        return _joints_of(cls._others(value))
+
+    @classmethod
+    def _others(cls, value: object) -> tuple[str, ...]:
+        named = value.get("to") if isinstance(value, dict) else None
+        whole = isinstance(named, (list, tuple)) and all(isinstance(name, str) for name in named)
+        return tuple(named) if whole and named else ()
+
+    @classmethod
+    def fits(cls, value: object, place: Place, bench: Workbench) -> bool:
+        """Say whether the others are as many, in a row on another balloon, and complain if they are not."""
+        path, names, others = (*place.path, cls.word, "to"), cls.makes(value), cls._others(value)
+        if len(names) < 2 or not bench.knows(others):
+            return False
+        rows = [bench.piece.row(name) for name in bench.piece.balloons]
+        row = next(row for row in rows if others[0] in row)
+        at = row.index(others[0])
+        if tuple(row[at : at + len(others)]) != others:
+            bench.complain(path, f"{', '.join(others)} are no row, expected bubbles that follow each other")
+        elif names[0] in row:
+            bench.complain(path, f"{others[0]} is of the same balloon, expected bubbles of another")
+        elif len(others) != len(names):
+            bench.complain(path, f"{len(others)} bubbles for {len(names)}, expected as many")
+        else:
+            return True
+        return False
+
+    @classmethod
+    def check(cls, value: object, place: Place, bench: Workbench) -> None:
+        """Make its bubbles, let their ends become one with those of others, and roll every second."""
+        known = len(bench.complaints)
+        super().check(value, place, bench)
+        names, others = cls.makes(value), cls._others(value)
+        if len(bench.complaints) == known and len(names) == len(others) and bench.knows([*names, *others]):
+            for (one, other), (rolled, _) in list(pairwise(zip(names, others, strict=True)))[::2]:
+                bench.piece.touch(place.index, Roll.word, rolled, [one, other])
+
+    @property
+    def rolls(self) -> dict[str, Roll]:
+        """How every second bubble is rolled between the two before it, by its name."""
+        married = list(zip(self.lengths, self.marriage.to, strict=True))
+        return {
+            rolled: Roll.model_validate({"roll": {"bubble": rolled, "between": pair}})
+            for pair, (rolled, _) in list(pairwise(married))[::2]
+        }
+
+    def lead(self, name: str, score: Score, index: int) -> None:
+        """Roll every second bubble through the pair before."""
+        if name in self.rolls:
+            self.rolls[name].perform(score, index)
+
+    def refusals(self, layout: Layout) -> Iterator[tuple[tuple[str, ...], str]]:
+        """Yield bubbles that are far too long to be rolled through the pair before."""
+        for name, roll in self.rolls.items():
+            for _, text in roll.refusals(layout):
+                yield (self.word, "bubbles", name), text
+
+    def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:
+        """Warn of pairs of unequal lengths, and of what gets stuck between others."""
+        for name, other in zip(self.lengths, self.marriage.to, strict=True):
+            short, long = sorted(layout.bubble(each).length for each in (name, other))
+            if short < (1.0 - UNEQUAL) * long:
+                yield Caution(
+                    index,
+                    f"{name} and {other} are {cm(short)} and {cm(long)} long",
+                    "both end in the same joints, so the longer one bows out",
+                    f"make both {cm(long)} long",
+                )
+        for roll in self.rolls.values():
+            yield from roll.cautions(index, layout)
+
+
+def _joints_of(others: tuple[str, ...]) -> tuple[Joint, ...]:
+    """Return where the first of some bubbles begins, and where each ends."""
+    return (ends_of(others[0])[0], *(ends_of(name)[1] for name in others)) if others else ()
