@@ -34,9 +34,7 @@ class MarriedRow(Entries):
 
 
 class Marriage(WeavesRow):
-    """Twist a row of bubbles side by side to those of another balloon; roll every second through the pair
-    before.
-    """
+    """Twist bubbles side by side to those of another balloon, and roll every second into the pair before."""
 
     word: ClassVar[str] = "marriage"
     value_model: ClassVar[type[Entries] | None] = MarriedRow
@@ -45,8 +43,8 @@ format: 1
 name: two_tone
 units: cm
 balloons:
-  red: {size: 260, color: red, length: 20, tail: 8}
-  main: {size: 260, color: white, length: 20, tail: 8}
+  red: {size: 260, color: red, length: 14, tail: 5}
+  main: {size: 260, color: white, length: 14, tail: 5}
 steps:
   - bubbles: {red_1: 8, red_2: 8, red_3: 8, red_4: 8}
     balloon: red
@@ -54,6 +52,10 @@ steps:
       bubbles: {white_1: 8, white_2: 8, white_3: 8, white_4: 8}
       to: [red_1, red_2, red_3, red_4]
     balloon: main
+  - {rest: red_spare, balloon: red}
+  - {rest: white_spare, balloon: main}
+  - cut: red_spare
+  - cut: white_spare
 """
     sources: ClassVar[tuple[str, ...]] = (
         "professorwonder.com, balloon 41: two balloons married",
@@ -61,7 +63,7 @@ steps:
     )
 
     marriage: MarriedRow
-    """Twist bubbles to those of another balloon, side by side; roll every second through the pair before."""
+    """Twist bubbles side by side to those of another balloon, and roll every second into the pair before."""
 
     @property
     def does(self) -> str:
