@@ -16,7 +16,7 @@ from balloon_usd.operations.table import BY_WORD, WORDS, words_in
 from balloon_usd.operations.workbench import Place, UnnamedRest, Workbench
 
 if TYPE_CHECKING:
-    from collections.abc import Container, Iterable, Sequence
+    from collections.abc import Container, Iterable, Iterator, Sequence
 
     from balloon_usd.language.problem import Path
 
@@ -109,23 +109,28 @@ def workbench_of(balloons: Iterable[str], steps: Sequence[StepEntry]) -> Workben
 
 def _rows(balloons: Sequence[str], steps: Sequence[StepEntry]) -> dict[str, list[str]]:
     """Return all bubbles that steps make of each balloon, from its knot on."""
-    only = balloons[0] if len(balloons) == 1 else None
     rows: dict[str, list[str]] = {balloon: [] for balloon in balloons}
-    for step in steps:
-        rows.get(step.balloon or only or "", []).extend(step.makes)
+    for balloon, step in _by_balloon(balloons, steps):
+        rows[balloon] += step.makes
     return rows
+
+
+def _by_balloon(balloons: Sequence[str], steps: Sequence[StepEntry]) -> Iterator[tuple[str, StepEntry]]:
+    """Yield the steps of which is known on what balloon they work, with that."""
+    only = balloons[0] if len(balloons) == 1 else None
+    for step in steps:
+        if (balloon := step.balloon or only) in balloons:
+            yield str(balloon), step
 
 
 def _unnamed_rests(
     balloons: Sequence[str], steps: Sequence[StepEntry], made_ever: Container[str]
 ) -> dict[str, UnnamedRest]:
     """Return what is left of balloons whose rest no step names, by the names that it gets."""
-    only = balloons[0] if len(balloons) == 1 else None
     last = dict.fromkeys(balloons, -1)
     ended = set()
-    for step in steps:
-        balloon = step.balloon or only
-        if balloon in last and step.makes:
+    for balloon, step in _by_balloon(balloons, steps):
+        if step.makes:
             last[balloon] = int(step.path[1])
         if isinstance(step.entries.get(Rest.word), str):
             ended.add(balloon)

@@ -18,7 +18,7 @@ from balloon_usd.operations.strands import UNEQUAL
 from balloon_usd.operations.weaving import WeavesRow
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from balloon_usd.operations.score import Layout, Score
     from balloon_usd.operations.workbench import Place, Workbench
@@ -99,6 +99,8 @@ steps:
             bench.complain(path, f"{', '.join(others)} are no row, expected bubbles that follow each other")
         elif names[0] in row:
             bench.complain(path, f"{others[0]} is of the same balloon, expected bubbles of another")
+        elif closing := [name for name in others if bench.piece.is_closed([name])]:
+            bench.complain(path, f"{closing[0]} closes on itself, expected bubbles with two ends apart")
         elif len(others) != len(names):
             bench.complain(path, f"{len(others)} bubbles for {len(names)}, expected as many")
         else:
@@ -112,16 +114,15 @@ steps:
         super().check(value, place, bench)
         names, others = cls.makes(value), cls._others(value)
         if len(bench.complaints) == known and len(names) == len(others) and bench.knows([*names, *others]):
-            for (one, other), (rolled, _) in list(pairwise(zip(names, others, strict=True)))[::2]:
-                bench.piece.touch(place.index, Roll.word, rolled, [one, other])
+            for rolled, pair in _rolled(names, others):
+                bench.piece.touch(place.index, Roll.word, rolled, pair)
 
     @property
     def rolls(self) -> dict[str, Roll]:
         """How every second bubble is rolled between the two before it, by its name."""
-        married = list(zip(self.lengths, self.marriage.to, strict=True))
         return {
             rolled: Roll.model_validate({"roll": {"bubble": rolled, "between": pair}})
-            for pair, (rolled, _) in list(pairwise(married))[::2]
+            for rolled, pair in _rolled(self.lengths, self.marriage.to)
         }
 
     def lead(self, name: str, score: Score, index: int) -> None:
@@ -148,6 +149,12 @@ steps:
                 )
         for roll in self.rolls.values():
             yield from roll.cautions(index, layout)
+
+
+def _rolled(names: Iterable[str], others: Iterable[str]) -> list[tuple[str, tuple[str, str]]]:
+    """Return every second bubble of a row, and the pair before it: one of the row, one of the others."""
+    married = pairwise(zip(names, others, strict=True))
+    return [(rolled, pair) for pair, (rolled, _) in list(married)[::2]]
 
 
 def _joints_of(others: tuple[str, ...]) -> tuple[Joint, ...]:

@@ -322,7 +322,7 @@ class PassThrough(Move):
     """Unit direction in which it points in the end; None for where it pointed before."""
 
     @property
-    def held(self) -> int:
+    def watched(self) -> int:
         """Ring of the bubble for which it is asked whether it has gone through: nearest its middle."""
         return self.led[self.row + (len(self.led) - self.row - 1) // 2]
 
@@ -337,11 +337,11 @@ class Thread(PassThrough):
     """How many of the last rings are of what is made later, behind the bubble."""
 
     @property
-    def held(self) -> int:
+    def watched(self) -> int:
         """Ring for which it is asked whether it has gone through: nearest the middle of the bubble, or that
         of the round end of the tube where more is made of it, for short bubbles lie beside the ring.
         """
-        return self.led[-1 - self.flat] if self.more else super().held
+        return self.led[-1 - self.flat] if self.more else super().watched
 
 
 @dataclass(frozen=True)

@@ -23,6 +23,10 @@ _BROUGHT: dict[ContactKind, str] = {
 }
 
 
+_LEAVING_FREE = ("thread", "wrap")
+"""Contacts in which a ring holds the start of a bubble alone: its end may turn."""
+
+
 @dataclass(frozen=True)
 class Made:
     """A bubble was made behind those that its balloon had, or is what was left of it."""
@@ -316,10 +320,10 @@ class Workpiece:
 
         That is where just two bubbles meet, not brought together by any step, and neither belongs to a closed
         ring, lies in one, or in a row that leads back into one: there, turning one bubble would have to turn
-        the ring. Behind a bubble that lies in a ring by a thread, what was made later turns beside that.
+        the ring. What is behind a bubble that was threaded, or round whose neck another is wrapped, is free.
         """
         held = self.gripped() | self._in_rows()
-        behind = {Joint(contact.bubble, "end") for contact in self.contacts if contact.kind == "thread"}
+        behind = {Joint(contact.bubble, "end") for contact in self.contacts if contact.kind in _LEAVING_FREE}
         free = {bubble for bubble in self.bridges() if bubble not in held}
         return [
             ends

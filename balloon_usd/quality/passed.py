@@ -140,7 +140,7 @@ class _Passing(_Followed):
         self, plan: Plan, meshes: Sequence[BalloonMesh], move: PassThrough, ring: Sequence[str]
     ) -> None:
         super().__init__(plan.recipe.fps, move, ring)
-        self._rings = [RingCorners.of(plan, meshes, at) for at in (move.held, *move.opening)]
+        self._rings = [RingCorners.of(plan, meshes, at) for at in (move.watched, *move.opening)]
         """That of the bubble, and those of the ring that it passes."""
         self._places: Floats | None = None
         """Their middles in the frame before, (N, 3), m."""

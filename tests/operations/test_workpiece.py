@@ -127,6 +127,18 @@ def test_a_bubble_in_a_ring_is_gripped_while_the_ring_is_closed_and_nothing_unwi
     assert piece.gripped() == set()
 
 
+def test_the_end_of_a_bubble_unwinds_whose_start_alone_lies_in_a_ring():
+    threaded = chain("a", "b", "c", "d")
+    threaded.join(4, (start("a"), end("b")))
+    threaded.touch(5, "thread", "c", ["a", "b"])
+    assert threaded.free_to_spin(end("c"))
+    wrapped = chain("throat", "muzzle", "behind", "nose", "tip")
+    wrapped.join(5, (start("muzzle"), end("muzzle")))
+    wrapped.touch(6, "wrap", "nose", ["muzzle"])
+    assert not wrapped.free_to_spin(end("behind"))
+    assert wrapped.free_to_spin(end("nose"))
+
+
 def test_a_limb_is_the_smallest_part_that_hangs_on_one_joint(head):
     ears = head.after(1)
     assert ears.limb("nose").bubbles == {"nose"}

@@ -83,6 +83,13 @@ def test_a_balloon_is_not_married_to_itself():
         Recipe.parse(alone)
 
 
+def test_what_closes_on_itself_is_not_married():
+    rings = HEAD + "  - {loop: {ring: 20}, balloon: red}\n"
+    row = "  - {marriage: {bubbles: {a: 8, b: 8}, to: [red_4, ring]}, balloon: main}\n"
+    with pytest.raises(RecipeError, match="ring closes on itself, expected bubbles with two ends apart"):
+        Recipe.parse(rings + row)
+
+
 def test_pairs_of_unequal_lengths_are_cautioned():
     told = plan(Recipe.parse(text("{bubbles: {a: 6, b: 8}, to: [red_1, red_2]}"))).cautions
     assert "a and red_1 are 6 cm and 8 cm long" in [caution.what for caution in told]

@@ -172,7 +172,7 @@ def test_all_that_is_left_is_led_its_flat_tail_by_the_tip_alone():
     (tail,) = {bubble.front for bubble in found.bubbles if bubble.name == "body"}
     assert [ring.along > tail for ring in rings].count(True) == move.flat == 1
     # Its round end is held, too, though the plan has none there once more is made.
-    assert 0.0 < tail - found.table.rings[move.held].along < 0.01
+    assert 0.0 < tail - found.table.rings[move.watched].along < 0.01
 
 
 def test_a_twist_behind_what_was_threaded_unwinds_and_none_before_it_does():
