@@ -38,6 +38,7 @@ class Marriage(WeavesRow):
 
     word: ClassVar[str] = "marriage"
     value_model: ClassVar[type[Entries] | None] = MarriedRow
+    may_begin_joined: ClassVar[bool] = True
     example: ClassVar[str] = """\
 format: 1
 name: two_tone
@@ -110,12 +111,22 @@ steps:
     @classmethod
     def check(cls, value: object, place: Place, bench: Workbench) -> None:
         """Make its bubbles, let their ends become one with those of others, and roll every second."""
-        known = len(bench.complaints)
+        known, closed = len(bench.complaints), _closed(bench)
         super().check(value, place, bench)
         names, others = cls.makes(value), cls._others(value)
-        if len(bench.complaints) == known and len(names) == len(others) and bench.knows([*names, *others]):
-            for rolled, pair in _rolled(names, others):
-                bench.piece.touch(place.index, Roll.word, rolled, pair)
+        if len(bench.complaints) > known or len(names) != len(others) or not bench.knows([*names, *others]):
+            return
+        fault = ""
+        if torn := [pair for pair in zip(names, others, strict=True) if not bench.piece.is_closed(pair)]:
+            fault = f"{' and '.join(torn[0])} form no closed pair"
+        elif shut := [name for name in _closed(bench) if name not in closed]:
+            fault = f"{shut[0]} would be closed on itself"
+        if fault:
+            fault += ", for rows are joined already, expected that nowhere, or only where both begin"
+            bench.complain((*place.path, cls.word, "to"), fault)
+            return
+        for rolled, pair in _rolled(names, others):
+            bench.piece.touch(place.index, Roll.word, rolled, pair)
 
     @property
     def rolls(self) -> dict[str, Roll]:
@@ -124,6 +135,12 @@ steps:
             rolled: Roll.model_validate({"roll": {"bubble": rolled, "between": pair}})
             for rolled, pair in _rolled(self.lengths, self.marriage.to)
         }
+
+    def perform(self, score: Score, index: int) -> None:
+        """Twist one bubble after another off, roll every second, and twist each to its joint."""
+        begin = score.now
+        super().perform(score, index)
+        score.refuse_haste(index, self.seconds, score.now - begin, f"marry {len(self.lengths)} bubbles")
 
     def lead(self, name: str, score: Score, index: int) -> None:
         """Roll every second bubble through the pair before."""
@@ -149,6 +166,11 @@ steps:
                 )
         for roll in self.rolls.values():
             yield from roll.cautions(index, layout)
+
+
+def _closed(bench: Workbench) -> list[str]:
+    """Return the bubbles that close on themselves by now."""
+    return [name for name in bench.piece.bubbles if bench.piece.is_closed([name])]
 
 
 def _rolled(names: Iterable[str], others: Iterable[str]) -> list[tuple[str, tuple[str, str]]]:

@@ -89,6 +89,10 @@ class Operation(Entries):
         """The step in a few words, such as `lock: left_ear, right_ear`."""
         return f"{self.word}: {', '.join(self.names)}"
 
+    def path_of(self, bubble: str) -> tuple[str, ...]:
+        """Return the keys under which the length of a bubble stands that it makes."""
+        return (self.word, bubble)
+
     @property
     def does(self) -> str:
         """What hands do with joints or bubbles, in a word, such as `locks`."""

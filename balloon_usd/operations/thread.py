@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, ClassVar
 from balloon_usd.language.choices import all_of
 from balloon_usd.language.lengths import at_least, cm
 from balloon_usd.language.names import Name
-from balloon_usd.language.problem import quoted
 from balloon_usd.operations import moves
 from balloon_usd.operations.caution import Caution
 from balloon_usd.operations.modifiers import Entries
@@ -86,9 +85,7 @@ steps:
         """Say whether a bubble is there, or is made of what is left next, and complain if it is not."""
         if name in piece.bubbles and name not in bench.piece.bubbles:
             return True
-        if path[-1] == "bubble" and (other := bench.made_before(name)) is not None:
-            what = f"bubble {quoted(name)} is made after {quoted(other)}"
-            bench.complain(path, f"{what}, expected {quoted(other)}, with which what is left begins")
+        if path[-1] == "bubble" and not bench.find_left(name, path):
             return False
         return super().finds(name, path, piece, bench)
 

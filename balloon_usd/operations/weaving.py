@@ -22,6 +22,8 @@ class WeavesRow(Turned, MakesBubbles):
 
     bubble_kind: ClassVar[BubbleKind | None] = "bubble"
     across: ClassVar[bool] = True
+    may_begin_joined: ClassVar[bool] = False
+    """Whether the start of its row may be one already with where the others begin."""
 
     @property
     def _row(self) -> Any:
@@ -32,6 +34,10 @@ class WeavesRow(Turned, MakesBubbles):
         """Bubbles that it twists off: inflated length (m) by name."""
         found: dict[str, float] = self._row.bubbles
         return found
+
+    def path_of(self, bubble: str) -> tuple[str, ...]:
+        """Return the keys under which the length of a bubble stands."""
+        return (self.word, "bubbles", bubble)
 
     @property
     def joints(self) -> tuple[Joint, ...]:
@@ -76,7 +82,9 @@ class WeavesRow(Turned, MakesBubbles):
             return
         if cls.fits(value, place, bench) and bench.knows([*names, *(each.bubble for each in joints)]):
             for end, other in pairs(names, joints):
-                bench.join((*path, "to"), [other, end], [str(other), str(end)])
+                begun = cls.may_begin_joined and end.end == "start" and bench.piece.are_one([other, end])
+                if not begun:
+                    bench.join((*path, "to"), [other, end], [str(other), str(end)])
 
     @classmethod
     def fits(cls, value: object, place: Place, bench: Workbench) -> bool:
@@ -100,6 +108,8 @@ class WeavesRow(Turned, MakesBubbles):
     def _lock(self, end: Joint, other: Joint, score: Score, index: int) -> None:
         """Bring two joints together and twist them into one."""
         first, last = sorted(score.twistable((end, other), self.word, index))
+        if score.joints.root(first) == score.joints.root(last):
+            return
         text = f"{self.word}: {end.bubble}"
         score.together(first, last, None, text, index)
         score.weld((first, last), self.turns, text, index)

@@ -13,7 +13,7 @@ from balloon_usd.operations.insertions import Insertions
 from balloon_usd.operations.workpiece import Workpiece
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 
 @dataclass(frozen=True)
@@ -316,13 +316,29 @@ class Workbench:
                 return found
         return self.piece
 
-    def made_before(self, name: str) -> str | None:
-        """Return the bubble that is made next of the balloon of which one of a name is made later; None where
-        none is.
+    def find_left(self, name: str, path: Path) -> bool:
+        """Say whether a bubble may be what is left of a balloon; complain if it is made after another, or by
+        no step.
         """
-        balloons = (it for it, row in self._rows.items() if name in row and name not in self._made_at)
-        found = {self._next(balloon) for balloon in balloons} - {name}
-        return found.pop() if found else None
+        owner = self._owner(name)
+        other = None if owner is None or name in self._made_at else self._next(owner)
+        if other not in (None, name):
+            what = f"bubble {quoted(name)} is made after {quoted(other)}"
+            self.complain(path, f"{what}, expected {quoted(other)}, with which what is left begins")
+        elif owner is None and name not in self._made_ever and is_name(name):
+            left = list(self._left())
+            later = f"no step makes bubble {quoted(name)}, expected rest: {name} in a step after this one"
+            self.complain(path, unknown("bubble", name, left) if left else later)
+        else:
+            return True
+        return False
+
+    def _left(self) -> Iterator[str]:
+        """Yield what is left of each balloon that is begun, by the bubble made of it next, or its rest."""
+        for balloon in self.piece.balloons:
+            last = self.piece.row(balloon)[-1]
+            if (name := self._next(balloon)) or self.piece.bubbles[last].last:
+                yield name or last
 
     def _next(self, balloon: str) -> str | None:
         return next((each for each in self._rows[balloon] if each not in self._made_at), None)
@@ -363,7 +379,9 @@ class Workbench:
     def _owner(self, name: str) -> str | None:
         if made := self.piece.bubbles.get(name):
             return made.balloon
-        return self._rests[name].balloon if name in self._rests else None
+        if name in self._rests:
+            return self._rests[name].balloon
+        return next((balloon for balloon, row in self._rows.items() if name in row), None)
 
     def knows(self, names: Iterable[str]) -> bool:
         """Whether it is known on which balloon each of these bubbles is."""

@@ -98,7 +98,7 @@ def _remedy(strip: Strip, most: float, length: float, needed: float) -> str:
 
 
 def _place(recipe: Recipe, entry: Made) -> Path:
-    return ("steps", entry.step, recipe.steps[entry.step].word, entry.bubble)
+    return ("steps", entry.step, *recipe.steps[entry.step].path_of(entry.bubble))
 
 
 def _bubble(

@@ -191,7 +191,7 @@ def _wanted(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> lis
 
 def _pinched(recipe: Recipe, tube: OpenTube, made: Made) -> tuple[BubbleShape, OpenTube]:
     """A bubble that a step twists off, and what is left of the tube."""
-    path: Path = ("steps", made.step, recipe.steps[made.step].word, made.bubble)
+    path: Path = ("steps", made.step, *recipe.steps[made.step].path_of(made.bubble))
     least = LEAST_BUBBLE * tube.size.radius
     if made.length < least:
         text = f"is shorter than a neck of a {tube.size.name} is wide, expected {at_least(least)} or more"

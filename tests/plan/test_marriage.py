@@ -63,6 +63,10 @@ REFUSED = {
     "joints": ("{bubbles: {a: 8, b: 8}, to: [red_1.end, red_2.end]}", "is no name"),
     "no list": ("{bubbles: {a: 8, b: 8}, to: red_1}", "expected a list"),
     "names that are taken": ("{bubbles: {red_1: 8, b: 8}, to: [red_1, red_2]}", "expected a new name"),
+    "more than there is": (
+        "{bubbles: {a: 80, b: 8}, to: [red_1, red_2]}",
+        'marriage.bubbles.a: "a" of 80 cm',
+    ),
     "far too long": (
         "{bubbles: {a: 8, b: 20}, to: [red_1, red_2]}",
         "b is 20 cm long, and a and red_1 only 8",
@@ -88,6 +92,37 @@ def test_what_closes_on_itself_is_not_married():
     row = "  - {marriage: {bubbles: {a: 8, b: 8}, to: [red_4, ring]}, balloon: main}\n"
     with pytest.raises(RecipeError, match="ring closes on itself, expected bubbles with two ends apart"):
         Recipe.parse(rings + row)
+
+
+FIRST = "  - {marriage: {bubbles: {a: 8, b: 8}, to: [red_1, red_2]}, balloon: main}\n"
+
+
+def test_a_row_is_married_on_where_it_ends_and_where_both_are_locked_already():
+    after = "  - {marriage: {bubbles: {c: 8, d: 8}, to: [red_3, red_4]}, balloon: main}\n"
+    piece = plan(Recipe.parse(HEAD + FIRST + after)).recipe.piece
+    assert all(piece.is_closed(pair) for pair in (("a", "red_1"), ("c", "red_3"), ("d", "red_4")))
+    necks = "  - {bubbles: {w: 5}, balloon: main}\n  - lock: {joints: [red_1.end, w.end]}\n"
+    found = plan(Recipe.parse(HEAD + necks + FIRST.replace("[red_1, red_2]", "[red_2, red_3]")))
+    assert found.recipe.piece.is_closed(("a", "red_2"))
+    assert sum(isinstance(move, Weld) for move in found.choreography.moves) == 3
+
+
+@pytest.mark.parametrize(
+    ("joined", "to", "told"),
+    [
+        ("red_1.end", "[red_1, red_2]", "a and red_1 form no closed pair"),
+        ("red_1.end", "[red_3, red_4]", "red_2 would be closed on itself"),
+    ],
+)
+def test_rows_that_are_joined_elsewhere_are_not_married(joined, to, told):
+    locked = f"  - {{bubbles: {{w: 5}}, balloon: main}}\n  - lock: {{joints: [{joined}, w.end]}}\n"
+    with pytest.raises(RecipeError, match=f"{told}, for rows are joined already"):
+        Recipe.parse(HEAD + locked + FIRST.replace("[red_1, red_2]", to))
+
+
+def test_no_maker_marries_in_a_moment():
+    with pytest.raises(RecipeError, match="2 s are too short a time to marry 2 bubbles, expected at least"):
+        plan(Recipe.parse(HEAD + FIRST.replace("balloon: main", "balloon: main, seconds: 2")))
 
 
 def test_pairs_of_unequal_lengths_are_cautioned():

@@ -202,6 +202,14 @@ BLADE = "  - rest: blade\n"
         ),
         (f"  - thread: {{bubble: blade, through: [guard]}}\n{BLADE}", None),
         (
+            f"  - thread: {{bubble: blad, through: [guard]}}\n{BLADE}",
+            'unknown bubble "blad", did you mean "blade"?',
+        ),
+        (
+            "  - thread: {bubble: blade, through: [guard]}\n",
+            'no step makes bubble "blade", expected rest: blade in a step after this one',
+        ),
+        (
             f"  - thread: {{bubble: blade, through: [guard]}}\n  - ear: {{stop: 4}}\n{BLADE}",
             'bubble "blade" is made after "stop", expected "stop", with which what is left begins',
         ),
