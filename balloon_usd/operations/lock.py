@@ -10,7 +10,7 @@ from pydantic import Discriminator, Tag
 from balloon_usd.language.joint import Joint, JointEntry, readable_joints
 from balloon_usd.language.lengths import cm
 from balloon_usd.language.names import Name
-from balloon_usd.operations.caution import Caution
+from balloon_usd.operations.caution import Caution, unequal
 from balloon_usd.operations.modifiers import Entries, OnBalloon, Pointed, Timed, Turned
 from balloon_usd.operations.operation import Operation
 
@@ -30,8 +30,6 @@ class LockJoints(Entries):
     """Joints that become one, each written bubble.start or bubble.end."""
 
 
-UNEQUAL = 0.10
-"""Difference of the lengths of a locked pair that shows, as a share of the longer one."""
 BUBBLES, JOINTS = "a list of bubbles", "joints of any"
 """Tags of the forms of a lock, which never occur as keys of a recipe."""
 
@@ -119,7 +117,7 @@ steps:
             return
         first, second = pair
         one, other = layout.bubble(first).length, layout.bubble(second).length
-        if abs(one - other) > UNEQUAL * max(one, other):
+        if unequal((one, other)):
             yield Caution(
                 index,
                 f"{first} ({cm(one)}) and {second} ({cm(other)}) are an unequal pair",

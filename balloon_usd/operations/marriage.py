@@ -11,10 +11,9 @@ from balloon_usd.language.joint import Joint, ends_of
 from balloon_usd.language.lengths import cm
 from balloon_usd.language.names import Name
 from balloon_usd.language.quantities import Length
-from balloon_usd.operations.caution import Caution
+from balloon_usd.operations.caution import Caution, unequal
 from balloon_usd.operations.modifiers import Entries
 from balloon_usd.operations.roll import Roll
-from balloon_usd.operations.strands import UNEQUAL
 from balloon_usd.operations.weaving import WeavesRow
 
 if TYPE_CHECKING:
@@ -93,8 +92,7 @@ steps:
         path, names, others = (*place.path, cls.word, "to"), cls.makes(value), cls._others(value)
         if len(names) < 2 or not bench.knows(others):
             return False
-        rows = [bench.piece.row(name) for name in bench.piece.balloons]
-        row = next(row for row in rows if others[0] in row)
+        row = bench.piece.row(bench.piece.bubbles[others[0]].balloon)
         at = row.index(others[0])
         if tuple(row[at : at + len(others)]) != others:
             bench.complain(path, f"{', '.join(others)} are no row, expected bubbles that follow each other")
@@ -144,8 +142,8 @@ steps:
 
     def lead(self, name: str, score: Score, index: int) -> None:
         """Roll every second bubble through the pair before."""
-        if name in self.rolls:
-            self.rolls[name].perform(score, index)
+        if (roll := self.rolls.get(name)) is not None:
+            roll.perform(score, index)
 
     def refusals(self, layout: Layout) -> Iterator[tuple[tuple[str, ...], str]]:
         """Yield bubbles that are far too long to be rolled through the pair before."""
@@ -157,7 +155,7 @@ steps:
         """Warn of pairs of unequal lengths, and of what gets stuck between others."""
         for name, other in zip(self.lengths, self.marriage.to, strict=True):
             short, long = sorted(layout.bubble(each).length for each in (name, other))
-            if short < (1.0 - UNEQUAL) * long:
+            if unequal((short, long)):
                 yield Caution(
                     index,
                     f"{name} and {other} are {cm(short)} and {cm(long)} long",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, ClassVar
 
 from balloon_usd.language.lengths import cm
-from balloon_usd.operations.caution import Caution
+from balloon_usd.operations.caution import Caution, unequal
 from balloon_usd.operations.modifiers import Timed
 from balloon_usd.operations.operation import Operation
 
@@ -16,10 +16,6 @@ if TYPE_CHECKING:
     from balloon_usd.operations.score import Layout, PlacedBubble, Score
     from balloon_usd.operations.workbench import Place, Workbench
     from balloon_usd.operations.workpiece import Workpiece
-
-
-UNEQUAL = 0.10
-"""Difference of lengths that shows, as a share of the longest, as of a locked pair."""
 
 
 class OfStrands(Timed, Operation):
@@ -78,7 +74,7 @@ class OfStrands(Timed, Operation):
         """Warn of strands of unequal lengths."""
         by_length = sorted(self.names, key=lambda name: layout.bubble(name).length)
         short, long = (layout.bubble(by_length[k]).length for k in (0, -1))
-        if short < (1.0 - UNEQUAL) * long:
+        if unequal((short, long)):
             yield Caution(
                 index,
                 f"{by_length[-1]} ({cm(long)}) is longer than {by_length[0]} ({cm(short)})",

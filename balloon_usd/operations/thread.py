@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
 from balloon_usd.language.choices import all_of
@@ -133,4 +132,4 @@ steps:
         led = (*blown, *beyond[-1:])
         end = layout.ends(self.bubble)[1]
         more = 0 if end is None else len(led) - 1 - led.index(end)
-        return moves.Thread(**vars(replace(move, led=led)), flat=len(led) - len(blown), more=more)
+        return moves.Thread(**(vars(move) | {"led": led}), flat=len(led) - len(blown), more=more)

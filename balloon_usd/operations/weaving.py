@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from balloon_usd.language.joint import Joint, ends_of
@@ -40,9 +41,9 @@ class WeavesRow(Turned, MakesBubbles):
         return (self.word, "bubbles", bubble)
 
     @property
+    @abstractmethod
     def joints(self) -> tuple[Joint, ...]:
         """Joints of others for the end of each; with one more, the first is for the start of the row."""
-        raise NotImplementedError
 
     def entry(self, units: str | None) -> object:
         """Return its value as it stands in a file."""
@@ -62,9 +63,9 @@ class WeavesRow(Turned, MakesBubbles):
         return tuple(bubbles) if isinstance(bubbles, dict) else ()
 
     @classmethod
+    @abstractmethod
     def joints_in(cls, value: object) -> tuple[Joint, ...]:
         """Return the joints of others that a value means, as far as they can be read."""
-        raise NotImplementedError
 
     @classmethod
     def uses(cls, value: object) -> tuple[str, ...]:
@@ -87,9 +88,9 @@ class WeavesRow(Turned, MakesBubbles):
                     bench.join((*path, "to"), [other, end], [str(other), str(end)])
 
     @classmethod
+    @abstractmethod
     def fits(cls, value: object, place: Place, bench: Workbench) -> bool:
         """Say whether its bubbles and those of others fit together, and complain if they do not."""
-        raise NotImplementedError
 
     def perform(self, score: Score, index: int) -> None:
         """Twist one bubble after another off, and each to its joint."""

@@ -309,12 +309,12 @@ class Workbench:
         """Return the workpiece as it is, what is left of a balloon as its last bubble where the next that is
         made of it has a name.
         """
-        for balloon in self._rows:
-            if name == self._next(balloon):
-                found = self.piece.after(place.index)
-                found.make(place.index, name, balloon, last=True)
-                return found
-        return self.piece
+        balloon = self._owner(name)
+        if balloon is None or self._next(balloon) != name:
+            return self.piece
+        found = self.piece.after(place.index)
+        found.make(place.index, name, balloon, last=True)
+        return found
 
     def find_left(self, name: str, path: Path) -> bool:
         """Say whether a bubble may be what is left of a balloon; complain if it is made after another, or by

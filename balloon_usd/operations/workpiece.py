@@ -322,9 +322,8 @@ class Workpiece:
         ring, lies in one, or in a row that leads back into one: there, turning one bubble would have to turn
         the ring. What is behind a bubble that was threaded, or round whose neck another is wrapped, is free.
         """
-        held = self.gripped() | self._in_rows()
+        free = self.bridges() - self.gripped() - self._in_rows()
         behind = {Joint(contact.bubble, "end") for contact in self.contacts if contact.kind in _LEAVING_FREE}
-        free = {bubble for bubble in self.bridges() if bubble not in held}
         return [
             ends
             for ends in self.joints

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 
 from balloon_usd.language.choices import all_of
 from balloon_usd.language.lengths import at_most, cm
-from balloon_usd.operations.caution import Caution
-from balloon_usd.operations.lock import UNEQUAL
+from balloon_usd.operations.caution import UNEQUAL, Caution
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping

@@ -11,7 +11,7 @@ from balloon_usd.language.joint import Joint
 from balloon_usd.operations.table import BY_KIND
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable, Mapping, Sequence
 
     from balloon_usd.plan.strip import PlannedBubble, Strip
 
@@ -106,6 +106,7 @@ def _rings(strip: Strip) -> list[PlannedRing]:
     balloon = strip.balloon
     first = strip.bubbles[0]
     rings = [PlannedRing(balloon, 0.0, True, first.name, f"{balloon}.knot")]
+    fronts_led = _fronts_led(strip)
     for bubble in strip.bubbles:
         rings += [
             PlannedRing(
@@ -116,20 +117,17 @@ def _rings(strip: Strip) -> list[PlannedRing]:
                 f"{bubble.name}.{k}",
                 flat=_beyond_front(bubble, strip, share),
             )
-            for k, share in enumerate(_guide_shares(bubble, strip))
+            for k, share in enumerate(_guide_shares(bubble, strip, fronts_led))
         ]
         if bubble is not strip.bubbles[-1]:
             rings.append(PlannedRing(balloon, bubble.rest_end, True, bubble.name, f"{bubble.name}.end"))
     return rings
 
 
-def _guide_shares(bubble: PlannedBubble, strip: Strip) -> tuple[float, ...]:
+def _guide_shares(bubble: PlannedBubble, strip: Strip, fronts_led: Sequence[float]) -> tuple[float, ...]:
     apart = LEAST_APART * strip.size.radius / bubble.rest_length
-    fronts = [
-        (front - bubble.rest_start) / bubble.rest_length
-        for front in _fronts_led(strip)
-        if bubble.rest_start < front < bubble.rest_end
-    ]
+    inside = (front for front in fronts_led if bubble.rest_start < front < bubble.rest_end)
+    fronts = [(front - bubble.rest_start) / bubble.rest_length for front in inside]
     if bubble.kind != "rest":
         own = BY_KIND[bubble.kind].guides
         round_end = strip.inflated_radius / bubble.length
@@ -150,8 +148,11 @@ def _fronts_led(strip: Strip) -> list[float]:
     """Return the unstressed distances from the knot (m) of the round ends of a tube that hands lead by them
     before more is made of it.
     """
+    led = [bubble.front for bubble in strip.bubbles[:-1] if bubble.leads]
+    if not led:
+        return []
     round_end = strip.inflated_radius / maxwell_state(strip.rubber).bulged.b
-    return [bubble.front - round_end for bubble in strip.bubbles[:-1] if bubble.leads]
+    return [front - round_end for front in led]
 
 
 def _parted(shares: Iterable[float], apart: float, last: float, others: Iterable[float] = ()) -> list[float]:

@@ -97,8 +97,8 @@ def _unscaled_masses(recipe: Recipe, tubes: Mapping[str, BalloonSize]) -> Iterat
 
 
 def _hasty_leak(recipe: Recipe) -> Iterator[Problem]:
-    leak, hold = recipe.physics.leak, hold_seconds(recipe)
-    if leak is None or leak <= LEAK_IN_A_SECOND * hold:
+    leak = recipe.physics.leak
+    if leak is None or leak <= LEAK_IN_A_SECOND * (hold := hold_seconds(recipe)):
         return
     needed = f"hold: {math.ceil(leak / LEAK_IN_A_SECOND)}"
     most = f", or leak: {duration_entry(LEAK_IN_A_SECOND * hold)}" if hold > 0.0 else ""

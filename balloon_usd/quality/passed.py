@@ -145,23 +145,29 @@ class _Passing(_Followed):
         self._places: Floats | None = None
         """Their middles in the frame before, (N, 3), m."""
         self._angle = 0.0
-        """How far the solid angle of the ring has changed, sr."""
+        """The solid angle of the ring in it, sr."""
+        self._changed = 0.0
+        """How far that has changed, sr."""
 
     def _look(self, frame: Frame) -> float:
         places = np.array([each.places(frame).mean(axis=0) for each in self._rings])
-        before = places if self._places is None else self._places
+        angle = _angle(places)
+        if self._places is None:
+            self._places, self._angle = places, angle
         # Each step is known but for whole spheres.
-        step = self._step(before, places)
+        step = math.remainder(angle - self._angle, WHOLE)
         if abs(step) > FAR * WHOLE:
-            way = before + np.linspace(0.0, 1.0, BETWEEN + 1)[:, None, None] * (places - before)
-            step = sum(self._step(here, there) for here, there in pairwise(way))
-        self._angle += step
-        self._places = places
-        return abs(self._angle) / WHOLE
+            shares = np.linspace(0.0, 1.0, BETWEEN + 1)[:, None, None]
+            angles = map(_angle, self._places + shares * (places - self._places))
+            step = sum(math.remainder(there - here, WHOLE) for here, there in pairwise(angles))
+        self._changed += step
+        self._places, self._angle = places, angle
+        return abs(self._changed) / WHOLE
 
-    def _step(self, before: Floats, after: Floats) -> float:
-        here, there = (float(solid_angles(each[:1], each[1:])[0]) for each in (before, after))
-        return math.remainder(there - here, WHOLE)
+
+def _angle(places: Floats) -> float:
+    """Return the solid angle (sr) of a ring, all places but the first of these, (N, 3), m, from that."""
+    return float(solid_angles(places[:1], places[1:])[0])
 
 
 class _Wrapped(_Followed):
