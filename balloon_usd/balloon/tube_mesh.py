@@ -39,6 +39,11 @@ LIP_FLARE = 1.35
 """Radius of the lip's rim, in R0."""
 GRADING = 0.18
 """Growth of the axial spacing per distance from the nearest joint."""
+TORN_ROWS = 5
+"""Rows of faces that are gone once a bubble tears: they stand where two do of one that does not. Frames show
+them as a lid on each rag, of two rows, and a thread between both: a thread of one row is not thin where a
+renderer subdivides it.
+"""
 
 MIRRORED_FACE = [0, 3, 2, 1]
 """Corners of a face from whose mirror image the outside is where it was."""
@@ -84,11 +89,17 @@ class BalloonMesh:
 
 
 def ring_stations(
-    detail: Detail, size: BalloonSize, joints: tuple[float, ...], guides: tuple[float, ...] = ()
+    detail: Detail,
+    size: BalloonSize,
+    joints: tuple[float, ...],
+    guides: tuple[float, ...] = (),
+    torn: tuple[float, ...] = (),
 ) -> NDArray[np.float64]:
     """Return the unstressed positions of the tube's rings, (R,) float64, m.
 
     There is one at every joint, and they stand closer beside joints; every guide has one of its own near.
+
+    `torn`: places in bubbles that tear.
 
     Raises:
         ValueError: a joint lies outside the tube.
@@ -101,7 +112,8 @@ def ring_stations(
     stations = [np.zeros(1)]
     for low, high in pairwise(marks):
         own = [guide for guide in guides if low < guide < high]
-        stations.append(_graded(low, high, fine, coarse, own, tail=high == last))
+        row = _graded(low, high, fine, coarse, own, tail=high == last)
+        stations.append(_torn(low, row) if any(low < place < high for place in torn) else row)
     return np.concatenate(stations)
 
 
@@ -125,6 +137,19 @@ def _graded(
         count += 1
 
 
+def _torn(low: float, stations: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the places of the rings behind `low` with the rows in their middle that tear."""
+    ends = np.concatenate([[low], stations])
+    first = first_torn_row(len(stations) - 2 + TORN_ROWS)
+    torn = np.linspace(ends[first], ends[first + 2], TORN_ROWS + 1)
+    return np.concatenate([ends[:first], torn, ends[first + 3 :]])[1:]
+
+
+def first_torn_row(rows: int) -> int:
+    """Return which of the rows of a bubble that tears is the first that is gone then."""
+    return (rows - TORN_ROWS) // 2
+
+
 @lru_cache(maxsize=64)
 def tube_mesh(
     size: BalloonSize,
@@ -132,13 +157,14 @@ def tube_mesh(
     joints: tuple[float, ...],
     bubble_ends: tuple[float, ...],
     guides: tuple[float, ...] = (),
+    torn: tuple[float, ...] = (),
 ) -> BalloonMesh:
     """Return the mesh of a balloon with a ring at every joint (m along the flat tube), one for each guide.
 
     Sculptures of a crowd share it, so its arrays cannot be written to.
 
     `bubble_ends`: where each bubble ends, m along the flat tube, ascending; the knot and lip belong to the
-    first bubble and the tip to the last.
+    first bubble and the tip to the last. `torn`: places in bubbles that tear, m along the flat tube.
 
     Raises:
         ValueError: a joint lies outside the tube.
@@ -147,7 +173,7 @@ def tube_mesh(
     behind = np.concatenate(
         [-knot - lip + lip * np.linspace(0, 1, 4), -knot + knot * np.linspace(0, 1, 5)[1:-1]]
     )
-    along = np.concatenate([behind, ring_stations(detail, size, joints, guides)])
+    along = np.concatenate([behind, ring_stations(detail, size, joints, guides, torn)])
     rings, n = len(along), detail.around
     radius = np.full(rings, size.radius / math.cos(math.pi / n))
     flare = np.clip((-knot - along) / lip, 0.0, 1.0)

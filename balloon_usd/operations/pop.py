@@ -1,4 +1,4 @@
-"""`pop`: a bubble is burst between two joints that hold."""
+"""`pop`: a bubble is burst between two joints that hold, and tears."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ SNAP_SECONDS = 1.0
 
 
 class Pop(Operation):
-    """Burst a bubble: its rubber hangs limp between its joints, which ears or locks keep shut."""
+    """Burst a bubble: it tears, and its rubber snaps back to its joints, which ears or locks keep shut."""
 
     word: ClassVar[str] = "pop"
     keeps_time: ClassVar[bool] = True
@@ -45,7 +45,7 @@ steps:
     )
 
     pop: Name
-    """Burst a bubble: its rubber hangs limp between its joints, which ears or locks keep shut."""
+    """Burst a bubble: it tears, and its rubber snaps back to its joints, which ears or locks keep shut."""
 
     @property
     def names(self) -> tuple[str, ...]:

@@ -74,7 +74,7 @@ class Contact:
 
 @dataclass(frozen=True)
 class Popped:
-    """A bubble was burst: its rubber still hangs between its joints, but keeps nothing from turning."""
+    """A bubble was burst: what is left of its rubber keeps nothing from turning."""
 
     step: int
     bubble: str

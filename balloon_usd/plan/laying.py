@@ -13,6 +13,7 @@ from balloon_usd.language.lengths import at_least, at_most, cm
 from balloon_usd.language.problem import RecipeError, quoted
 from balloon_usd.operations.curving import Curves
 from balloon_usd.operations.modifiers import Turned
+from balloon_usd.operations.parting import torn_bubbles
 from balloon_usd.operations.thread import Thread
 from balloon_usd.operations.tie import LEAST_STRING, Tie
 from balloon_usd.plan.capsule import capsule_bubbles
@@ -117,6 +118,7 @@ def _tube(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> Strip
     threaded = [step.bubble for step in recipe.steps if isinstance(step, Thread) and step.bubble in row]
     bent.update(*(row[row.index(each) :] for each in threaded))
     places = {each: count for s in recipe.steps for each, count in s.held_at(recipe.piece).items()}
+    torn = torn_bubbles(recipe.piece)
     for made in _wound(recipe, name, size, rubber):
         shape, left = (_closed if made.length == ALL else _pinched)(recipe, tube, made)
         index, kind, bubble, length, gas, drawn, slack = made._replace(length=shape.length)
@@ -125,7 +127,7 @@ def _tube(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> Strip
         pressure = shape.pressure * gauge_pressure(size, maxwell_state(tube.rubber).p_star)
         planned = PlannedBubble(bubble, name, kind, length, *place, shape.volume, index, pressure)
         drawn_in = drawn_before, drawn
-        planned = replace(planned, bent=bubble in bent, places=places.get(bubble, 0))
+        planned = replace(planned, bent=bubble in bent, places=places.get(bubble, 0), tears=bubble in torn)
         front = size.length - tube.tail
         bubbles.append(
             replace(planned, gas=gas, drawn=drawn_in, slack=slack, front=front, leads=bubble in threaded)

@@ -42,4 +42,5 @@ def mesh_of(strip: Strip, detail: Detail) -> BalloonMesh:
     ends = tuple(bubble.rest_end for bubble in strip.bubbles)
     if strip.capsule:
         return capsule_mesh(ends[-1], strip.inflated_radius, detail.capsule_around, ends)
-    return tube_mesh(strip.size, detail, joint_places(strip), ends, guide_places(strip))
+    torn = tuple(0.5 * (bubble.rest_start + bubble.rest_end) for bubble in strip.bubbles if bubble.tears)
+    return tube_mesh(strip.size, detail, joint_places(strip), ends, guide_places(strip), torn)

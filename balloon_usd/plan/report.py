@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from balloon_usd.language.lengths import at_least, at_most, cm
 from balloon_usd.operations.moves import LeadIn
+from balloon_usd.operations.parting import parts_of
 from balloon_usd.operations.workpiece import Contact, Joined, Popped
 from balloon_usd.plan.holding import friction_margin
 from balloon_usd.plan.parking import parked
@@ -143,7 +144,8 @@ def _graph_lines(plan: Plan) -> Iterator[str]:
             hold = "holds" if len(event.others) == 1 else "hold"
             yield f"  step {event.step + 1} {event.text}, which {hold} it"
         if isinstance(event, Popped):
-            yield f"  step {event.step + 1} {plan.recipe.steps[event.step].does} {event.bubble}"
+            does = f"{plan.recipe.steps[event.step].does} {event.bubble}"
+            yield f"  step {event.step + 1} {does}{_apart(plan, event)}"
         if isinstance(event, Joined):
             for balloon in [name for name, step in led_in.items() if step == event.step]:
                 del led_in[balloon]
@@ -153,6 +155,12 @@ def _graph_lines(plan: Plan) -> Iterator[str]:
             what = f"{plan.recipe.steps[event.step].does} {', '.join(map(str, event.ends))}"
             yield f"  step {event.step + 1} {what} (joint {graph.joint_of(event.ends[0]).index})"
     yield from joint_lines(graph, margins_of(plan.recipe, graph))
+
+
+def _apart(plan: Plan, event: Popped) -> str:
+    """Tell if a figure comes apart when a bubble is popped."""
+    before, after = (len(parts_of(plan.recipe.piece.after(step))) for step in (event.step - 1, event.step))
+    return ", and so the figure comes apart" if after > before else ""
 
 
 def margins_of(recipe: Recipe, graph: SculptureGraph, step: int | None = None) -> dict[int, float]:

@@ -82,6 +82,8 @@ class PlannedBubble:
     """Unstressed distance of the gas's end from the knot before it is twisted off, m; only of tubes."""
     leads: bool = False
     """Whether hands lead all that is left of its balloon before it is twisted off."""
+    tears: bool = False
+    """Whether it is popped, and both its ends hang on something: its wall tears in the middle."""
 
     @property
     def twisted(self) -> Twisted:

@@ -8,6 +8,7 @@ import numpy as np
 
 from balloon_usd.quality.crossings import pierced_triangles
 from balloon_usd.quality.pierced_walls import crossings_in, depth_in, folded_in_necks
+from balloon_usd.quality.threads import walls_alone
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -54,7 +55,8 @@ class CrossingCounter:
 
     def _pierced(self, points: NDArray[np.float32]) -> tuple[Walls, Pierced]:
         """Return the walls as they are in a frame, and what is pierced there."""
-        return self._walls.cut_off(points), self._search_in(points)
+        pierced = walls_alone(self._search_in(points), self._walls.quads, points)
+        return self._walls.cut_off(points), pierced
 
     def _search_in(self, points: NDArray[np.float32]) -> Pierced:
         if self._search is not None:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from balloon_usd.operations.moves import SetDown
+from balloon_usd.operations.parting import parts_of
 from balloon_usd.quality.bubbles import vertices_of_bubbles
 from balloon_usd.quality.measures import MEASURES
 from balloon_usd.solver.levelling import TOUCHES, feet_of
@@ -31,7 +32,8 @@ class Standing:
     def __init__(self, plan: Plan, meshes: Sequence[BalloonMesh]) -> None:
         """Find out when it is set down, if it is; `meshes`: one a balloon, in the order of `Plan.strips`."""
         carries = (m for m in plan.choreography.moves if isinstance(m, SetDown) and m.pose == "stand")
-        self._carry = next(carries, None)
+        # Of what has come apart each part stands as it can.
+        self._carry = next(carries, None) if len(parts_of(plan.recipe.piece)) == 1 else None
         self._bubbles = vertices_of_bubbles(plan, meshes) if self._carry else {}
         # Frames may show the mirror image of what hands carry.
         self._shown = np.array([1.0, -1.0 if plan.mirrored else 1.0, 1.0])
@@ -46,7 +48,7 @@ class Standing:
             self._kept[frame.time_code] = [self._shown * points for points in frame.points]
 
     def results(self) -> dict[str, dict[str, Any]]:
-        """Return the lean, once the last frame is taken; none of a figure that stands nowhere."""
+        """Return the lean, once the last frame is taken; none of what stands nowhere, or not as one."""
         if self._carry is None:
             return {"lean": MEASURES["lean"].result(None)}
         held, stands = (np.concatenate(self._kept[code]) for code in (self._before, self._last))

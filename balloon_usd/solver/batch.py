@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from balloon_usd.plan import Plan
     from balloon_usd.solver.frame_arrays import FrameArrays
     from balloon_usd.solver.model import Model, ModelMaker
-    from balloon_usd.solver.placement import Placement
+    from balloon_usd.solver.placement import Placed
     from balloon_usd.solver.severed import Severed
     from balloon_usd.solver.snapshot import Memory
     from balloon_usd.solver.status import Status
@@ -99,7 +99,7 @@ class Batch:
         self,
         into: FrameArrays,
         severed: Mapping[int, Sequence[Severed]],
-        placements: Mapping[int, Placement],
+        placements: Mapping[int, Placed],
     ) -> None:
         """Turn what was simulated into what frames show: without what was cut off, where it is put, and not
         mirrored.
@@ -108,9 +108,8 @@ class Batch:
         for world, cut in severed.items():
             for each in cut:
                 each.stub.put(into.points[places[world].walls[each.balloon]])
-        for world, placement in placements.items():
-            for points in into.places_of(places[world]):
-                placement.put(points)
+        for world, placed in placements.items():
+            placed.put(into.places_of(places[world]))
         for world in self._mirrored:
             for points in into.places_of(places[world]):
                 points[:, 1] *= -1.0

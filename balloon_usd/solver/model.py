@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from balloon_usd.solver.hands import Hands
     from balloon_usd.solver.layout import Layout
     from balloon_usd.solver.performer import Performer
-    from balloon_usd.solver.placement import Placement
+    from balloon_usd.solver.placement import Placed
     from balloon_usd.solver.readback import Readback
     from balloon_usd.solver.severed import Severed
     from balloon_usd.solver.status import Status
@@ -45,7 +45,7 @@ class Model(ABC):
         """Where every sculpture lies in the arrays of a frame."""
         self.statuses: list[Status] = []
         """Status of every sculpture when the state was read back."""
-        self.placements: dict[int, Placement] = {}
+        self.placements: dict[int, Placed] = {}
         """Where frames show the sculptures that are not where they were made, as of that state."""
         self.severed: dict[int, tuple[Severed, ...]] = {}
         """What was cut off of sculptures, as of that state."""
@@ -77,8 +77,8 @@ class Model(ABC):
         """
         self._state = self._readback.arrays()
         self.statuses = [performer.status for performer in self.performers]
-        placed = enumerate(performer.sculpture.placement for performer in self.performers)
-        self.placements = {world: placement for world, placement in placed if placement is not None}
+        placed = enumerate(performer.sculpture.placed for performer in self.performers)
+        self.placements = {world: where for world, where in placed if where is not None}
         cut = enumerate(tuple(performer.sculpture.severed.values()) for performer in self.performers)
         self.severed = {world: found for world, found in cut if found}
 

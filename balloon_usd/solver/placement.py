@@ -10,11 +10,12 @@ from numpy.typing import NDArray
 from balloon_usd.operations.moves import FRONTS
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from balloon_usd.operations.moves import Facing
 
 Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
 
 FORWARD = np.array(FRONTS["forward"])
 UP = np.array(FRONTS["up"])
@@ -35,9 +36,30 @@ class Placement(NamedTuple):
         """Return a turn (3, 3) about the origin and a shift (3,) behind it, m."""
         return cls(turn.astype(np.float32), shift.astype(np.float32))
 
-    def put(self, points: NDArray[np.float32]) -> None:
-        """Move points (N, 3) in place, m."""
-        points[:] = points @ self.turn.T + self.shift
+    def moved(self, points: NDArray[np.float32]) -> NDArray[np.float32]:
+        """Return points (N, 3), m, where they are put."""
+        return points @ self.turn.T + self.shift
+
+
+class Placed(NamedTuple):
+    """Where the parts of a finished figure are put: just one if it has not come apart."""
+
+    parts: tuple[Ints, ...]
+    """Vertices of every part, among those of the figure."""
+    placements: tuple[Placement, ...]
+
+    def put(self, points: Sequence[NDArray[np.float32]]) -> None:
+        """Move the vertices, and the air, of every balloon in place, (N, 3) each, m."""
+        if len(self.placements) == 1:
+            for each in points:
+                each[:] = self.placements[0].moved(each)
+            return
+        walls = np.concatenate(points)
+        for part, placement in zip(self.parts, self.placements, strict=True):
+            walls[part] = placement.moved(walls[part])
+        ends = np.cumsum([len(each) for each in points])
+        for each, moved in zip(points, np.split(walls, ends[:-1]), strict=True):
+            each[:] = moved
 
 
 def turn_facing(front: Facing, top: Facing | None, middle: Floats, of: Callable[[str], Floats]) -> Floats:

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
 
 ADDED_MASS = 0.5
 """Air that moves with a body, in what it displaces: that of a sphere, between the 0 and 1 of a long cylinder
@@ -32,6 +33,10 @@ class Lumps:
     """Mass of rubber or gas, (N,), kg."""
     displaced: Floats
     """Volume of air that is not there, (N,), m3."""
+
+    def at(self, part: Ints | slice) -> Lumps:
+        """Return those with some numbers."""
+        return Lumps(self.place[part], self.mass[part], self.displaced[part])
 
     @classmethod
     def of(cls, parts: Sequence[Self]) -> Self:
@@ -67,7 +72,7 @@ class RigidFigure:
     """Stiffness of the ground's push on every vertex, (V,), N/m."""
 
     @classmethod
-    def of(cls, lumps: Lumps, points: Floats, quads: NDArray[np.int32], firmness: Floats) -> Self:
+    def of(cls, lumps: Lumps, points: Floats, quads: Ints, firmness: Floats) -> Self:
         """Return the body of a figure with these vertices (V, 3), m, and faces (Q, 4)."""
         moved = lumps.mass + ADDED_MASS * OUTSIDE_DENSITY * lumps.displaced
         inertial = float(moved.sum())

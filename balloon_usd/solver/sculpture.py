@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from balloon_usd.operations.parting import parts_of
 from balloon_usd.operations.table import BY_KIND
 from balloon_usd.solver.motions.carried import Carried
 from balloon_usd.solver.motions.hanging import hanging_on
+from balloon_usd.solver.torn import Tear
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -17,11 +20,14 @@ if TYPE_CHECKING:
     from balloon_usd.plan import Plan
     from balloon_usd.plan.strip import Strip
     from balloon_usd.solver.hands import Hands
-    from balloon_usd.solver.placement import Placement
+    from balloon_usd.solver.placement import Placed
     from balloon_usd.solver.scene import Scene
     from balloon_usd.solver.severed import Severed
 
 Floats = NDArray[np.float32]
+
+ALL = slice(None)
+"""All that there is."""
 
 ALONG = np.array([1.0, 0.0, 0.0])
 """Direction from the knot to the tip."""
@@ -44,7 +50,7 @@ class Sculpture:
     frame: ComingFrame
     """The frame that motions set goals for; none before the first."""
 
-    placement: Placement | None = None
+    placed: Placed | None = None
     """Where the frames show it, if not where it was made."""
 
     def __init__(self, plan: Plan, scene: Scene, hands: Hands, first_body: int) -> None:
@@ -129,6 +135,29 @@ class Sculpture:
         by = np.repeat(np.arange(len(moved)), [len(each) for each in moved])
         return Carried(joints, by, middle[joints].astype(np.float64))
 
+    @cached_property
+    def parts(self) -> tuple[NDArray[np.int64], ...]:
+        """Vertices, among its own, of every part that stays together where bubbles have torn."""
+        start = int(self.vertices.start)
+        found = []
+        for part in parts_of(self.plan.recipe.piece):
+            own = [self._stretch(*stretch) for stretch in part]
+            found.append(np.concatenate(own) - start)
+        return tuple(found)
+
+    def _stretch(self, balloon: str, behind: str | None, before: str | None) -> NDArray[np.int64]:
+        """Return the vertices of a balloon, in the scene, between the tears of two bubbles."""
+        own = self.scene.vertices_of(self.body[balloon])
+        first = own.start if behind is None else self._behind_tear(behind)
+        last = own.stop if before is None else self._behind_tear(before)
+        return np.arange(first, last)
+
+    def _behind_tear(self, bubble: str) -> int:
+        """Return the first vertex, in the scene, behind the middle of what is gone where a bubble tears."""
+        body, faces = self.faces(bubble)
+        rings = Tear.of(self.scene.bodies[body], faces).rings
+        return int(self.scene.vertex_start[body]) + int(rings[len(rings) // 2].min())
+
     @property
     def outer_joints(self) -> NDArray[np.int64]:
         """Joints of what lies in no other balloon."""
@@ -159,9 +188,11 @@ class Sculpture:
             each.stub.put(walls[start[each.balloon] :])
         return walls
 
-    def centre(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the centre of its mass, (3,), m; `points`: its vertices, (V, 3), m."""
-        middle: NDArray[np.float64] = points.mean(axis=0)
+    def centre(
+        self, points: NDArray[np.float64], part: NDArray[np.int64] | slice = ALL
+    ) -> NDArray[np.float64]:
+        """Return the centre of the mass of a part, (3,), m; `points`: all its vertices, (V, 3), m."""
+        middle: NDArray[np.float64] = points[part].mean(axis=0)
         return middle
 
     def ring_width(self, joint: int) -> float:

@@ -1,4 +1,4 @@
-"""What was cut off a balloon: frames show what is left of it at its joint."""
+"""Rubber that is gone: it was cut off a balloon, or tore; frames show what is left of it at its joints."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from balloon_usd.balloon.sizes import NECK_REACH
 
 if TYPE_CHECKING:
     from balloon_usd.solver.body import Body
+    from balloon_usd.solver.torn import Tear
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -99,4 +100,4 @@ class Severed(NamedTuple):
 
     balloon: int
     """Which of its sculpture's."""
-    stub: Stub
+    stub: Stub | Tear

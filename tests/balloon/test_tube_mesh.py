@@ -7,7 +7,7 @@ import pytest
 
 from balloon_usd.balloon.detail import DETAILS, detail_named
 from balloon_usd.balloon.sizes import SIZES, size_named
-from balloon_usd.balloon.tube_mesh import ring_stations, tube_mesh
+from balloon_usd.balloon.tube_mesh import TORN_ROWS, first_torn_row, ring_stations, tube_mesh
 from tests.balloon.volume import volume_of
 
 JOINTS = (0.0287, 0.0574, 0.09)
@@ -92,3 +92,27 @@ def test_a_guide_beside_the_last_ring_is_led_by_it():
     last = size.length - size.radius
     few = ring_stations(detail_named("draft"), size, (0.1,))
     assert len(ring_stations(detail_named("draft"), size, (0.1,), (last - 1e-6,))) == len(few)
+
+
+def test_a_bubble_that_tears_has_five_rows_where_two_stood_and_all_other_rings_stay():
+    size, detail = size_named("260"), detail_named("draft")
+    plain = ring_stations(detail, size, (0.05, 0.1, 0.15))
+    torn = ring_stations(detail, size, (0.05, 0.1, 0.15), torn=(0.075,))
+    assert len(torn) == len(plain) + 3
+    inside = (torn > 0.05) & (torn < 0.1)
+    assert set(torn[~inside]) == set(plain[(plain <= 0.05) | (plain >= 0.1)])
+    rows = np.diff(torn[(torn >= 0.05) & (torn <= 0.1)])
+    first = first_torn_row(len(rows))
+    assert np.ptp(rows[first : first + TORN_ROWS]) == pytest.approx(0.0, abs=1e-12)
+    assert rows.sum() == pytest.approx(0.05)
+    # As many rows on either side, or one more.
+    assert len(rows) - TORN_ROWS - 2 * first in (0, 1)
+
+
+@pytest.mark.parametrize("length", [0.004, 0.02, 0.2])
+def test_the_shortest_bubble_can_tear_too(length):
+    size, detail = size_named("260"), detail_named("draft")
+    torn = ring_stations(detail, size, (0.05, 0.05 + length), torn=(0.05 + 0.5 * length,))
+    rows = np.diff(torn[(torn >= 0.05) & (torn <= 0.05 + length)])
+    assert len(rows) >= TORN_ROWS
+    assert rows.min() > 0.0

@@ -150,6 +150,9 @@ class LatexModel(Model):
         read-back.
         """
         super().read_back()
+        torn = [segment for sculpture in self._sculptures for segment in sculpture.torn]
+        # What is open holds no volume.
+        self._state["volume"][torn] = 0.0
         self._jams.note(self._state["segment_jammed"][self.layout.bubbles])
         self._inflated = [
             b for s in self._sculptures for b, at in s.inflated_at.items() if at == self._reached

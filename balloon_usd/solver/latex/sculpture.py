@@ -10,7 +10,7 @@ from balloon_usd.plan.nesting import hosts_of
 from balloon_usd.solver.latex.friction import Friction
 from balloon_usd.solver.latex.spins import VertexSet
 from balloon_usd.solver.latex.torsion import Torsion
-from balloon_usd.solver.sculpture import Sculpture
+from balloon_usd.solver.sculpture import ALL, Sculpture
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -40,6 +40,8 @@ class LatexSculpture(Sculpture):
         self.torsion = Torsion(plan, scene, hands, self.joints, self.body, self.friction)
         self.inflated_at: dict[int, float] = {}
         """Time at which each body had its gas, s."""
+        self.torn: list[int] = []
+        """Segments, in the scene, whose walls have torn."""
         self.pose_kept: dict[tuple[int, ...], set[tuple[int, int]]] = {}
         """Pairs of joints (of the scene) whose distance friction keeps, by the weld whose it is."""
 
@@ -70,10 +72,14 @@ class LatexSculpture(Sculpture):
         self.pose_kept = self.friction.kept(self.hands)
         return set().union(*self.pose_kept.values())
 
-    def centre(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the centre of the mass of its rubber, (3,), m; `points`: its vertices, (V, 3), m."""
-        mass = self.scene.true_mass.numpy()[self.vertices].astype(np.float64)
-        middle: NDArray[np.float64] = mass @ points / mass.sum()
+    def centre(
+        self, points: NDArray[np.float64], part: NDArray[np.int64] | slice = ALL
+    ) -> NDArray[np.float64]:
+        """Return the centre of the mass of the rubber of a part, (3,), m; `points`: all its vertices,
+        (V, 3), m.
+        """
+        mass = self.scene.true_mass.numpy()[self.vertices].astype(np.float64)[part]
+        middle: NDArray[np.float64] = mass @ points[part] / mass.sum()
         return middle
 
     def weigh_nothing(self, body: int, vertices: NDArray[np.int64]) -> None:

@@ -11,11 +11,13 @@ from numpy.typing import NDArray
 from balloon_usd.balloon.air import MOLAR_MASS
 from balloon_usd.solver.corners import vector_areas
 from balloon_usd.solver.rigid_figure import Lumps, RigidFigure
+from balloon_usd.solver.sculpture import ALL
 
 if TYPE_CHECKING:
     from balloon_usd.solver.latex.sculpture import LatexSculpture
 
 Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
 
 DISC = math.sqrt(0.5)
 """Radius of the ring that has the inertia of a disc, in that of the disc: the gas of a slice of a bubble."""
@@ -25,8 +27,8 @@ NARROW = 0.005
 """Radius of rubber that is flat all over, m."""
 
 
-def rigid_figure(sculpture: LatexSculpture, points: Floats) -> RigidFigure:
-    """Return a sculpture with its vertices at points (V, 3), m, as a rigid body."""
+def rigid_figure(sculpture: LatexSculpture, points: Floats, part: Ints | slice = ALL) -> RigidFigure:
+    """Return a part of a sculpture as a rigid body; `points`: all its vertices, (V, 3), m."""
     scene, hands, own = sculpture.scene, sculpture.hands, sculpture.vertices
     segment = scene.vertex_segment.numpy()[own]
     quads = np.concatenate(
@@ -40,8 +42,17 @@ def rigid_figure(sculpture: LatexSculpture, points: Floats) -> RigidFigure:
     gas = Lumps(
         middles + DISC * out, MOLAR_MASS * share * hands.amount[segment], share * hands.volume[segment]
     )
-    lumps = Lumps.of([Lumps(points, rubber, np.zeros(len(rubber))), gas])
-    return RigidFigure.of(lumps, points, quads, _firmness(sculpture, segment, radius))
+    lumps = Lumps.of([Lumps(points, rubber, np.zeros(len(rubber))).at(part), gas.at(part)])
+    firmness = _firmness(sculpture, segment, radius)
+    return RigidFigure.of(lumps, points[part], _faces_of(quads, len(points), part), firmness[part])
+
+
+def _faces_of(quads: NDArray[np.int32], vertices: int, part: Ints | slice) -> Ints:
+    """Return the faces that have all their corners in a part of so many vertices, numbered within it."""
+    within = np.full(vertices, -1)
+    within[part] = np.arange(len(within[part]))
+    found: Ints = within[quads]
+    return found[(found >= 0).all(axis=1)]
 
 
 def _firmness(sculpture: LatexSculpture, segment: NDArray[np.int64], radius: Floats) -> Floats:

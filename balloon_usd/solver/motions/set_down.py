@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +10,14 @@ from numpy.typing import NDArray
 from balloon_usd.operations.moves import LET_GO
 from balloon_usd.solver.motions.motion import Motion
 from balloon_usd.solver.motions.smooth import smooth
-from balloon_usd.solver.placement import Placement, axis_and_angle, turn_about, turn_between, turn_facing
+from balloon_usd.solver.placement import (
+    Placed,
+    Placement,
+    axis_and_angle,
+    turn_about,
+    turn_between,
+    turn_facing,
+)
 from balloon_usd.solver.resting import standing_direction
 
 if TYPE_CHECKING:
@@ -26,6 +33,34 @@ by which end it hangs.
 """
 
 
+class Way(NamedTuple):
+    """How hands carry something: they turn it about its centre, and that goes straight on."""
+
+    centre: Floats
+    """(3,), m."""
+    axis: Floats
+    """Unit vector, (3,)."""
+    angle: float
+    """rad"""
+    forward: Floats
+    """Way of the centre, (3,), m."""
+
+    @classmethod
+    def to(cls, centre: Floats, turn: Floats, shift: Floats) -> Self:
+        """Return the way to a turn (3, 3) about the origin and a shift (3,) behind it, m."""
+        return cls(centre, *axis_and_angle(turn), turn @ centre + shift - centre)
+
+    @property
+    def turn(self) -> Floats:
+        """The turn of the whole way, (3, 3)."""
+        return turn_about(self.axis, self.angle)
+
+    def placement(self, progress: float) -> Placement:
+        """Return where it is after a share of the way."""
+        turn = turn_about(self.axis, progress * self.angle)
+        return Placement.by(turn, self.centre + progress * self.forward - turn @ self.centre)
+
+
 class SetDown(Motion):
     """Hands that carry the whole figure as it is, by the placement of its frames."""
 
@@ -34,9 +69,11 @@ class SetDown(Motion):
         self._sculpture = sculpture
         points = sculpture.walls()
         self._centre = sculpture.centre(points)
-        turn, shift = self._end(move, points)
-        self._axis, self._angle = axis_and_angle(turn)
-        self._way = turn @ self._centre + shift - self._centre
+        self._ways = self._found(move, points)
+
+    def _found(self, move: moves.SetDown, points: Floats) -> list[Way]:
+        """Return the way of every part: all go together; `points`: its vertices, (V, 3), m."""
+        return [Way.to(self._centre, *self._end(move, points))] * len(self._sculpture.parts)
 
     def _end(self, move: moves.SetDown, points: Floats) -> tuple[Floats, Floats]:
         """Return the turn (3, 3) about the origin and the shift (3,) behind it, m, after which it stays.
@@ -59,15 +96,13 @@ class SetDown(Motion):
 
     @property
     def turn(self) -> Floats:
-        """The turn of the whole way, (3, 3)."""
-        return turn_about(self._axis, self._angle)
+        """The turn of the whole way, (3, 3), of the first part."""
+        return self._ways[0].turn
 
     def advance(self, share: float) -> None:
         """Carry it a share of the way."""
-        progress = smooth(share)
-        turn = turn_about(self._axis, progress * self._angle)
-        shift = self._centre + progress * self._way - turn @ self._centre
-        self._sculpture.placement = Placement.by(turn, shift)
+        placements = tuple([way.placement(smooth(share)) for way in self._ways])
+        self._sculpture.placed = Placed(self._sculpture.parts, placements)
 
 
 def faced(move: moves.SetDown | moves.Level, sculpture: Sculpture, points: Floats) -> tuple[Floats, Floats]:

@@ -223,7 +223,8 @@ def goes_through(
     of the triangle, twice its area long.
     """
     share = share_of_edge(below, above)
-    if share < -LONGER or share > 1.0 + LONGER:
+    # What is gone of a torn wall has no area: nothing goes through it.
+    if share < -LONGER or share > 1.0 + LONGER or wp.dot(across, across) == 0.0:
         return False
     return wp.min(shares_of_face(p + share * (q - p), a, b, c, across)) >= -LONGER
 

@@ -1,9 +1,10 @@
-"""Popping a bubble: its gas is gone at once, and its rubber snaps back to what it was when flat."""
+"""Popping a bubble: its gas is gone at once, it tears, and its rubber snaps back to what it was when flat."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from balloon_usd.solver.latex.tearing import tear
 from balloon_usd.solver.motions.motion import Motion
 
 if TYPE_CHECKING:
@@ -15,13 +16,16 @@ class Pop(Motion):
     """A needle at a bubble."""
 
     def __init__(self, move: moves.Pop, sculpture: LatexSculpture) -> None:
-        """Prick it: a limp bubble keeps no pose."""
+        """Prick it: what has burst keeps no pose."""
         self._hands = sculpture.hands
         start, end = sculpture.plan.table.ends(move.bubble)
         ring, side = (start, 1) if end is None else (end, 0)
         self._segment = int(self._hands.beside[sculpture.joints[ring], side])
         self._begun = float(self._hands.pressure[self._segment])
         sculpture.friction.popped.add(move.bubble)
+        if any(bubble.tears for bubble in sculpture.plan.bubbles if bubble.name == move.bubble):
+            tear(move.bubble, sculpture)
+            sculpture.torn.append(self._segment)
         sculpture.give_up_pose()
 
     def advance(self, share: float) -> None:

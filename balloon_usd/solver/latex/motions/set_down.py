@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -9,30 +10,108 @@ from numpy.typing import NDArray
 
 from balloon_usd.solver.falling import FallingFigure
 from balloon_usd.solver.latex.weight import rigid_figure
-from balloon_usd.solver.motions.set_down import SetDown
+from balloon_usd.solver.motions.set_down import DOWN, SetDown, Way, faced
+from balloon_usd.solver.placement import turn_about, turn_between
+from balloon_usd.solver.resting import standing_direction
+from balloon_usd.solver.sculpture import ALL
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from balloon_usd.operations import moves
     from balloon_usd.solver.latex.sculpture import LatexSculpture
 
 Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+
+GAP = 0.02
+"""Least distance at which hands put parts beside each other, m."""
+STEADY = np.zeros(3)
 
 
 class LatexSetDown(SetDown):
-    """Hands that carry a whole figure of latex."""
+    """Hands that carry a whole figure of latex; where it has come apart each part stands by itself."""
 
     _sculpture: LatexSculpture
+
+    def _found(self, move: moves.SetDown, points: Floats) -> list[Way]:
+        """Let parts that have come apart stand where they are, or beside each other if they do not fit."""
+        parts = self._sculpture.parts
+        if move.pose != "stand" or len(parts) == 1:
+            return super()._found(move, points)
+        facing, _ = faced(move, self._sculpture, points)
+        ends = [self._standing(move, points, part, facing) for part in parts]
+        stand = [points[part] @ turn.T + shift for part, (turn, shift) in zip(parts, ends, strict=True)]
+        ways = zip(parts, ends, beside_each_other(stand), strict=True)
+        return [
+            Way.to(self._sculpture.centre(points, part), turn, shift + aside)
+            for part, (turn, shift), aside in ways
+        ]
+
+    def _standing(
+        self, move: moves.SetDown, points: Floats, part: Ints, facing: Floats
+    ) -> tuple[Floats, Floats]:
+        """Return the turn (3, 3) and the shift (3,), m, with which a part stands below where it is now.
+
+        `points`: all vertices, (V, 3), m; `facing`: the turn that brings the figure's front where it goes.
+        """
+        centre = self._sculpture.centre(points, part)
+        down = standing_direction((points[part] - centre) @ facing.T, STEADY, DOWN)
+        turn = turn_about(*turn_between(down, DOWN)) @ facing
+        shift = facing @ (centre - self._centre) - turn @ centre
+        shift[2] = -float((points[part] @ turn[2]).min())
+        return self._settled(move, points, part, turn, shift)
 
     def _end(self, move: moves.SetDown, points: Floats) -> tuple[Floats, Floats]:
         """Let it settle on the ground: before that, only the points are known on which it will stand."""
         turn, shift = super()._end(move, points)
         if move.pose != "stand" or move.gravity == 0.0:
             return turn, shift
-        figure = rigid_figure(self._sculpture, points @ turn.T + shift)
-        friction = self._sculpture.plan.recipe.physics.friction
-        fall = FallingFigure(figure, move.gravity, friction, ground=True)
-        fall.settle()
-        turn, shift = fall.moved(turn, shift)
+        turn, shift = self._settled(move, points, ALL, turn, shift)
         stands = points @ turn.T + shift
         shift[:2] -= 0.5 * (stands.min(axis=0) + stands.max(axis=0))[:2]
         return turn, shift
+
+    def _settled(
+        self,
+        move: moves.SetDown,
+        points: Floats,
+        part: Ints | slice,
+        turn: Floats,
+        shift: Floats,
+    ) -> tuple[Floats, Floats]:
+        """Return what becomes of the turn and the shift of a part that settles under its weight, if it has
+        any.
+        """
+        if move.gravity == 0.0:
+            return turn, shift
+        figure = rigid_figure(self._sculpture, points @ turn.T + shift, part)
+        friction = self._sculpture.plan.recipe.physics.friction
+        fall = FallingFigure(figure, move.gravity, friction, ground=True)
+        fall.settle()
+        return fall.moved(turn, shift)
+
+
+def beside_each_other(parts: Sequence[Floats]) -> list[Floats]:
+    """Return the shift of every part, (3,), m, with which none stands above another, all about the origin.
+
+    `parts`: their vertices, (N, 3) each, m.
+    """
+    low, high = (np.array([edge(part, axis=0)[:2] for part in parts]) for edge in (np.min, np.max))
+    along = int(np.argmax(np.ptp(low + high, axis=0)))
+    shift = np.zeros((len(parts), 3))
+    if _overlap(low, high):
+        order = np.argsort((low + high)[:, along], kind="stable").tolist()
+        for before, after in pairwise(order):
+            free = high[before, along] + shift[before, along] + GAP
+            shift[after, along] = max(free - low[after, along], 0.0)
+    low, high = low + shift[:, :2], high + shift[:, :2]
+    shift[:, :2] -= 0.5 * (low.min(axis=0) + high.max(axis=0))
+    return list(shift)
+
+
+def _overlap(low: Floats, high: Floats) -> bool:
+    """Tell whether any two boxes lie nearer to each other than a gap; `low`, `high`: (N, 2), m."""
+    near = ((low[:, None] < high[None] + GAP) & (low[None] < high[:, None] + GAP)).all(axis=2)
+    return bool(near.sum() > len(low))
