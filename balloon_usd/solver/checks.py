@@ -13,7 +13,7 @@ from balloon_usd.solver.remedy import steadier
 from balloon_usd.solver.scene import NO_LIMIT
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Container, Iterator, Sequence
 
     from numpy.typing import NDArray
 
@@ -92,8 +92,13 @@ class SculptureCheck:
         if self._last is None:
             return None
         worst, where = 0.0, ""
+        torn = {b.name for b, volume in zip(self._plan.bubbles, frame.volume, strict=True) if volume == 0.0}
         for (strip, mesh, now), then in zip(self._balloons(frame), self._last.points, strict=True):
-            moved = np.abs(now - then).ravel()
+            moved = np.abs(now - then)
+            if torn:
+                # No hands hold rags, and these snap back as fast as rubber can.
+                moved[_walls_of(strip, mesh, torn)] = 0.0
+            moved = moved.ravel()
             most = int(np.argmax(moved))
             if moved[most] > worst:
                 worst, where = float(moved[most]), self._name(strip, mesh, most // 3)
@@ -121,6 +126,12 @@ class SculptureCheck:
 
     def _steadier(self) -> str:
         return steadier(self._plan.recipe, self._substeps)
+
+
+def _walls_of(strip: Strip, mesh: BalloonMesh, bubbles: Container[str]) -> NDArray[np.int32]:
+    """Return the vertices of the walls of those of some bubbles that are of a balloon, joints included."""
+    own = [k for k, bubble in enumerate(strip.bubbles) if bubble.name in bubbles]
+    return np.unique(mesh.quads[np.isin(mesh.quad_bubble, own)])
 
 
 class BatchCheck:

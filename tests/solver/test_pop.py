@@ -12,6 +12,7 @@ from balloon_usd.quality.walls import walls_of
 from balloon_usd.quality.watch import QualityWatch
 from balloon_usd.recipe import Recipe
 from balloon_usd.solver.frame import Frame
+from balloon_usd.solver.run_summary import RunSummary
 from balloon_usd.solver.simulation import simulate_many
 
 NAMES = ("before", "first", "gap", "second", "beyond")
@@ -83,7 +84,7 @@ def test_its_rags_snap_back_in_one_frame_to_half_of_its_rubber_when_flat(popped)
             assert reach < 0.6 * bubble.rest_length
 
 
-def test_no_gas_is_in_what_is_open(popped):
+def test_what_is_open_holds_no_gas(popped):
     assert popped.volume[popped.shut] == pytest.approx(popped.plan.bubbles[popped.at].volume, rel=0.05)
     assert set(popped.volume[popped.began :]) == {0.0}
 
@@ -91,7 +92,7 @@ def test_no_gas_is_in_what_is_open(popped):
 def test_ears_that_it_kept_apart_spring_to_the_bubbles_behind_them(popped):
     # Nothing holds the two parts together any more.
     assert popped.apart[popped.shut] == pytest.approx(popped.plan.bubbles[popped.at].length, rel=0.1)
-    assert popped.apart[-1] > 2.0 * popped.apart[popped.shut]
+    assert popped.apart[-1] > 1.4 * popped.apart[popped.shut]
 
 
 def test_what_is_gone_is_a_thread_that_no_picture_shows(popped):
@@ -189,3 +190,19 @@ def test_a_bubble_at_a_knot_that_is_tied_tears_too_and_a_ring_of_which_one_is_po
     assert planned.bubbles[0].tears
     assert len(simulation.model.performers[0].sculpture.parts) == 1
     assert CrossingCounter(walls_of(planned, simulation.meshes[0]), 1).count(last.points).count == 0
+
+
+def test_rags_may_fly_faster_than_hands_move_anything():
+    """An ear of which the whole wall is stretched."""
+    text = "format: 1\nname: p\nunits: cm\nballoons: {main: {size: 350, length: 24, tail: 8}}\nsteps:\n"
+    text += "  - bubbles: {a: 8}\n  - ear: {e: 5}\n  - ear: {f: 5}\n  - bubbles: {b: 8}\n  - ear: {g: 5}\n  - pop: f\n"
+    planned = plan(Recipe.parse(text + "physics: {hold: 0.5}\n"))
+    simulation = simulate_many([planned], device="cpu")
+    summary = RunSummary(planned, simulation.meshes[0])
+    for (frame,) in simulation.frames():
+        summary.add(frame)
+        last = frame
+    assert last.time_code == planned.frame_count
+    assert last.volume[[bubble.name for bubble in planned.bubbles].index("f")] == 0.0
+    # And what they are stretched meanwhile bursts nothing.
+    assert summary.wall_load.load < 1.0

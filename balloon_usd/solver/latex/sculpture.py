@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from balloon_usd.solver.latex.controls import LatexControls
     from balloon_usd.solver.latex.scene import LatexScene
     from balloon_usd.solver.latex.struts import Struts
+    from balloon_usd.solver.latex.tearing import Torn
 
 
 class LatexSculpture(Sculpture):
@@ -40,8 +41,8 @@ class LatexSculpture(Sculpture):
         self.torsion = Torsion(plan, scene, hands, self.joints, self.body, self.friction)
         self.inflated_at: dict[int, float] = {}
         """Time at which each body had its gas, s."""
-        self.torn: list[int] = []
-        """Segments, in the scene, whose walls have torn."""
+        self.torn: list[Torn] = []
+        """Bubbles that have torn."""
         self.pose_kept: dict[tuple[int, ...], set[tuple[int, int]]] = {}
         """Pairs of joints (of the scene) whose distance friction keeps, by the weld whose it is."""
 

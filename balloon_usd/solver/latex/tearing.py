@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
 
 from balloon_usd.balloon.tube_mesh import TORN_ROWS
 from balloon_usd.solver.severed import Severed
 from balloon_usd.solver.torn import Tear
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from balloon_usd.solver.latex.sculpture import LatexSculpture
 
 FOLDED = [0, 1, 1, 0], [3, 2, 2, 3]
@@ -17,8 +21,20 @@ that nothing touches them.
 """
 
 
-def tear(bubble: str, sculpture: LatexSculpture) -> None:
-    """Tear a bubble in the middle: what is gone has neither rubber nor area, and frames do not show it."""
+class Torn(NamedTuple):
+    """A bubble that has torn."""
+
+    segment: int
+    """Its segment in the scene."""
+    vertices: NDArray[np.int64]
+    """Vertices of its wall in the scene."""
+
+
+def tear(bubble: str, segment: int, sculpture: LatexSculpture) -> None:
+    """Tear a bubble in the middle: what is gone has neither rubber nor area, and frames do not show it.
+
+    `segment`: that of the bubble, in the scene.
+    """
     scene = sculpture.scene
     body, faces = sculpture.faces(bubble)
     torn = Tear.of(scene.bodies[body], faces)
@@ -38,3 +54,5 @@ def tear(bubble: str, sculpture: LatexSculpture) -> None:
     scene.v.assign(speed)
     sculpture.weigh_nothing(body, torn.rings[1:-1].ravel())
     sculpture.severed[bubble] = Severed(body - sculpture.bodies[0], torn)
+    own = np.flatnonzero(scene.vertex_segment.numpy() == segment)
+    sculpture.torn.append(Torn(segment, own))

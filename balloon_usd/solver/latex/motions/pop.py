@@ -24,8 +24,8 @@ class Pop(Motion):
         self._begun = float(self._hands.pressure[self._segment])
         sculpture.friction.popped.add(move.bubble)
         if any(bubble.tears for bubble in sculpture.plan.bubbles if bubble.name == move.bubble):
-            tear(move.bubble, sculpture)
-            sculpture.torn.append(self._segment)
+            tear(move.bubble, self._segment, sculpture)
+            self._begun = 0.0
         sculpture.give_up_pose()
 
     def advance(self, share: float) -> None:
