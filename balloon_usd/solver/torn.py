@@ -50,6 +50,15 @@ class Tear(NamedTuple):
             points[far] = middle + circle
 
 
+class TornBubble(NamedTuple):
+    """A bubble that has torn, in a scene."""
+
+    segment: int
+    """Its segment."""
+    vertices: Ints
+    """Vertices of its wall."""
+
+
 def _circle(rim: Floats) -> Floats:
     """Return a circle of radius 1 that lies as a rim does, (around, 3), m, from its middle."""
     across = np.cross(rim, np.roll(rim, -1, axis=0)).sum(axis=0)

@@ -46,7 +46,7 @@ def made(pose):
 
 def test_a_figure_stays_where_it_was_made_without_a_pose():
     points, doing, sculpture = made("as made")
-    assert (len(points), doing, sculpture.placement) == (1, "hold", None)
+    assert (len(points), doing, sculpture.placed) == (1, "hold", None)
 
 
 @pytest.mark.parametrize("pose", ["stand", "hang", "hold"])

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from itertools import product
+from itertools import pairwise, product
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from balloon_usd.solver.placement import Placement, turn_about, turn_between
+from balloon_usd.solver.latex.motions.set_down import beside_each_other
+from balloon_usd.solver.placement import Placed, Placement, turn_about, turn_between
 from balloon_usd.solver.resting import nearest_in_hull, resting_direction, standing_direction
 
 DOWN = np.array([0.0, 0.0, -1.0])
@@ -66,5 +67,31 @@ def test_the_smallest_turn_takes_one_direction_to_another():
 def test_a_placement_moves_points_rigidly():
     points = BOX.astype(np.float32)
     turn = turn_about(SIDEWAYS, 1.0)
-    Placement(turn.astype(np.float32), np.array([1.0, 2.0, 3.0], dtype=np.float32)).put(points)
+    whole = Placement(turn.astype(np.float32), np.array([1.0, 2.0, 3.0], dtype=np.float32))
+    Placed((np.arange(len(BOX)),), (whole,)).put([points])
     assert points == pytest.approx(BOX @ turn.T + [1.0, 2.0, 3.0], abs=1e-6)
+
+
+def test_parts_of_several_balloons_are_put_each_by_itself():
+    still = Placement.by(np.eye(3), np.zeros(3))
+    up = Placement.by(np.eye(3), np.array([0.0, 0.0, 5.0]))
+    points = [BOX.astype(np.float32), BOX.astype(np.float32)]
+    parts = np.arange(0, len(BOX) + 3), np.arange(len(BOX) + 3, 2 * len(BOX))
+    Placed(parts, (still, up)).put(points)
+    assert (points[0] == BOX.astype(np.float32)).all()
+    assert points[1][:3] == pytest.approx(BOX[:3])
+    assert points[1][3:] == pytest.approx(BOX[3:] + [0.0, 0.0, 5.0])
+
+
+def test_parts_that_would_stand_above_each_other_are_put_side_by_side():
+    beside, above = BOX + [3.0, 0.0, 0.0], BOX + [0.0, 0.01, 2.0]
+    shifts = beside_each_other([BOX, above, beside])
+    moved = [part + shift for part, shift in zip((BOX, above, beside), shifts, strict=True)]
+    spans = sorted((float(part[:, 0].min()), float(part[:, 0].max())) for part in moved)
+    assert all(before[1] < after[0] for before, after in pairwise(spans))
+    assert all(shift[2] == 0.0 for shift in shifts)
+
+
+def test_parts_that_do_not_stand_above_each_other_stay_as_far_apart():
+    shifts = beside_each_other([BOX, BOX + [50.0, 0.0, 2.0]])
+    assert shifts[0] == pytest.approx(shifts[1])

@@ -2,32 +2,21 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from balloon_usd.balloon.tube_mesh import TORN_ROWS
 from balloon_usd.solver.severed import Severed
-from balloon_usd.solver.torn import Tear
+from balloon_usd.solver.torn import Tear, TornBubble
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from balloon_usd.solver.latex.sculpture import LatexSculpture
 
 FOLDED = [0, 1, 1, 0], [3, 2, 2, 3]
 """Corners of faces that are gone, by those that they had: they lie on the rims of both rags, without area, so
 that nothing touches them.
 """
-
-
-class Torn(NamedTuple):
-    """A bubble that has torn."""
-
-    segment: int
-    """Its segment in the scene."""
-    vertices: NDArray[np.int64]
-    """Vertices of its wall in the scene."""
 
 
 def tear(bubble: str, segment: int, sculpture: LatexSculpture) -> None:
@@ -55,4 +44,4 @@ def tear(bubble: str, segment: int, sculpture: LatexSculpture) -> None:
     sculpture.weigh_nothing(body, torn.rings[1:-1].ravel())
     sculpture.severed[bubble] = Severed(body - sculpture.bodies[0], torn)
     own = np.flatnonzero(scene.vertex_segment.numpy() == segment)
-    sculpture.torn.append(Torn(segment, own))
+    sculpture.torn.append(TornBubble(segment, own))
