@@ -205,12 +205,12 @@ def _check_neighbours(names: Sequence[str], path: Path, bench: Workbench) -> Non
     else:
         between = ", ".join(name for name in run if name not in names)
         joints = f"lock: {{joints: [{run[0]}.start, {run[-1]}.end]}}"
-        expected = f"[{', '.join(run)}] or {joints}"
+        expected = joints if bench.piece.popped.intersection(run) else f"[{', '.join(run)}] or {joints}"
         bench.complain(path, f"no neighbours ({between} between them), expected {expected}")
 
 
 def _check_joints(joints: Sequence[Joint], read: bool, path: Path, bench: Workbench) -> None:
-    found = [bench.find(each.bubble, path) for each in joints]
+    found = [bench.find_joint(each, path) for each in joints]
     if not read or not all(found):
         return
     if len(joints) < 2:

@@ -38,22 +38,21 @@ def torn_bubbles(piece: Workpiece) -> frozenset[str]:
 def parts_of(piece: Workpiece) -> tuple[Part, ...]:
     """Return the parts of a figure; one where it does not come apart.
 
-    Balloons that nothing joins to what has torn belong to the first part.
+    What of each balloon, or of those that are joined, begins at the knot of the first is of the first part.
     """
     torn = torn_bubbles(piece)
-    stretches = [stretch for balloon in piece.balloons for stretch in _stretches(piece, balloon, torn)]
-    together = _joined(piece, torn)
-    found: dict[Joint, list[Stretch]] = {}
-    for stretch in stretches:
-        first = (
-            Joint(stretch.behind, "end") if stretch.behind else Joint(piece.row(stretch.balloon)[0], "start")
-        )
-        found.setdefault(together.root(piece.joint(first)[0]), []).append(stretch)
-    apart = [part for part in found.values() if any(each.behind or each.before for each in part)]
-    others = [stretch for part in found.values() if part not in apart for stretch in part]
-    if not apart:
-        return (tuple(stretches),)
-    return tuple(tuple(part) for part in ([*apart[0], *others], *apart[1:]))
+    whole, pieces = _joined(piece, frozenset()), _joined(piece, torn)
+    found: dict[Joint, dict[Joint, list[Stretch]]] = {}
+    for balloon in piece.balloons:
+        for stretch in _stretches(piece, balloon, torn):
+            row = piece.row(balloon)
+            end = Joint(stretch.behind, "end") if stretch.behind else Joint(row[0], "start")
+            first = piece.joint(end)[0]
+            parts = found.setdefault(whole.root(first), {})
+            parts.setdefault(pieces.root(first), []).append(stretch)
+    together = [list(parts.values()) for parts in found.values()]
+    first_part = tuple(stretch for parts in together for stretch in parts[0])
+    return (first_part, *(tuple(part) for parts in together for part in parts[1:]))
 
 
 def _stretches(piece: Workpiece, balloon: str, torn: frozenset[str]) -> list[Stretch]:
@@ -72,5 +71,7 @@ def _joined(piece: Workpiece, torn: frozenset[str]) -> DisjointSets[Joint]:
         if piece.popped.isdisjoint((contact.bubble, *contact.others)):
             sets.merge([first[Joint(name, "start")] for name in (contact.bubble, *contact.others)])
     for balloon, host in piece.inside.items():
-        sets.merge([first[Joint(name, "start")] for name in (host, piece.row(balloon)[0])])
+        # After a step some balloons are not begun yet.
+        if balloon in piece.balloons and host in piece.bubbles:
+            sets.merge([first[Joint(name, "start")] for name in (host, piece.row(balloon)[0])])
     return sets

@@ -87,9 +87,10 @@ steps:
         path, joints = (*place.path, cls.word), _joints_in(value)
         if len(joints) < 2:
             return
+        end, to = joints
         found = [
-            bench.has_name(each.bubble, (*path, key)) and bench.find_firm(each.bubble, (*path, key))
-            for each, key in zip(joints, ("end", "to"), strict=True)
+            bench.has_name(end.bubble, (*path, "end")) and bench.find_firm(end.bubble, (*path, "end")),
+            bench.has_name(to.bubble, (*path, "to")) and bench.find_joint(to, (*path, "to")),
         ]
         if not all(found) or not bench.knows(each.bubble for each in joints):
             return

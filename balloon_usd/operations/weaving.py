@@ -77,7 +77,7 @@ class WeavesRow(Turned, MakesBubbles):
         """Make its bubbles, and let their ends become one with joints that are there."""
         path = (*place.path, cls.word)
         names, joints = cls.makes(value), cls.joints_in(value)
-        found = [bench.find_firm(each.bubble, (*path, "to")) for each in joints]
+        found = [bench.find_joint(each, (*path, "to")) for each in joints]
         made = [bench.make(name, (*path, "bubbles", name), place.balloon) for name in names]
         if not names or not joints or not all(found) or not all(made):
             return

@@ -178,9 +178,9 @@ class Workbench:
             self.complain(path, f"{what}, expected an ear or a lock there first")
             return
         if self.piece.row(self.piece.bubbles[name].balloon) == [name]:
-            self.complain(
-                path, f"bubble {quoted(name)} is all that there is of its balloon, expected another"
-            )
+            more = "" if self.piece.bubbles[name].last else ", or this step after more is made of it"
+            what = f"bubble {quoted(name)} is all that there is of its balloon"
+            self.complain(path, f"{what}, expected another{more}")
             return
         self._popped_at[name] = path
         self.piece.pop(int(path[1]), name)
@@ -191,17 +191,19 @@ class Workbench:
             at = path_text(self._cut_at[name])
             self.complain(path, f"bubble {quoted(name)} was cut off at {at}, expected each once")
             return
+        if name in self.piece.bubbles and not self._has_free_end(name):
+            what = f"both ends of {quoted(name)} hang on something"
+            self.complain(path, f"{what}, expected a bubble at an end of its balloon that hangs on nothing")
+            return
         if name not in self._popped_at:
             self.pop(name, path)
-            if name not in self._popped_at:
-                return
+        if name in self._popped_at:
+            self._cut_at[name] = path
+
+    def _has_free_end(self, name: str) -> bool:
         row = self.piece.row(self.piece.bubbles[name].balloon)
         free = [end for end, at in ((Joint(name, "start"), 0), (Joint(name, "end"), -1)) if row[at] == name]
-        if not any(len(self.piece.joint(end)) == 1 for end in free):
-            what = f"both ends of {quoted(name)} hang on something"
-            self.complain(path, f"{what}, expected a bubble at an end of its balloon")
-            return
-        self._cut_at[name] = path
+        return any(len(self.piece.joint(end)) == 1 for end in free)
 
     def has_name(self, name: str, path: Path) -> bool:
         """Say whether what a step names got its name before, and complain if that is yet to come."""
@@ -273,6 +275,19 @@ class Workbench:
         if name in self._popped_at:
             at = path_text(self._popped_at[name])
             self.complain(path, f"bubble {quoted(name)} was popped at {at}, expected one that has its gas")
+            return False
+        return True
+
+    def find_joint(self, end: Joint, path: Path) -> bool:
+        """Say whether a joint is there by now on which more hangs than a popped bubble; complain if not."""
+        if not self.find(end.bubble, path):
+            return False
+        if end.bubble not in self.piece.bubbles or end.bubble not in self._popped_at:
+            return True
+        if all(each.bubble in self._popped_at for each in self.piece.joint(end)):
+            at = path_text(self._popped_at[end.bubble])
+            what = f"bubble {quoted(end.bubble)} was popped at {at}, and nothing else hangs on {end}"
+            self.complain(path, f"{what}, expected a joint of a bubble that has its gas")
             return False
         return True
 

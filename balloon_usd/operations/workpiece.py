@@ -386,7 +386,7 @@ class Workpiece:
         at = self._ends(bubble)[0]
         for name in reversed(trail[: trail.index(bubble)]):
             start, end = self._ends(name)
-            if at in corners:
+            if at in corners or name in self._popped:
                 break
             beside[at].add(name)
             if start != end:

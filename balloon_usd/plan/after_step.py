@@ -110,9 +110,10 @@ def after_step(plan: Plan, index: int) -> AfterStep:
 def after_step_text(after: AfterStep) -> str:
     """Return what is made after a step as readable text."""
     graph = after.graph
+    popped = after.plan.recipe.piece.after(after.index).popped
     lines = [*head_lines(after.plan), after.what]
     for strip in after.strips:
-        lines += ["", f"balloon {strip.balloon}:", *bubble_lines(strip, after.made(strip))]
+        lines += ["", f"balloon {strip.balloon}:", *bubble_lines(strip, after.made(strip), popped)]
         lines.append(_left(after.left(strip)))
     held = f"; held by hand alone: {', '.join(map(str, after.loose))}" if after.loose else ""
     lines += [

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from balloon_usd.operations.score import Layout
     from balloon_usd.plan.budget import Budget
     from balloon_usd.plan.graph import GraphJoint, SculptureGraph
-    from balloon_usd.plan.strip import Strip
+    from balloon_usd.plan.strip import PlannedBubble, Strip
     from balloon_usd.recipe import Recipe
 
 MOST_TURNS = 5.0
@@ -235,14 +235,18 @@ def _bulging(strips: Mapping[str, Strip]) -> Iterator[Caution]:
             )
 
 
+def _first_with_gas(recipe: Recipe, strip: Strip) -> PlannedBubble:
+    """Return the first bubble of a balloon that is not popped, or its first one."""
+    firm = (bubble for bubble in strip.bubbles if bubble.name not in recipe.piece.popped)
+    return next(firm, strip.bubbles[0])
+
+
 def _loose_pieces(recipe: Recipe, strips: Mapping[str, Strip]) -> Iterator[Caution]:
     if any(strip.shape is not None for strip in strips.values()):
         return
     outside = [strip for strip in strips.values() if strip.inside is None]
-    begun = [
-        [it.bubbles[0] for it in outside if it.bubbles[0].name in piece] for piece in recipe.piece.pieces()
-    ]
-    firsts = [bubbles[0] for bubbles in begun if bubbles]
+    begun = [[it for it in outside if it.bubbles[0].name in piece] for piece in recipe.piece.pieces()]
+    firsts = [_first_with_gas(recipe, found[0]) for found in begun if found]
     if len(firsts) < 2:
         return
     names = [strip.balloon for strip in outside]

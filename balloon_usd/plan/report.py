@@ -14,7 +14,7 @@ from balloon_usd.plan.parking import parked
 from balloon_usd.plan.pumping import pumped
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Container, Iterator, Mapping, Sequence
 
     from balloon_usd.operations.caution import Caution
     from balloon_usd.plan.budget import Budget
@@ -30,14 +30,14 @@ PLAN_FORMAT = 1
 
 def plan_text(plan: Plan) -> str:
     """Return the plan as readable text: strips, tail, joints, locks and cautions with their reasons."""
-    lines = list(head_lines(plan))
+    lines, popped = list(head_lines(plan)), plan.recipe.piece.popped
     for name, strip in plan.strips.items():
         if strip.shape is not None:
             lines += ["", *_shape_lines(strip, strip.shape), *_stroke_lines(plan, name)]
         elif strip.capsule:
             lines += ["", *_capsule_lines(strip)]
         else:
-            lines += ["", *_strip_lines(strip), *_budget_lines(plan, plan.budgets[name])]
+            lines += ["", *_strip_lines(strip, popped), *_budget_lines(plan, plan.budgets[name])]
             lines += _stroke_lines(plan, name)
     graph = [] if plan.of_meshes else ["", *_graph_lines(plan)]
     lines += [*graph, "", *caution_lines(plan.cautions)]
@@ -55,21 +55,22 @@ def head_lines(plan: Plan) -> Iterator[str]:
         yield "mirrored: what points left comes out right"
 
 
-def _strip_lines(strip: Strip) -> Iterator[str]:
+def _strip_lines(strip: Strip, popped: Container[str]) -> Iterator[str]:
     size = strip.size
     yield f"balloon {strip.balloon}: {size.name}, {cm(size.length)} flat{_place(strip)}"
-    yield from bubble_lines(strip, strip.bubbles)
+    yield from bubble_lines(strip, strip.bubbles, popped)
 
 
-def bubble_lines(strip: Strip, bubbles: Sequence[PlannedBubble]) -> Iterator[str]:
-    """Yield a table of bubbles of a strip."""
+def bubble_lines(strip: Strip, bubbles: Sequence[PlannedBubble], popped: Container[str]) -> Iterator[str]:
+    """Yield a table of bubbles of a strip, with the gas of those that are not popped."""
     width = max(len("bubble"), *(len(bubble.name) for bubble in strip.bubbles))
     yield f"  {'bubble':{width}}  kind    length    from      to   of flat tube     gas"
     for bubble in bubbles:
+        gas = "  popped" if bubble.name in popped else f"{bubble.volume * 1e6:5.0f} mL"
         yield (
             f"  {bubble.name:{width}}  {bubble.kind:6}"
             f"{bubble.length * 100:5.1f} cm  {bubble.start * 100:6.1f}  {bubble.end * 100:6.1f}   "
-            f"{bubble.rest_start * 100:5.1f} to {bubble.rest_end * 100:4.1f}  {bubble.volume * 1e6:5.0f} mL"
+            f"{bubble.rest_start * 100:5.1f} to {bubble.rest_end * 100:4.1f}  {gas}"
         )
 
 

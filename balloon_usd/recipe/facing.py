@@ -75,7 +75,8 @@ def facing_complaints(data: object, piece: Workpiece) -> Iterator[Complaint]:
                 what = f"bubble {quoted(name)} was popped, expected one that has its gas"
                 yield Complaint(path, what)
             elif name not in piece.bubbles:
-                choices = [*piece.bubbles] if listed else [*FRONTS, *piece.bubbles]
+                firm = [bubble for bubble in piece.bubbles if bubble not in piece.popped]
+                choices = firm if listed else [*FRONTS, *firm]
                 yield Complaint(path, unknown("bubble" if listed else key, name, choices))
     front, top = (frozenset(_names(data.get(key))) for key in FACING)
     if front and front == top:

@@ -50,8 +50,8 @@ class Tear(NamedTuple):
             points[far] = middle + circle
 
 
-class TornBubble(NamedTuple):
-    """A bubble that has torn, in a scene."""
+class OpenBubble(NamedTuple):
+    """A bubble that has torn or was cut off, in a scene."""
 
     segment: int
     """Its segment."""

@@ -61,3 +61,48 @@ def test_what_was_pushed_through_a_ring_stays_with_it_and_what_nothing_joins_wit
     first, second = parts_of(piece_of(steps, two))
     assert {stretch.balloon for stretch in first} == {"main", "other"}
     assert [stretch.balloon for stretch in second] == ["main"]
+
+
+TWO = "  other: {size: 260, length: 30, tail: 9}\n"
+
+
+def chain_of(balloon):
+    """Return the steps of a chain of which a bubble between two ears is popped, on a balloon."""
+    on = f"\n    balloon: {balloon}\n"
+    names = [f"{balloon}_{each}" for each in ("a", "e", "gap", "f")]
+    kinds = "bubbles", "ear", "bubbles", "ear"
+    made = "".join(f"  - {kind}: {{{name}: 3}}{on}" for kind, name in zip(kinds, names, strict=True))
+    return f"{made}  - bubbles: {{{balloon}_b: 5}}{on}  - pop: {balloon}_gap\n"
+
+
+def test_balloons_that_nothing_joins_have_their_first_parts_in_common():
+    parts = parts_of(piece_of(chain_of("main") + chain_of("other"), TWO))
+    assert [[stretch.balloon for stretch in part] for part in parts] == [
+        ["main", "other"],
+        ["main"],
+        ["other"],
+    ]
+
+
+def test_a_popped_ear_parts_nothing_however_many_balloons_there_are():
+    steps = chain_of("main").replace("pop: main_gap", "pop: main_e") + chain_of("other").replace(
+        "pop: other_gap", "pop: other_e"
+    )
+    piece = piece_of(steps, TWO)
+    assert torn_bubbles(piece) == {"main_e", "other_e"}
+    assert len(parts_of(piece)) == 1
+
+
+def test_a_figure_in_which_a_balloon_lies_that_is_not_begun_yet_is_told_apart_too():
+    shell = "  shell: {size: 646, length: 40, tail: 18}\n  bug: {size: 260, length: 4, tail: 1.5}\n"
+    steps = "".join(
+        f"  - {step}\n    balloon: shell\n"
+        for step in ("bubbles: {a: 12}", "ear: {e: 6}", "bubbles: {gap: 12}", "ear: {f: 6}", "rest: hall")
+    )
+    text = f"{HEAD.replace('  main: {size: 260, length: 40, tail: 12}', shell.rstrip())}steps:\n  - insert: {{bug: hall}}\n"
+    piece = Recipe.parse(f"{text}  - inflate: shell\n{steps}  - pop: gap\n  - inflate: bug\n").piece
+    at = next(
+        event.step for event in piece.history if getattr(event, "bubble", None) == "gap" and event.step > 5
+    )
+    assert len(parts_of(piece.after(at))) == 2
+    assert {stretch.balloon for stretch in parts_of(piece)[1]} == {"shell", "bug"}

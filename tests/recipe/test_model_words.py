@@ -273,7 +273,25 @@ EARS = "  - bubbles: {a: 5}\n  - ear: {one: 3}\n  - bubbles: {gap: 4}\n  - ear: 
             "  - ear: {e: 3}\n  - bubbles: {a: 6}\n  - pop: a\n  - bubbles: {b: 5}\n",
             'steps[2].pop: the twist behind "a" would let the gas of both out',
         ),
-        ("  - rest: all\n  - pop: all\n", 'bubble "all" is all that there is of its balloon'),
+        (
+            "  - rest: all\n  - pop: all\n",
+            'bubble "all" is all that there is of its balloon, expected another',
+        ),
+        ("  - ear: {e: 3}\n  - pop: e\n", "expected another, or this step after more is made of it"),
+        (f"{EARS}  - pop: gap\n  - lock: {{joints: [gap.start, end.end]}}\n", None),
+        (f"{EARS}  - pop: gap\n  - tie: {{end: a.start, to: gap.end}}\n", None),
+        (
+            f"{EARS}  - pop: a\n  - lock: {{joints: [a.start, end.start]}}\n",
+            'steps[6].lock.joints: bubble "a" was popped at steps[5].pop, and nothing else hangs on a.start',
+        ),
+        (
+            f"{EARS}  - pop: a\n  - tie: {{end: end.end, to: a.start}}\n",
+            'steps[6].tie.to: bubble "a" was popped at steps[5].pop, and nothing else hangs on a.start',
+        ),
+        (
+            f"{EARS}  - pop: gap\n  - lock: [a, end]\n",
+            "(one, gap, two between them), expected lock: {joints: [a.start, end.end]}",
+        ),
         (f"{AB}  - pop: main_rest\n", 'bubble "main_rest" has no name of its own yet'),
     ],
 )

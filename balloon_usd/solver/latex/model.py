@@ -150,10 +150,10 @@ class LatexModel(Model):
         read-back.
         """
         super().read_back()
-        for torn in (torn for sculpture in self._sculptures for torn in sculpture.torn):
+        for bubble in (bubble for sculpture in self._sculptures for bubble in sculpture.open):
             # What is open holds no volume, and how rags are stretched as they snap back loads no wall.
-            self._state["volume"][torn.segment] = 0.0
-            self._state["stretch"][torn.vertices] = 1.0
+            self._state["volume"][bubble.segment] = 0.0
+            self._state["stretch"][bubble.vertices] = 1.0
         self._jams.note(self._state["segment_jammed"][self.layout.bubbles])
         self._inflated = [
             b for s in self._sculptures for b, at in s.inflated_at.items() if at == self._reached

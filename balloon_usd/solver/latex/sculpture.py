@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from balloon_usd.solver.latex.controls import LatexControls
     from balloon_usd.solver.latex.scene import LatexScene
     from balloon_usd.solver.latex.struts import Struts
-    from balloon_usd.solver.torn import TornBubble
+    from balloon_usd.solver.torn import OpenBubble
 
 
 class LatexSculpture(Sculpture):
@@ -41,8 +41,8 @@ class LatexSculpture(Sculpture):
         self.torsion = Torsion(plan, scene, hands, self.joints, self.body, self.friction)
         self.inflated_at: dict[int, float] = {}
         """Time at which each body had its gas, s."""
-        self.torn: list[TornBubble] = []
-        """Bubbles that have torn."""
+        self.open: list[OpenBubble] = []
+        """Bubbles that have torn or were cut off."""
         self.pose_kept: dict[tuple[int, ...], set[tuple[int, int]]] = {}
         """Pairs of joints (of the scene) whose distance friction keeps, by the weld whose it is."""
 

@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from balloon_usd.solver.latex.tearing import cut_off
 from balloon_usd.solver.motions.motion import Motion
-from balloon_usd.solver.severed import Severed, Stub
+from balloon_usd.solver.severed import Stub
 
 if TYPE_CHECKING:
     from balloon_usd.operations import moves
@@ -15,10 +16,7 @@ if TYPE_CHECKING:
 
 
 class Cut(Motion):
-    """Scissors at the joint on which an end of a balloon hangs: it weighs nothing any more, and is not shown.
-
-    In the simulation its rubber hangs there still, limp.
-    """
+    """Scissors at the joint on which an end of a balloon hangs."""
 
     def __init__(self, move: moves.Cut, sculpture: LatexSculpture) -> None:
         """Cut it off."""
@@ -37,5 +35,4 @@ class Cut(Motion):
         corners = corners[(corners[:, 0] >= walls.start) & (corners[:, 0] < walls.stop)]
         others = hands.places[corners[~own[corners].any(axis=1)]].mean(axis=1, dtype=np.float64)
         balloon = hands.places[scene.vertices_of(body)]
-        sculpture.severed[move.bubble] = Severed(body - sculpture.bodies[0], stub.clear_of(balloon, others))
-        sculpture.weigh_nothing(body, stub.vertices)
+        cut_off(move.bubble, body, stub.clear_of(balloon, others), sculpture)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from balloon_usd.operations.moves import LET_GO
 from balloon_usd.solver.falling import FallingFigure
 from balloon_usd.solver.latex.weight import rigid_figure
 from balloon_usd.solver.motions.set_down import DOWN, SetDown, Way, faced
@@ -36,18 +37,22 @@ class LatexSetDown(SetDown):
     _sculpture: LatexSculpture
 
     def _found(self, move: moves.SetDown, points: Floats) -> list[Way]:
-        """Let parts that have come apart stand where they are, or beside each other if they do not fit."""
-        parts = self._sculpture.parts
-        if move.pose != "stand" or len(parts) == 1:
+        """Let parts that have come apart stand where they are, or beside each other if they do not fit; let
+        go of above the ground they have room to tip over.
+        """
+        parts, centre = self._sculpture.parts, self._sculpture.centre
+        if move.pose not in ("stand", *LET_GO) or len(parts) == 1:
             return super()._found(move, points)
-        facing, _ = faced(move, self._sculpture, points)
-        ends = [self._standing(move, points, part, facing) for part in parts]
-        stand = [points[part] @ turn.T + shift for part, (turn, shift) in zip(parts, ends, strict=True)]
-        ways = zip(parts, ends, beside_each_other(stand), strict=True)
-        return [
-            Way.to(self._sculpture.centre(points, part), turn, shift + aside)
-            for part, (turn, shift), aside in ways
-        ]
+        if move.pose == "stand":
+            facing, _ = faced(move, self._sculpture, points)
+            ends = [self._standing(move, points, part, facing) for part in parts]
+        else:
+            ends = [self._end(move, points)] * len(parts)
+        put = [points[part] @ turn.T + shift for part, (turn, shift) in zip(parts, ends, strict=True)]
+        if move.pose != "stand":
+            put = [_round_it(each) for each in put]
+        ways = zip(parts, ends, beside_each_other(put), strict=True)
+        return [Way.to(centre(points, part), turn, shift + aside) for part, (turn, shift), aside in ways]
 
     def _standing(
         self, move: moves.SetDown, points: Floats, part: Ints, facing: Floats
@@ -91,6 +96,13 @@ class LatexSetDown(SetDown):
         fall = FallingFigure(figure, move.gravity, friction, ground=True)
         fall.settle()
         return fall.moved(turn, shift)
+
+
+def _round_it(points: Floats) -> Floats:
+    """Return two corners of a box about all places to which points (N, 3) may turn about their middle, m."""
+    middle = points.mean(axis=0)
+    reach = float(np.linalg.norm(points - middle, axis=1).max())
+    return np.stack([middle - reach, middle + reach])
 
 
 def beside_each_other(parts: Sequence[Floats]) -> list[Floats]:
