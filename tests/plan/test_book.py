@@ -15,6 +15,7 @@ RECIPES = sorted(BOOK.glob("*.yaml"))
 SOLIDS = {
     "tetrahedron_2": nx.tetrahedral_graph,
     "tetrahedron_centre": nx.tetrahedral_graph,
+    "tetrahedron_pop": nx.tetrahedral_graph,
     "cube_4": nx.cubical_graph,
     "cube_centre": nx.cubical_graph,
     "octahedron": nx.octahedral_graph,

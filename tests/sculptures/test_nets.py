@@ -40,6 +40,7 @@ steps:
 CROWD = Path(__file__).parents[1] / "crowd" / "recipes"
 SOLIDS = [
     (BOOK / "tetrahedron_2.yaml", nx.tetrahedral_graph, 0.3, 0.12),
+    (BOOK / "tetrahedron_pop.yaml", nx.tetrahedral_graph, 0.16, 0.12),
     (BOOK / "octahedron.yaml", nx.octahedral_graph, 0.1, 0.12),
     (BOOK / "cube_4.yaml", nx.cubical_graph, 0.3, 0.15),
     (CROWD / "icosahedron_6.yaml", nx.icosahedral_graph, 0.15, 0.15),
