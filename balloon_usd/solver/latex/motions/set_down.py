@@ -28,6 +28,10 @@ Ints = NDArray[np.int64]
 
 GAP = 0.02
 """Least distance at which hands put parts beside each other, m."""
+FALLS_OVER = 2.0
+"""How far from where its middle was an end of a tube comes to lie that lands on the other one and falls over,
+in the distance of the farthest vertex from its middle.
+"""
 STEADY = np.zeros(3)
 
 
@@ -99,9 +103,9 @@ class LatexSetDown(SetDown):
 
 
 def _round_it(points: Floats) -> Floats:
-    """Return two corners of a box about all places to which points (N, 3) may turn about their middle, m."""
+    """Return two corners of a box about all places that points (N, 3) may reach when they are dropped, m."""
     middle = points.mean(axis=0)
-    reach = float(np.linalg.norm(points - middle, axis=1).max())
+    reach = FALLS_OVER * float(np.linalg.norm(points - middle, axis=1).max())
     return np.stack([middle - reach, middle + reach])
 
 
