@@ -102,8 +102,26 @@ def shortened(text: str) -> str:
 
 def quoted(value: object) -> str:
     """Quote a value of the file for a message: no control characters, no flood."""
-    shown = printable(value if isinstance(value, str) else repr(value))
+    shown = printable(as_written(value))
     return f'"{shown}"' if isinstance(value, str) else shown
+
+
+def as_written(value: object, deep: int = 3) -> str:
+    """Return a value as it stands in a file, what is nested deeper than that left out."""
+    if isinstance(value, str):
+        return value
+    if value is None or isinstance(value, bool):
+        return "null" if value is None else str(value).lower()
+    if not isinstance(value, (dict, list, tuple)):
+        return repr(value)
+    if not deep:
+        return "..."
+    if isinstance(value, dict):
+        entries = (
+            f"{as_written(key, deep - 1)}: {as_written(each, deep - 1)}" for key, each in value.items()
+        )
+        return f"{{{', '.join(entries)}}}"
+    return f"[{', '.join(as_written(each, deep - 1) for each in value)}]"
 
 
 def printable(text: str) -> str:

@@ -163,7 +163,7 @@ class BatchCheck:
         """
         self._last, self._arrays = self._arrays, arrays
         # Comparisons with NaN are false.
-        gas = (arrays.pressure > LOWEST_PRESSURE) & (arrays.volume > 0.0) & (arrays.volume < np.inf)
+        gas = (arrays.pressure > LOWEST_PRESSURE) & (arrays.volume >= 0.0) & (arrays.volume < np.inf)
         if not suspects.any() and gas.all():
             return []
         return np.flatnonzero((suspects != 0) | ~np.logical_and.reduceat(gas, self._bubble)).tolist()

@@ -158,13 +158,16 @@ class Sculpture:
         rings = Tear.of(self.scene.bodies[body], faces).rings
         return int(self.scene.vertex_start[body]) + int(rings[len(rings) // 2].min())
 
-    @property
-    def outer_joints(self) -> NDArray[np.int64]:
-        """Joints of what lies in no other balloon."""
+    def outer_joints(self, part: NDArray[np.int64] | slice = ALL) -> NDArray[np.int64]:
+        """Return the joints of what lies in no other balloon, of a part."""
         strips = self.plan.strips
         pairs = zip(self.joints, self.balloons, strict=True)
         found = [joint for joint, balloon in pairs if strips[balloon].inside is None]
-        return np.array(found, dtype=np.int64)
+        joints = np.array(found, dtype=np.int64)
+        if isinstance(part, slice):
+            return joints
+        first = self.hands.rings[0][joints] - self.vertices.start
+        return joints[np.isin(first, part)]
 
     @property
     def outer_vertices(self) -> NDArray[np.int64]:

@@ -39,7 +39,7 @@ def test_all_none_or_some_joints_must_hold(written, meant):
     [
         ("most", '"most" does not fit, expected all, planned, none, or joints such as [nose.end]'),
         ("nose.end", '"nose.end" does not fit, expected all, planned, none, or joints such as [nose.end]'),
-        ("true", "True does not fit, expected all, planned, none, or joints such as [nose.end]"),
+        ("true", "true does not fit, expected all, planned, none, or joints such as [nose.end]"),
         ("{joints: [nose.end]}", "does not fit, expected all, planned, none, or joints such as [nose.end]"),
         ("[]", "must_hold: is empty, expected at least one entry"),
         ("[nose]", '"nose" is no joint, expected a bubble and its end'),

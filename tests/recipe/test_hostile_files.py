@@ -161,7 +161,7 @@ def test_an_empty_text_is_refused(text: str) -> None:
     assert messages(text) == ["f:1:1: the recipe is empty, expected a mapping that begins with format: 1"]
 
 
-@pytest.mark.parametrize(("text", "shown"), [("[]", "[]"), ("5", "5"), ("dog", '"dog"'), ("true", "True")])
+@pytest.mark.parametrize(("text", "shown"), [("[]", "[]"), ("5", "5"), ("dog", '"dog"'), ("true", "true")])
 def test_a_file_that_is_no_mapping_is_refused(text: str, shown: str) -> None:
     assert messages(text) == [f"f:1:1: {shown} does not fit, expected entries such as key: value"]
 

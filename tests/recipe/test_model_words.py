@@ -207,7 +207,7 @@ CONSTANTS = [
     ("ks: 0", "0 is out of range, expected 1 to 1e+09 1/s2, the nearest is 1"),
     ("kd: .nan", "nan is no number, expected 0 to 1e+06 1/s"),
     ("grading: 1.5", "1.5 is out of range, expected 0 to 1, the nearest is 1"),
-    ("grading: true", "True is no number, expected 0 to 1"),
+    ("grading: true", "true is no number, expected 0 to 1"),
     ("calming: -1", "-1 is out of range, expected 0 to 1e+06 1/s, the nearest is 0"),
     ("calming: 3 cm", '"3 cm" is no number, expected 0 to 1e+06 1/s'),
     ("gradin: 1", 'unknown key "gradin", did you mean "grading"?'),

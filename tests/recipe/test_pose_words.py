@@ -67,7 +67,7 @@ def test_gravity_acts_in_poses_on_the_ground_if_the_recipe_does_not_say(end, gra
         ),
         (
             "pose: drop\nphysics: {gravity: false}",
-            "physics.gravity: False is no number, expected 0 to 100 m/s2",
+            "physics.gravity: false is no number, expected 0 to 100 m/s2",
         ),
         (
             "pose: drop\nheight: 12 m",

@@ -8,7 +8,7 @@ import pytest
 from pydantic import BaseModel, Field, ValidationError
 
 from balloon_usd.language.names import Name
-from balloon_usd.language.problem import Problem
+from balloon_usd.language.problem import Problem, quoted
 from balloon_usd.operations.table import WORDS
 from balloon_usd.recipe import Recipe, RecipeError
 from balloon_usd.recipe.translation import validation_complaints
@@ -63,7 +63,7 @@ ONE_STEP = [
         'steps[0].bubbles.a: "10,5 cm" has a decimal comma, expected a decimal point: "10.5 cm"',
     ),
     ("bubbles: {a: long}", 18, 'steps[0].bubbles.a: "long" is no length, expected "12 mm" or "4 in"'),
-    ("bubbles: {a: true}", 18, 'steps[0].bubbles.a: True is no length, expected "12 mm" or "4 in"'),
+    ("bubbles: {a: true}", 18, 'steps[0].bubbles.a: true is no length, expected "12 mm" or "4 in"'),
     (
         "bubbles: {a: .nan}",
         18,
@@ -124,7 +124,7 @@ MANNER = [
     ("turns: 0", "0 is out of range, expected 0.5 to 10 turns in steps of 0.5, the nearest is 0.5"),
     ("turns: 11", "11 is out of range, expected 0.5 to 10 turns in steps of 0.5, the nearest is 10"),
     ("turns: three", '"three" is no number, expected 0.5 to 10 turns in steps of 0.5'),
-    ("turns: true", "True is no number, expected 0.5 to 10 turns in steps of 0.5"),
+    ("turns: true", "true is no number, expected 0.5 to 10 turns in steps of 0.5"),
     ("burp: 0.2", "0.2 % is out of range, expected 1 to 50 %, the nearest is 1 %"),
     ("burp: 60 %", "60 % is out of range, expected 1 to 50 %, the nearest is 50 %"),
     ("burp: 2 N", '"2 N" is no share, expected 20 or "20 %"'),
@@ -269,7 +269,7 @@ def test_a_wrong_entry_of_the_physics_is_found_at_its_value(line: str, message: 
 HEADS = [
     ("format: 1", "format: 2", "1:9", 'format: unknown format "2", expected 1'),
     ("format: 1", "format: '1'", "1:9", 'format: "1" is no format, expected 1'),
-    ("format: 1", "format: true", "1:9", "format: True is no format, expected 1"),
+    ("format: 1", "format: true", "1:9", "format: true is no format, expected 1"),
     ("format: 1", "format: 1.0", "1:9", "format: 1.0 is no format, expected 1"),
     (
         "name: dog",
@@ -325,7 +325,7 @@ HEADS = [
         "units: cm",
         "units: [cm]",
         "3:1",
-        "units: ['cm'] is no units, expected one of mm, cm, m, in, ft",
+        "units: [cm] is no units, expected one of mm, cm, m, in, ft",
     ),
     (
         "name: dog",
@@ -580,3 +580,16 @@ def test_too_few_and_too_many_entries_are_counted() -> None:
     assert told(["a"]) == ["1 entry here, expected at least 2"]
     assert told(["a", "b", "c"]) == ["3 entries here, expected at most 2"]
     assert len(told(["a", 5])) == 1
+
+
+@pytest.mark.parametrize(
+    ("value", "shown"),
+    [
+        ({"bubble": "a", "by": [1, None]}, "{bubble: a, by: [1, null]}"),
+        (["a", True, 2.5], "[a, true, 2.5]"),
+        ([[[["deep"]]]], "[[[...]]]"),
+        ("a b", '"a b"'),
+    ],
+)
+def test_a_value_is_shown_in_messages_as_it_stands_in_a_file(value: object, shown: str) -> None:
+    assert quoted(value) == shown

@@ -109,7 +109,7 @@ def test_a_named_value_that_makes_no_sense_is_refused_at_its_place(text, told):
         ("{repeat: .inf, steps: [{bubbles: {x: 3}}]}", "5:18: steps[0].repeat: inf does not say how often"),
         ("{repeat: 0, steps: [{bubbles: {x: 3}}]}", "5:18: steps[0].repeat: 0 times, expected 1 to 500"),
         ("{repeat: 501, steps: [{bubbles: {x: 3}}]}", "5:18: steps[0].repeat: 501 times, expected 1 to 500"),
-        ("{repeat: true, steps: [{bubbles: {x: 3}}]}", "5:18: steps[0].repeat: True does not say how often"),
+        ("{repeat: true, steps: [{bubbles: {x: 3}}]}", "5:18: steps[0].repeat: true does not say how often"),
         (
             "{repeat: {}, steps: [{bubbles: {x: 3}}]}",
             "5:10: steps[0].repeat: is empty, expected a number of times",

@@ -174,6 +174,22 @@ def test_each_part_of_a_figure_that_comes_apart_stands_by_itself_and_beside_the_
     assert quality.data()["lean"]["verdict"] == "none"
 
 
+def test_each_part_hangs_on_a_thread_of_its_own():
+    simulation, _, last = last_frame(Pop.example + "pose: hang\nphysics: {hold: 0.5}\n")
+    sculpture = simulation.model.performers[0].sculpture
+    first, around = sculpture.hands.rings
+    for part in sculpture.parts:
+        points = last.points[0][part]
+        joints = sculpture.outer_joints(part)
+        own = [np.arange(first[joint], first[joint] + around[joint]) for joint in joints]
+        middles = np.array([last.points[0][ring].mean(axis=0) for ring in own])
+        # One of its joints is where the thread ends, and its centre hangs below that.
+        thread = middles[np.abs(middles[:, 2]).argmin()]
+        assert thread[2] == pytest.approx(0.0, abs=1e-4)
+        assert np.linalg.norm((points.mean(axis=0) - thread)[:2]) < 0.02
+        assert points[:, 2].mean() < -0.01
+
+
 def test_parts_that_are_dropped_fall_each_by_itself():
     text = Pop.example + "pose: drop\nheight: 30\nphysics: {hold: 0.5}\n"
     simulation, _, last = last_frame(text)

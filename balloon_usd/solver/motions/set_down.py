@@ -19,12 +19,14 @@ from balloon_usd.solver.placement import (
     turn_facing,
 )
 from balloon_usd.solver.resting import standing_direction
+from balloon_usd.solver.sculpture import ALL
 
 if TYPE_CHECKING:
     from balloon_usd.operations import moves
     from balloon_usd.solver.sculpture import Sculpture
 
 Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
 
 DOWN = np.array([0.0, 0.0, -1.0])
 ALIKE = 5.0e-3
@@ -73,15 +75,19 @@ class SetDown(Motion):
 
     def _found(self, move: moves.SetDown, points: Floats) -> list[Way]:
         """Return the way of every part: all go together; `points`: its vertices, (V, 3), m."""
-        return [Way.to(self._centre, *self._end(move, points))] * len(self._sculpture.parts)
+        facing, _ = faced(move, self._sculpture, points)
+        return [Way.to(self._centre, *self._end(move, points, facing))] * len(self._sculpture.parts)
 
-    def _end(self, move: moves.SetDown, points: Floats) -> tuple[Floats, Floats]:
-        """Return the turn (3, 3) about the origin and the shift (3,) behind it, m, after which it stays.
+    def _end(
+        self, move: moves.SetDown, points: Floats, facing: Floats, part: Ints | slice = ALL
+    ) -> tuple[Floats, Floats]:
+        """Return the turn (3, 3) about the origin and the shift (3,) behind it, m, after which a part stays.
 
-        `points`: its vertices, (V, 3), m.
+        `points`: all vertices, (V, 3), m; `facing`: the turn (3, 3) that brings front and top where they go.
         """
-        facing, arms = faced(move, self._sculpture, points)
-        thread = _thread(arms, facing, self._centre, self._sculpture)
+        centre = self._sculpture.centre(points, part)
+        arms = (points[part] - centre) @ facing.T
+        thread = _thread(arms, facing, centre, self._sculpture, part)
         down = DOWN
         if move.pose == "stand":
             down = standing_direction(arms, np.zeros(3), DOWN)
@@ -90,9 +96,9 @@ class SetDown(Motion):
         tipping = turn_about(*turn_between(down, DOWN))
         turn = tipping @ facing
         if move.pose == "as made":
-            return turn, self._centre - turn @ self._centre
+            return turn, centre - turn @ centre
         pivot = _pivot(move.pose, arms @ tipping.T, tipping @ thread)
-        return turn, np.array([0.0, 0.0, move.height]) - pivot - turn @ self._centre
+        return turn, np.array([0.0, 0.0, move.height]) - pivot - turn @ centre
 
     @property
     def turn(self) -> Floats:
@@ -115,13 +121,13 @@ def faced(move: moves.SetDown | moves.Level, sculpture: Sculpture, points: Float
     return facing, (points - sculpture.centre(points)) @ facing.T
 
 
-def _thread(arms: Floats, facing: Floats, centre: Floats, sculpture: Sculpture) -> Floats:
-    """Return where a thread is tied, from the centre, (3,), m: where the figure stays most upright, of joints
+def _thread(arms: Floats, facing: Floats, centre: Floats, sculpture: Sculpture, part: Ints | slice) -> Floats:
+    """Return where a thread is tied, from the centre, (3,), m: where the part stays most upright, of joints
     the first that does so.
 
     `arms`: its points from its centre, (N, 3), m, turned by `facing`, (3, 3).
     """
-    joints = sculpture.frame.middle[sculpture.outer_joints].astype(np.float64)
+    joints = sculpture.frame.middle[sculpture.outer_joints(part)].astype(np.float64)
     arms = (joints - centre) @ facing.T if len(joints) else arms[sculpture.outer_vertices]
     upright = arms[:, 2] / np.maximum(np.linalg.norm(arms, axis=1), 1e-9)
     alike = ALIKE if len(joints) else 0.0

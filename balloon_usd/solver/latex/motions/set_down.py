@@ -11,9 +11,7 @@ from numpy.typing import NDArray
 from balloon_usd.operations.moves import LET_GO
 from balloon_usd.solver.falling import FallingFigure
 from balloon_usd.solver.latex.weight import rigid_figure
-from balloon_usd.solver.motions.set_down import DOWN, SetDown, Way, faced
-from balloon_usd.solver.placement import turn_about, turn_between
-from balloon_usd.solver.resting import standing_direction
+from balloon_usd.solver.motions.set_down import SetDown, Way, faced
 from balloon_usd.solver.sculpture import ALL
 
 if TYPE_CHECKING:
@@ -32,74 +30,50 @@ FALLS_OVER = 2.0
 """How far from where its middle was an end of a tube comes to lie that lands on the other one and falls over,
 in the distance of the farthest vertex from its middle.
 """
-STEADY = np.zeros(3)
+APART = ("stand", "hang", *LET_GO)
+"""Poses in which parts that have come apart are put each by itself."""
 
 
 class LatexSetDown(SetDown):
-    """Hands that carry a whole figure of latex; where it has come apart each part stands by itself."""
+    """Hands that carry a whole figure of latex, or each of the parts into which it has come apart."""
 
     _sculpture: LatexSculpture
 
     def _found(self, move: moves.SetDown, points: Floats) -> list[Way]:
-        """Let parts that have come apart stand where they are, or beside each other if they do not fit; let
-        go of above the ground they have room to tip over.
+        """Let parts that have come apart stand or hang where they are, or beside each other if they do not
+        fit; let go of above the ground they have room to fall over.
         """
         parts, centre = self._sculpture.parts, self._sculpture.centre
-        if move.pose not in ("stand", *LET_GO) or len(parts) == 1:
+        if move.pose not in APART or len(parts) == 1:
             return super()._found(move, points)
-        if move.pose == "stand":
-            facing, _ = faced(move, self._sculpture, points)
-            ends = [self._standing(move, points, part, facing) for part in parts]
+        facing, _ = faced(move, self._sculpture, points)
+        if move.pose in LET_GO:
+            ends = [self._end(move, points, facing)] * len(parts)
         else:
-            ends = [self._end(move, points)] * len(parts)
+            ends = [self._end(move, points, facing, part) for part in parts]
+            for part, (_, shift) in zip(parts, ends, strict=True):
+                shift[:2] += (facing @ (centre(points, part) - self._centre))[:2]
         put = [points[part] @ turn.T + shift for part, (turn, shift) in zip(parts, ends, strict=True)]
-        if move.pose != "stand":
+        if move.pose in LET_GO:
             put = [_round_it(each) for each in put]
         ways = zip(parts, ends, beside_each_other(put), strict=True)
         return [Way.to(centre(points, part), turn, shift + aside) for part, (turn, shift), aside in ways]
 
-    def _standing(
-        self, move: moves.SetDown, points: Floats, part: Ints, facing: Floats
+    def _end(
+        self, move: moves.SetDown, points: Floats, facing: Floats, part: Ints | slice = ALL
     ) -> tuple[Floats, Floats]:
-        """Return the turn (3, 3) and the shift (3,), m, with which a part stands below where it is now.
-
-        `points`: all vertices, (V, 3), m; `facing`: the turn that brings the figure's front where it goes.
-        """
-        centre = self._sculpture.centre(points, part)
-        down = standing_direction((points[part] - centre) @ facing.T, STEADY, DOWN)
-        turn = turn_about(*turn_between(down, DOWN)) @ facing
-        shift = facing @ (centre - self._centre) - turn @ centre
-        shift[2] = -float((points[part] @ turn[2]).min())
-        return self._settled(move, points, part, turn, shift)
-
-    def _end(self, move: moves.SetDown, points: Floats) -> tuple[Floats, Floats]:
         """Let it settle on the ground: before that, only the points are known on which it will stand."""
-        turn, shift = super()._end(move, points)
+        turn, shift = super()._end(move, points, facing, part)
         if move.pose != "stand" or move.gravity == 0.0:
-            return turn, shift
-        turn, shift = self._settled(move, points, ALL, turn, shift)
-        stands = points @ turn.T + shift
-        shift[:2] -= 0.5 * (stands.min(axis=0) + stands.max(axis=0))[:2]
-        return turn, shift
-
-    def _settled(
-        self,
-        move: moves.SetDown,
-        points: Floats,
-        part: Ints | slice,
-        turn: Floats,
-        shift: Floats,
-    ) -> tuple[Floats, Floats]:
-        """Return what becomes of the turn and the shift of a part that settles under its weight, if it has
-        any.
-        """
-        if move.gravity == 0.0:
             return turn, shift
         figure = rigid_figure(self._sculpture, points @ turn.T + shift, part)
         friction = self._sculpture.plan.recipe.physics.friction
         fall = FallingFigure(figure, move.gravity, friction, ground=True)
         fall.settle()
-        return fall.moved(turn, shift)
+        turn, shift = fall.moved(turn, shift)
+        stands = points[part] @ turn.T + shift
+        shift[:2] -= 0.5 * (stands.min(axis=0) + stands.max(axis=0))[:2]
+        return turn, shift
 
 
 def _round_it(points: Floats) -> Floats:
