@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from itertools import islice
+
 import numpy as np
 import pytest
 
+from balloon_usd.operations.moves import SetDown
 from balloon_usd.operations.pop import Pop
 from balloon_usd.plan import plan
 from balloon_usd.quality.crossing_counter import CrossingCounter
@@ -174,6 +177,17 @@ def test_each_part_of_a_figure_that_comes_apart_stands_by_itself_and_beside_the_
     assert quality.data()["lean"]["verdict"] == "none"
 
 
+@pytest.mark.parametrize("pose", ["stand", "hang", "drop"])
+def test_parts_that_hands_carry_to_their_places_do_not_go_through_each_other(pose):
+    planned = plan(Recipe.parse(f"{Pop.example}pose: {pose}\nphysics: {{hold: 0.5}}\n"))
+    simulation = simulate_many([planned], device="cpu")
+    counter = CrossingCounter(walls_of(planned, simulation.meshes[0]), 100)
+    begin = next(move.start for move in planned.choreography.moves if isinstance(move, SetDown))
+    for (frame,) in simulation.frames():
+        if frame.time_code > begin * planned.recipe.fps and frame.time_code % 2:
+            assert counter.count(frame.points).count == 0
+
+
 def test_each_part_hangs_on_a_thread_of_its_own():
     simulation, _, last = last_frame(Pop.example + "pose: hang\nphysics: {hold: 0.5}\n")
     sculpture = simulation.model.performers[0].sculpture
@@ -222,3 +236,15 @@ def test_rags_may_fly_faster_than_hands_move_anything():
     assert last.volume[[bubble.name for bubble in planned.bubbles].index("f")] == 0.0
     # And what they are stretched meanwhile bursts nothing.
     assert summary.wall_load.load < 1.0
+
+
+def test_a_figure_with_a_pop_has_the_same_bits_alone_and_beside_others():
+    popped = plan(Recipe.parse(Pop.example + "physics: {hold: 0.5}\n"))
+    at = popped.frame_count - 1
+    other = plan(Recipe.parse(Pop.example.replace("before: 7", "before: 8") + "physics: {hold: 0.5}\n"))
+    alone, beside = (
+        next(frames[-1] for frames in islice(simulate_many(plans, device="cpu").frames(), at, at + 1))
+        for plans in ([popped], [other, popped])
+    )
+    assert alone.points[0].tobytes() == beside.points[0].tobytes()
+    assert alone.stretch[0].tobytes() == beside.stretch[0].tobytes()

@@ -29,6 +29,8 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 DOWN = np.array([0.0, 0.0, -1.0])
+LOOKS = 13
+"""Angles between the first and the last of a turn at which the room that it takes is looked at."""
 ALIKE = 5.0e-3
 """Difference of the cosines of angles to the vertical that is none: of a tube that lies, rounding would tell
 by which end it hangs.
@@ -46,6 +48,8 @@ class Way(NamedTuple):
     """rad"""
     forward: Floats
     """Way of the centre, (3,), m."""
+    apart: bool = False
+    """Whether it is brought aside first, and turned and lowered then."""
 
     @classmethod
     def to(cls, centre: Floats, turn: Floats, shift: Floats) -> Self:
@@ -57,10 +61,21 @@ class Way(NamedTuple):
         """The turn of the whole way, (3, 3)."""
         return turn_about(self.axis, self.angle)
 
-    def placement(self, progress: float) -> Placement:
-        """Return where it is after a share of the way."""
-        turn = turn_about(self.axis, progress * self.angle)
-        return Placement.by(turn, self.centre + progress * self.forward - turn @ self.centre)
+    def placement(self, share: float) -> Placement:
+        """Return where it is after a share of the time."""
+        aside = turning = smooth(share)
+        if self.apart:
+            aside, turning = smooth(min(2.0 * share, 1.0)), smooth(max(2.0 * share - 1.0, 0.0))
+        turn = turn_about(self.axis, turning * self.angle)
+        gone = np.array([aside, aside, turning]) * self.forward
+        return Placement.by(turn, self.centre + gone - turn @ self.centre)
+
+    def room(self, points: Floats) -> Floats:
+        """Return two corners of a box about all places where points (N, 3), m, are while it is turned, m."""
+        middle, arms = self.centre + self.forward, points - self.centre
+        turns = (turn_about(self.axis, share * self.angle) for share in np.linspace(0.0, 1.0, LOOKS))
+        ends = [edge(arms @ turn.T, axis=0) for turn in turns for edge in (np.min, np.max)]
+        return np.stack([middle + np.min(ends, axis=0), middle + np.max(ends, axis=0)])
 
 
 class SetDown(Motion):
@@ -107,7 +122,7 @@ class SetDown(Motion):
 
     def advance(self, share: float) -> None:
         """Carry it a share of the way."""
-        placements = tuple([way.placement(smooth(share)) for way in self._ways])
+        placements = tuple([way.placement(share) for way in self._ways])
         self._sculpture.placed = Placed(self._sculpture.parts, placements)
 
 

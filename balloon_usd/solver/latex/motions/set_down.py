@@ -53,11 +53,12 @@ class LatexSetDown(SetDown):
             ends = [self._end(move, points, facing, part) for part in parts]
             for part, (_, shift) in zip(parts, ends, strict=True):
                 shift[:2] += (facing @ (centre(points, part) - self._centre))[:2]
-        put = [points[part] @ turn.T + shift for part, (turn, shift) in zip(parts, ends, strict=True)]
+        ways = [Way.to(centre(points, part), *end) for part, end in zip(parts, ends, strict=True)]
+        rooms = [way.room(points[part]) for way, part in zip(ways, parts, strict=True)]
         if move.pose in LET_GO:
-            put = [_round_it(each) for each in put]
-        ways = zip(parts, ends, beside_each_other(put), strict=True)
-        return [Way.to(centre(points, part), turn, shift + aside) for part, (turn, shift), aside in ways]
+            rooms = [_round_it(room) for room in rooms]
+        aside = beside_each_other(rooms)
+        return [way._replace(forward=way.forward + a, apart=True) for way, a in zip(ways, aside, strict=True)]
 
     def _end(
         self, move: moves.SetDown, points: Floats, facing: Floats, part: Ints | slice = ALL
@@ -76,17 +77,17 @@ class LatexSetDown(SetDown):
         return turn, shift
 
 
-def _round_it(points: Floats) -> Floats:
-    """Return two corners of a box about all places that points (N, 3) may reach when they are dropped, m."""
-    middle = points.mean(axis=0)
-    reach = FALLS_OVER * float(np.linalg.norm(points - middle, axis=1).max())
+def _round_it(room: Floats) -> Floats:
+    """Return two corners of a box about all that may be reached by what is dropped out of one, (2, 3), m."""
+    reach = FALLS_OVER * 0.5 * float(np.linalg.norm(room[1] - room[0]))
+    middle = room.mean(axis=0)
     return np.stack([middle - reach, middle + reach])
 
 
 def beside_each_other(parts: Sequence[Floats]) -> list[Floats]:
     """Return the shift of every part, (3,), m, with which none stands above another, all about the origin.
 
-    `parts`: their vertices, (N, 3) each, m.
+    `parts`: their vertices, or corners of boxes about these, (N, 3) each, m.
     """
     low, high = (np.array([edge(part, axis=0)[:2] for part in parts]) for edge in (np.min, np.max))
     along = int(np.argmax(np.ptp(low + high, axis=0)))
