@@ -150,7 +150,7 @@ class LatexModel(Model):
         read-back.
         """
         super().read_back()
-        for bubble in (bubble for sculpture in self._sculptures for bubble in sculpture.open):
+        for bubble in chain.from_iterable(sculpture.open_bubbles for sculpture in self._sculptures):
             # What is open holds no volume, and how rags are stretched as they snap back loads no wall.
             self._state["volume"][bubble.segment] = 0.0
             self._state["stretch"][bubble.vertices] = 1.0

@@ -41,7 +41,7 @@ class LatexSculpture(Sculpture):
         self.torsion = Torsion(plan, scene, hands, self.joints, self.body, self.friction)
         self.inflated_at: dict[int, float] = {}
         """Time at which each body had its gas, s."""
-        self.open: list[OpenBubble] = []
+        self.open_bubbles: list[OpenBubble] = []
         """Bubbles that have torn or were cut off."""
         self.pose_kept: dict[tuple[int, ...], set[tuple[int, int]]] = {}
         """Pairs of joints (of the scene) whose distance friction keeps, by the weld whose it is."""

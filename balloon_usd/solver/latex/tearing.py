@@ -83,4 +83,4 @@ def take_away(scene: LatexScene, faces: Ints, sides: Ints, vertices: Ints) -> No
 
 def _open(segment: int, sculpture: LatexSculpture) -> None:
     own = np.flatnonzero(sculpture.scene.vertex_segment.numpy() == segment)
-    sculpture.open.append(OpenBubble(segment, own))
+    sculpture.open_bubbles.append(OpenBubble(segment, own))

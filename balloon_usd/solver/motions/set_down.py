@@ -70,6 +70,10 @@ class Way(NamedTuple):
         gone = np.array([aside, aside, turning]) * self.forward
         return Placement.by(turn, self.centre + gone - turn @ self.centre)
 
+    def after(self, aside: Floats) -> Self:
+        """Return the same way for what is brought aside before, (3,), m."""
+        return self._replace(forward=self.forward + aside, apart=True)
+
     def room(self, points: Floats) -> Floats:
         """Return two corners of a box about all places where points (N, 3), m, are while it is turned, m."""
         middle, arms = self.centre + self.forward, points - self.centre

@@ -57,8 +57,8 @@ class LatexSetDown(SetDown):
         rooms = [way.room(points[part]) for way, part in zip(ways, parts, strict=True)]
         if move.pose in LET_GO:
             rooms = [_round_it(room) for room in rooms]
-        aside = beside_each_other(rooms)
-        return [way._replace(forward=way.forward + a, apart=True) for way, a in zip(ways, aside, strict=True)]
+        shifts = beside_each_other(rooms)
+        return [way.after(shift) for way, shift in zip(ways, shifts, strict=True)]
 
     def _end(
         self, move: moves.SetDown, points: Floats, facing: Floats, part: Ints | slice = ALL
