@@ -58,6 +58,11 @@ class AfterStep:
         return f"after step {self.index + 1} of {len(steps)}, {steps[self.index].label}"
 
     @property
+    def popped(self) -> frozenset[str]:
+        """Bubbles that have been burst by now."""
+        return self.plan.recipe.piece.after(self.index).popped
+
+    @property
     def cautions(self) -> tuple[Caution, ...]:
         """Cautions about this step and those before it."""
         return tuple(c for c in self.plan.cautions if c.step is not None and c.step <= self.index)
@@ -109,8 +114,7 @@ def after_step(plan: Plan, index: int) -> AfterStep:
 
 def after_step_text(after: AfterStep) -> str:
     """Return what is made after a step as readable text."""
-    graph = after.graph
-    popped = after.plan.recipe.piece.after(after.index).popped
+    graph, popped = after.graph, after.popped
     lines = [*head_lines(after.plan), after.what]
     for strip in after.strips:
         lines += ["", f"balloon {strip.balloon}:", *bubble_lines(strip, after.made(strip), popped)]

@@ -50,7 +50,7 @@ def plan_svg(plan: Plan, after: AfterStep | None = None) -> str:
     colors = {name: svg.srgb(plan.recipe.balloons[name].color.rgb) for name in plan.strips}
     title = plan.recipe.title or plan.recipe.name
     title = title if after is None else f"{title}, {after.what}"
-    popped = (plan.recipe.piece if after is None else plan.recipe.piece.after(after.index)).popped
+    popped = plan.recipe.piece.popped if after is None else after.popped
     body = [svg.text(title, (MARGIN, 28.0), "head")]
     top, width = _HEAD, 0.0 if plan.of_meshes else graph_width(graph)
     for name, strip in plan.strips.items():

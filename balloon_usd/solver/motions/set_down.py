@@ -94,7 +94,7 @@ class SetDown(Motion):
 
     def _found(self, move: moves.SetDown, points: Floats) -> list[Way]:
         """Return the way of every part: all go together; `points`: its vertices, (V, 3), m."""
-        facing, _ = faced(move, self._sculpture, points)
+        facing = facing_turn(move, self._sculpture, points)
         return [Way.to(self._centre, *self._end(move, points, facing))] * len(self._sculpture.parts)
 
     def _end(
@@ -130,14 +130,12 @@ class SetDown(Motion):
         self._sculpture.placed = Placed(self._sculpture.parts, placements)
 
 
-def faced(move: moves.SetDown | moves.Level, sculpture: Sculpture, points: Floats) -> tuple[Floats, Floats]:
-    """Return the turn (3, 3) that brings a figure's front and top where they go, and its vertices so turned,
-    from the centre of its mass, (V, 3), m.
+def facing_turn(move: moves.SetDown | moves.Level, sculpture: Sculpture, points: Floats) -> Floats:
+    """Return the turn (3, 3) that brings a figure's front and top where they go.
 
-    `points`: these vertices as they are, (V, 3), m.
+    `points`: its vertices, (V, 3), m.
     """
-    facing = turn_facing(move.front, move.top, points.mean(axis=0), sculpture.bubble_middle)
-    return facing, (points - sculpture.centre(points)) @ facing.T
+    return turn_facing(move.front, move.top, points.mean(axis=0), sculpture.bubble_middle)
 
 
 def _thread(arms: Floats, facing: Floats, centre: Floats, sculpture: Sculpture, part: Ints | slice) -> Floats:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from balloon_usd.solver.latex.led_limb import LedLimb, hold_figure, leave_figure
 from balloon_usd.solver.levelling import TOUCHES, Feet, feet_of, levelling_turns
 from balloon_usd.solver.motions.motion import Motion
-from balloon_usd.solver.motions.set_down import DOWN, faced
+from balloon_usd.solver.motions.set_down import DOWN, facing_turn
 from balloon_usd.solver.motions.smooth import round_at, smooth
 from balloon_usd.solver.placement import turn_about, turn_between
 from balloon_usd.solver.resting import standing_direction
@@ -47,7 +47,9 @@ class Level(Motion):
         self._round = -1
         self._bent: list[tuple[LedLimb, Floats]] = []
         """Legs that are being bent, and how far each turns, (3,), rad."""
-        facing, arms = faced(move, sculpture, sculpture.walls())
+        points = sculpture.walls()
+        facing = facing_turn(move, sculpture, points)
+        arms = (points - sculpture.centre(points)) @ facing.T
         down = standing_direction(arms, np.zeros(3), DOWN)
         self._standing = turn_about(*turn_between(down, DOWN)) @ facing
         turned = {name: points @ self._standing.T for name, points in _walls(sculpture).items()}

@@ -21,11 +21,11 @@ class Pop(Motion):
         start, end = sculpture.plan.table.ends(move.bubble)
         ring, side = (start, 1) if end is None else (end, 0)
         self._segment = int(self._hands.beside[sculpture.joints[ring], side])
-        self._begun = float(self._hands.pressure[self._segment])
         sculpture.friction.popped.add(move.bubble)
-        if any(bubble.tears for bubble in sculpture.plan.bubbles if bubble.name == move.bubble):
-            tear(move.bubble, self._segment, sculpture)
-            self._begun = 0.0
+        balloon, number = sculpture.place(move.bubble)
+        if sculpture.plan.strips[balloon].bubbles[number].tears:
+            tear(move.bubble, sculpture)
+        self._begun = float(self._hands.pressure[self._segment])
         sculpture.give_up_pose()
 
     def advance(self, share: float) -> None:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from balloon_usd.operations.moves import LET_GO
 from balloon_usd.solver.falling import FallingFigure
 from balloon_usd.solver.latex.weight import rigid_figure
-from balloon_usd.solver.motions.set_down import SetDown, Way, faced
+from balloon_usd.solver.motions.set_down import SetDown, Way, facing_turn
 from balloon_usd.solver.sculpture import ALL
 
 if TYPE_CHECKING:
@@ -46,7 +46,7 @@ class LatexSetDown(SetDown):
         parts, centre = self._sculpture.parts, self._sculpture.centre
         if move.pose not in APART or len(parts) == 1:
             return super()._found(move, points)
-        facing, _ = faced(move, self._sculpture, points)
+        facing = facing_turn(move, self._sculpture, points)
         if move.pose in LET_GO:
             ends = [self._end(move, points, facing)] * len(parts)
         else:
