@@ -126,12 +126,7 @@ class Sculpture:
         if unkept := list(self._quality.unkept()):
             remedy = "lock twists, wind locks with more turns, or change must_hold"
             told.append(f"{all_of(unkept)}, and must hold: {remedy}")
-        stuck, slipped = self._quality.stuck_and_slipped()
-        if stuck:
-            what = f"{all_of(stuck)} did not come into {'its ring' if len(stuck) == 1 else 'their rings'}"
-            told.append(f"{what}: make the bubble shorter or the ring larger, or change must_hold")
-        if slipped:
-            told.append(f"{all_of(slipped)}: make the ring smaller or the bubble larger, or change must_hold")
+        told += [f"{each}, or change must_hold" for each in self._quality.stuck_and_slipped()]
         if unwound := self._quality.unwound():
             told.append(f"{all_of(unwound)}: make the bubbles longer, or change must_hold")
         if not told:

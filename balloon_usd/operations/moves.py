@@ -277,6 +277,21 @@ class Aim(Move):
 
 
 @dataclass(frozen=True)
+class Tuck(Move):
+    """Set a limb between two bubbles, or into the hole of one, which are spread meanwhile."""
+
+    bubble: str = ""
+    """One of the limb."""
+    between: tuple[str, ...] = ()
+    width: float = 0.0
+    """How wide the bubble is, m."""
+    tube: float = 0.0
+    """How wide those are between which it is set, m."""
+    point: Vector | None = None
+    """Unit direction in which it points in the end; None for towards their middles."""
+
+
+@dataclass(frozen=True)
 class Press(Move):
     """Press a finger into a wall, hold it there, and take it away, while the other hand holds some rings."""
 

@@ -179,10 +179,8 @@ class Passing(OnBalloon, Pointed, Timed, Operation):
 
     def refusals(self, layout: Layout) -> Iterator[tuple[tuple[str, ...], str]]:
         """Yield a ring without a hole, and a bubble that is far too long for its ring."""
-        first = layout.bubble(self.ring[0])
-        if len(self.ring) == 1 and not (first.hollow and first.length >= LEAST_HOLE * first.width):
-            what = f"{self.ring[0]} ({cm(first.length)}) has no hole"
-            yield (self.word, self.ring_key), f"{what}, expected a loop or a fold, or bubbles of a lock"
+        if len(self.ring) == 1 and (fault := without_hole(self.ring[0], layout)):
+            yield (self.word, self.ring_key), f"{fault}, expected a loop or a fold, or bubbles of a lock"
         else:
             yield from self.misfits(layout)
 
@@ -250,6 +248,13 @@ class Passing(OnBalloon, Pointed, Timed, Operation):
         score.add(self.as_moved(move, layout))
         score.add(Move(score.now, SETTLE_SECONDS, index, text))
         score.let_go(index)
+
+
+def without_hole(name: str, layout: Layout) -> str | None:
+    """Return that a bubble which closes on itself has no hole, in words; None where it has one."""
+    bubble = layout.bubble(name)
+    hollow = bubble.hollow and bubble.length >= LEAST_HOLE * bubble.width
+    return None if hollow else f"{name} ({cm(bubble.length)}) has no hole"
 
 
 def depth_of(layout: Layout, ring: Sequence[str]) -> float:

@@ -35,6 +35,7 @@ from balloon_usd.operations.squeeze import Squeeze
 from balloon_usd.operations.tail_ball import TailBall
 from balloon_usd.operations.thread import Thread
 from balloon_usd.operations.tie import Tie
+from balloon_usd.operations.tuck import Tuck
 from balloon_usd.operations.tulip import Tulip
 from balloon_usd.operations.wait import Wait
 from balloon_usd.operations.weave import Weave
@@ -66,6 +67,7 @@ OPERATIONS: tuple[type[Operation], ...] = (
     Squeeze,
     Push,
     Roll,
+    Tuck,
     Thread,
     Wrap,
     Pop,

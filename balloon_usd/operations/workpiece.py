@@ -7,20 +7,22 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
-from balloon_usd.language.joint import Joint
+from balloon_usd.language.joint import Joint, ends_of
 from balloon_usd.operations.connections import Connections
 from balloon_usd.operations.disjoint_sets import DisjointSets
 
 if TYPE_CHECKING:
-    from collections.abc import Container, Iterable, Mapping, Sequence
+    from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 
-ContactKind = Literal["roll", "push", "thread", "wrap"]
+ContactKind = Literal["roll", "push", "tuck", "thread", "wrap"]
 _BROUGHT: dict[ContactKind, str] = {
     "roll": "rolls {0} between {1}",
     "push": "pushes {0} through {1}",
+    "tuck": "tucks {0} between {1}",
     "thread": "threads {0} through {1}",
     "wrap": "wraps {1} round the neck of {0}",
 }
+_TUCKED_INTO = "tucks {0} into {1}"
 
 
 _LEAVING_FREE = ("thread", "wrap")
@@ -69,7 +71,8 @@ class Contact:
     @property
     def text(self) -> str:
         """What was done, in words: `pushes nose through left_ear, right_ear`."""
-        return _BROUGHT[self.kind].format(self.bubble, ", ".join(self.others))
+        words = _TUCKED_INTO if self.kind == "tuck" and len(self.others) == 1 else _BROUGHT[self.kind]
+        return words.format(self.bubble, ", ".join(self.others))
 
 
 @dataclass(frozen=True)
@@ -320,10 +323,11 @@ class Workpiece:
 
         That is where just two bubbles meet, not brought together by any step, and neither belongs to a closed
         ring, lies in one, or in a row that leads back into one: there, turning one bubble would have to turn
-        the ring. What is behind a bubble that was threaded, or round whose neck another is wrapped, is free.
+        the ring. What is behind a bubble that was threaded, or round whose neck another is wrapped, is free,
+        and so is what hangs on one that is set between others.
         """
         free = self.bridges() - self.gripped() - self._in_rows()
-        behind = {Joint(contact.bubble, "end") for contact in self.contacts if contact.kind in _LEAVING_FREE}
+        behind = {end for contact in self.contacts for end in self._left_free(contact)}
         return [
             ends
             for ends in self.joints
@@ -331,6 +335,15 @@ class Workpiece:
             and not self.is_merged(ends)
             and all(end.bubble in free or end in behind for end in ends)
         ]
+
+    def _left_free(self, contact: Contact) -> Iterator[Joint]:
+        """Yield the ends of a bubble that may turn where others hold it."""
+        if contact.kind == "tuck":
+            for end in ends_of(contact.bubble):
+                if contact.others[0] not in self.hangs_on(end):
+                    yield end
+        elif contact.kind in _LEAVING_FREE:
+            yield Joint(contact.bubble, "end")
 
     def free_to_spin(self, end: Joint) -> bool:
         """Whether a joint unwinds when it is let go."""
@@ -400,9 +413,9 @@ class Workpiece:
         return tuple(found) if at in corners and alone else None
 
     def gripped(self) -> frozenset[str]:
-        """Return the bubbles that go through a ring of others which is still closed."""
+        """Return the bubbles that go through a ring of others which is still closed, or lie between them."""
         firm = (each for each in self.contacts if self._popped.isdisjoint(each.others))
-        return frozenset(each.bubble for each in firm if self.is_closed(each.others))
+        return frozenset(each.bubble for each in firm if each.kind == "tuck" or self.is_closed(each.others))
 
     def _in_rows(self) -> frozenset[str]:
         """Return the bubbles of rows that lead from a ring back into it."""

@@ -78,7 +78,7 @@ def _passed(result: Data) -> Iterator[str]:
     if "through" in result:
         slipped = f" ({', '.join(result['slipped'])} not)" if result["slipped"] else ""
         count = len(result["through"])
-        yield f"{count - result['value']} of {count} stay in their rings{slipped}"
+        yield f"{count - result['value']} of {count} stay where others hold them{slipped}"
 
 
 def _wound(result: Data) -> Iterator[str]:

@@ -68,7 +68,7 @@ MEASURES = _table(
     ),
     Measure("lean", "deg", 15.0, 1, "angle by which a figure that stands leans; none where none is to stand"),
     Measure("joints", "1", 0, 0, "joints that were meant to hold and do not"),
-    Measure("passed", "1", 0, 0, "bubbles that were pushed or rolled into a ring and have slipped out of it"),
+    Measure("passed", "1", 0, 0, "bubbles that were brought into a ring or between others and are out of it"),
     Measure(
         "unwound",
         "1",

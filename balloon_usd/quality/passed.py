@@ -9,11 +9,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from balloon_usd.language.choices import all_of
 from balloon_usd.language.joint import ends_of
-from balloon_usd.operations.moves import PassThrough, Wrap
+from balloon_usd.operations.moves import PassThrough, Tuck, Wrap
+from balloon_usd.quality.astride import ASTRIDE, WallRings, share_between, share_in_hole
 from balloon_usd.quality.joints import SLIPPED
 from balloon_usd.quality.measures import MEASURES
 from balloon_usd.quality.ring_corners import RingCorners
+from balloon_usd.quality.solid_angle import WHOLE, solid_angles
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -26,8 +29,6 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-WHOLE = 4.0 * math.pi
-"""Solid angle round a point, sr: by so much that of a ring changes for a point that goes all through it."""
 INSIDE = 0.5
 """Share of that at which the middle of a bubble is in the plane of the ring."""
 LINKED = 0.3
@@ -62,6 +63,8 @@ class PassedBubbles:
                 self._followed.append(_Passing(plan, meshes, move, rings[move.bubble]))
             elif isinstance(move, Wrap) and move.bubble in held:
                 self._followed.append(_Wrapped(plan, meshes, move, rings[move.bubble]))
+            elif isinstance(move, Tuck) and move.bubble in held:
+                self._followed.append(_Tucked(plan, meshes, move))
 
     def add(self, frame: Frame) -> None:
         """Take the next frame."""
@@ -70,13 +73,13 @@ class PassedBubbles:
             each.add(frame, undone)
 
     def stuck(self) -> list[str]:
-        """Return the bubbles that have not come into their rings."""
-        return [each.name for each in self._followed if each.out is not None and not each.inside]
+        """Return which bubbles have not come to where others would hold them, and what helps."""
+        return [each.stuck for each in self._followed if each.out is not None and not each.inside]
 
     def slipped(self) -> list[str]:
-        """Return which bubbles have come into their rings and not stayed there, and since when."""
+        """Return which bubbles have come there and not stayed, since when, and what helps."""
         return [
-            f"{each.name} slipped out of its ring at {(each.out - 1) / self._fps:.1f} s"
+            each.slipped_at((each.out - 1) / self._fps)
             for each in self._followed
             if each.out is not None and each.inside
         ]
@@ -100,7 +103,7 @@ class _Followed(ABC):
     share: float = 0.0
     """How far it is through its ring."""
 
-    def __init__(self, fps: float, move: PassThrough | Wrap, ring: Sequence[str]) -> None:
+    def __init__(self, fps: float, move: PassThrough | Wrap | Tuck, ring: Sequence[str]) -> None:
         self._ends = {str(end) for name in ring for end in ends_of(name)}
         """Joints without which the ring is open."""
         # The time of a frame is (code - 1) / fps.
@@ -124,6 +127,16 @@ class _Followed(ABC):
             self.out = None
         elif self.out is None:
             self.out = code
+
+    @property
+    def stuck(self) -> str:
+        """Say that it has not come into its ring, and what helps."""
+        return f"{self.name} did not come into its ring: make the bubble shorter or the ring larger"
+
+    def slipped_at(self, seconds: float) -> str:
+        """Say that it has slipped out of its ring at a time (s), and what helps."""
+        what = f"{self.name} slipped out of its ring at {seconds:.1f} s"
+        return f"{what}: make the ring smaller or the bubble larger"
 
     @abstractmethod
     def _look(self, frame: Frame) -> float:
@@ -209,20 +222,39 @@ class _Wrapped(_Followed):
         return points[first : first + self._mesh.around]
 
 
+class _Tucked(_Followed):
+    """A bubble that is set between two others, or into the hole of a loop."""
+
+    inside_from = ASTRIDE
+    seen_before = False
+
+    def __init__(self, plan: Plan, meshes: Sequence[BalloonMesh], move: Tuck) -> None:
+        super().__init__(plan.recipe.fps, move, ())
+        self._between = all_of(move.between)
+        self._own, *self._sides = (WallRings.of(plan, meshes, name) for name in (move.bubble, *move.between))
+
+    @property
+    def stuck(self) -> str:
+        """Say that it has not come to where it is held, and what helps."""
+        what = "into" if len(self._sides) == 1 else "between"
+        return f"{self.name} did not come {what} {self._between}: {self._advice}"
+
+    def slipped_at(self, seconds: float) -> str:
+        """Say that it has slipped out of there at a time (s), and what helps."""
+        what = "out of" if len(self._sides) == 1 else "from between"
+        return f"{self.name} slipped {what} {self._between} at {seconds:.1f} s: {self._advice}"
+
+    @property
+    def _advice(self) -> str:
+        if len(self._sides) == 1:
+            return "make the loop longer or the bubble shorter"
+        return "make it reach farther, or bring them nearer to its joint"
+
+    def _look(self, frame: Frame) -> float:
+        own, *sides = (each.tube(frame.points) for each in (self._own, *self._sides))
+        return share_between(own, *sides) if len(sides) > 1 else share_in_hole(own, *sides)
+
+
 def _rings_between(mesh: BalloonMesh, first: float, last: float) -> list[int]:
     """Return the rings of a mesh from one unstressed distance from the knot (m) to another."""
     return list(range(mesh.ring_at(first), mesh.ring_at(last) + 1))
-
-
-def solid_angles(places: Floats, ring: Floats) -> Floats:
-    """Return the solid angles (sr), signed by the side, under which places, (P, 3) m, see a ring through
-    others, (N, 3) m: of the triangles from its centre (Van Oosterom & Strackee 1983).
-    """
-    a = (ring.mean(axis=0) - places)[:, None]
-    b = ring - places[:, None]
-    c = np.roll(b, -1, axis=1)
-    la, lb, lc = (np.linalg.norm(each, axis=2) for each in (a, b, c))
-    volume = (np.cross(b, c) * a).sum(axis=2)
-    rest = la * lb * lc + (b * a).sum(axis=2) * lc + (b * c).sum(axis=2) * la + (c * a).sum(axis=2) * lb
-    found: Floats = 2.0 * np.arctan2(volume, rest).sum(axis=1)
-    return found

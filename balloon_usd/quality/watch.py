@@ -92,11 +92,11 @@ class QualityWatch:
         """Return the first time code at which any of some ends of bubbles had come undone."""
         return min((self._undone[end] for end in ends if end in self._undone), default=None)
 
-    def stuck_and_slipped(self) -> tuple[list[str], list[str]]:
-        """Return the bubbles that must be in their rings by the recipe and have not come in, and those that
-        have not stayed, and since when; none before the end.
+    def stuck_and_slipped(self) -> list[str]:
+        """Return which bubbles that others must hold by the recipe have not come to there, or not stayed, and
+        what helps; none before the end.
         """
-        return (self._passed.stuck(), self._passed.slipped()) if self._contacts_must_hold else ([], [])
+        return [*self._passed.stuck(), *self._passed.slipped()] if self._contacts_must_hold else []
 
     def unwound(self) -> list[str]:
         """Return the bubbles that must stay wound round each other by the recipe and have not, and since

@@ -22,6 +22,7 @@ from balloon_usd.operations.squeeze import Squeeze
 from balloon_usd.operations.tail_ball import TailBall
 from balloon_usd.operations.thread import Thread
 from balloon_usd.operations.tie import Tie
+from balloon_usd.operations.tuck import Tuck
 from balloon_usd.operations.tulip import Tulip
 from balloon_usd.operations.wrap import Wrap
 
@@ -49,6 +50,7 @@ LATEX_STEPS = {
     Squeeze.word: (", whose fingers are forces on patches of a wall", "press, or no such step"),
     Push.word: (", whose walls hardly rub", "no such step"),
     Roll.word: (", whose walls hardly rub", "no such step"),
+    Tuck.word: (", whose walls hardly rub", "no such step"),
     Thread.word: (", whose walls hardly rub", "no such step"),
     Marriage.word: (", whose walls hardly rub", "weave"),
     Wrap.word: (", whose walls hardly rub", "no such step"),

@@ -356,6 +356,7 @@ RING = "  - bubbles: {nose: 6, left: 7, right: 7}\n  - lock: [left, right]\n"
     [
         "push: {bubble: nose, through: [left, right]}",
         "roll: {bubble: nose, between: [left, right]}",
+        "tuck: {bubble: nose, between: [left, right]}",
         "thread: {bubble: nose, through: [left, right]}",
         "marriage: {bubbles: {a: 6, b: 6}, to: [left, right]}",
     ],

@@ -1,10 +1,10 @@
-"""A recipe in which a bubble is brought into a ring of others: run, and watched from then on."""
+"""A recipe in which a bubble is brought to where others hold it: run, and watched from then on."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from balloon_usd.operations.moves import PassThrough
+from balloon_usd.operations.moves import PassThrough, Tuck
 from balloon_usd.plan import plan
 from balloon_usd.quality.crossing_counter import CrossingCounter
 from balloon_usd.quality.passed import PassedBubbles
@@ -21,7 +21,7 @@ class IntoRing:
 
     def __init__(self, text):
         self.plan = plan(Recipe.parse(text))
-        (self.move,) = (move for move in self.plan.choreography.moves if isinstance(move, PassThrough))
+        self.move, *_ = (m for m in self.plan.choreography.moves if isinstance(m, (PassThrough, Tuck)))
         simulation = simulate_many([self.plan], device="cpu")
         (meshes,) = simulation.meshes
         self.mesh = meshes[0]

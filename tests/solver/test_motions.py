@@ -139,6 +139,7 @@ def test_hands_wait_while_nothing_moves_and_in_model_kosaka_where_nothing_is_blo
         moves.StretchTip,
         moves.Curl,
         moves.Aim,
+        moves.Tuck,
         moves.PassThrough,
         moves.Thread,
         moves.WindRound,

@@ -10,8 +10,8 @@ import pytest
 from balloon_usd.operations.moves import Wrap as WrapMove
 from balloon_usd.operations.wrap import SWINGING_SPEED, Wrap
 from balloon_usd.plan import plan
-from balloon_usd.quality.passed import solid_angles
 from balloon_usd.quality.ring_corners import RingCorners
+from balloon_usd.quality.solid_angle import solid_angles
 from balloon_usd.quality.watch import QualityWatch
 from balloon_usd.recipe import Recipe, RecipeError
 from balloon_usd.solver.kernels.physics.motion import LYING_SPEED

@@ -60,14 +60,19 @@ class LedLimb:
         rings = (*table.ends(bubble), *table.guides(bubble))
         return [joints[ring] for ring in rings if ring is not None and joints[ring] not in self._held]
 
-    def take(self) -> None:
-        """Grip the joint on which it hangs, and take hold of the rest of it firmly."""
+    def take(self, force: float = TURNING) -> None:
+        """Grip the joint on which it hangs, and take hold of the rest of it with up to a force (N)."""
         hands, middle = self._sculpture.hands, self._sculpture.frame.middle
         hands.grip(self._held[0], middle)
-        hands.lead_firmly(self._joints, TURNING)
+        hands.lead_firmly(self._joints, force)
         self._base = self.base
         self._began: Floats = middle[self._joints] - self._base
         """Where its joints are, away from that on which it hangs, (N, 3), m."""
+
+    def reach(self, turn: Floats, axis: Floats) -> float:
+        """Return how far its rings lie apart along a unit axis (3,) after a turn (3, 3), m."""
+        along = self._began @ turn.T @ axis
+        return float(along.max() - along.min())
 
     def turn(self, turn: Floats) -> None:
         """Lead it to where a turn (3, 3) brings it that has been taken."""

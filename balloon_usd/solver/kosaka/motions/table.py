@@ -45,6 +45,7 @@ KOSAKA_MOTIONS: Motions = {
     moves.StretchTip: Wait,
     moves.Curl: Wait,
     moves.Aim: Wait,
+    moves.Tuck: Wait,
     moves.PassThrough: Wait,
     moves.Thread: Wait,
     moves.WindRound: Wait,

@@ -31,6 +31,7 @@ from balloon_usd.solver.latex.motions.spin import Spin
 from balloon_usd.solver.latex.motions.straighten import Straighten
 from balloon_usd.solver.latex.motions.stretch_tip import StretchTip
 from balloon_usd.solver.latex.motions.thread import Thread
+from balloon_usd.solver.latex.motions.tuck import Tuck
 from balloon_usd.solver.latex.motions.turn_fold import TurnFold
 from balloon_usd.solver.latex.motions.wind_round import WindRound
 from balloon_usd.solver.latex.motions.wrap import Wrap
@@ -57,6 +58,7 @@ LATEX_MOTIONS: Motions = {
     moves.Bend: LatexBend,
     moves.Curl: Curl,
     moves.Aim: Aim,
+    moves.Tuck: Tuck,
     moves.Press: LatexPress,
     moves.PassThrough: PassThrough,
     moves.BringInside: BringInside,

@@ -1,0 +1,189 @@
+"""`tuck`: a limb is set astride others, which hold it between them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, ClassVar
+
+from pydantic import Field
+
+from balloon_usd.language.choices import all_of
+from balloon_usd.language.lengths import cm
+from balloon_usd.language.names import Name
+from balloon_usd.operations import moves
+from balloon_usd.operations.caution import Caution
+from balloon_usd.operations.modifiers import Entries, Pointed, Timed
+from balloon_usd.operations.operation import Operation
+from balloon_usd.operations.passing import without_hole
+from balloon_usd.operations.score import HAND_SPEED, SETTLE_SECONDS
+from balloon_usd.operations.workpiece import ContactKind
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from balloon_usd.language.problem import Path
+    from balloon_usd.language.quantities import Units
+    from balloon_usd.operations.score import Layout, PlacedBubble, Score
+    from balloon_usd.operations.workbench import Place, Workbench
+    from balloon_usd.operations.workpiece import Workpiece
+
+LEAST_SECONDS = 2.4
+"""Shortest time in which a limb is set between others, s."""
+WAY = 4.0
+"""Way of the end of a limb to a place above the others and down between them, at most, in its lengths."""
+OPEN = 3.6
+"""Length of a loop below which nothing stays in its hole, in its widths: in simulations of a 260 an ear of
+4 cm slips out of one of 17 cm and stays in one of 18; of a 160 and a 350 it is 9 to 12 and 24 to 30.
+"""
+PLACES = 3
+"""At how many places hands hold each bubble between which something is set."""
+
+
+class TuckedBubble(Entries):
+    """What is set between what."""
+
+    bubble: Name
+    """The bubble that is set there, which hangs on one joint, with what hangs on it."""
+    between: Annotated[tuple[Name, ...], Field(min_length=1, max_length=2)]
+    """Two bubbles, or one that closes on itself: then it is set into its hole."""
+
+
+class Tuck(Pointed, Timed, Operation):
+    """Set a limb between two others, or into the hole of a loop, where their walls hold it."""
+
+    word: ClassVar[ContactKind] = "tuck"
+    value_model: ClassVar[type[Entries] | None] = TuckedBubble
+    example: ClassVar[str] = """\
+format: 1
+name: sleeping_duck
+units: cm
+balloons:
+  main: {size: 260, color: yellow, length: 20, tail: 8}
+steps:
+  - bubbles: {head: 5}
+  - ear: {crest: 2.5}
+    point: up
+  - bubbles: {neck: 13, left_wing: 12, right_wing: 12}
+  - lock: [left_wing, right_wing]
+    point: up
+  - rest: tail
+  - tuck: {bubble: neck, between: [left_wing, right_wing]}
+"""
+    sources: ClassVar[tuple[str, ...]] = (
+        "instructables.com: turtle",
+        "professorwonder.com, balloon 4: the head of a penguin",
+        "professorwonder.com, balloon 25: the hubs of a tractor's wheels",
+    )
+
+    tuck: TuckedBubble
+    """Set a limb between two others, or into the hole of a loop, where their walls hold it."""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The bubble that is set there, and those between which it is."""
+        return (self.tuck.bubble, *self.tuck.between)
+
+    def held_at(self, piece: Workpiece) -> dict[str, int]:
+        """Return at how many places hands hold those between which it is set: loops are held anyway."""
+        return {name: PLACES for name in self.tuck.between if not piece.is_closed([name])}
+
+    @classmethod
+    def value_of(cls, units: Units, /, bubble: str, *between: str) -> object:
+        """Return its value as it stands in a file: a bubble, and those between which it is set."""
+        return {"bubble": bubble, "between": list(between)}
+
+    @classmethod
+    def uses(cls, value: object) -> tuple[str, ...]:
+        """Return the bubble that is set there, and those between which it is."""
+        return tuple(name for _, name in _names_in(value))
+
+    @classmethod
+    def check(cls, value: object, place: Place, bench: Workbench) -> None:
+        """Set a bubble that is there, has its gas and hangs on one joint, between others that do not hang on
+        it.
+        """
+        path, named = (*place.path, cls.word), _names_in(value)
+        found = [
+            bench.has_name(name, (*path, *at)) and bench.find_firm(name, (*path, *at)) for at, name in named
+        ]
+        names = cls.uses(value)
+        if len(names) < 2 or not all(found) or not bench.knows(names):
+            return
+        at, fault = next(_faults(bench.piece, names[0], names[1:]), ("", ""))
+        if fault:
+            bench.complain((*path, at), fault)
+        else:
+            bench.piece.touch(place.index, cls.word, names[0], names[1:])
+
+    def refusals(self, layout: Layout) -> Iterator[tuple[tuple[str, ...], str]]:
+        """Yield a loop without a hole."""
+        between = self.tuck.between
+        if len(between) == 1 and (fault := without_hole(between[0], layout)):
+            yield (self.word, "between"), f"{fault}, expected a loop or a fold, or two bubbles"
+
+    def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:
+        """Warn of a loop whose hole its own wall closes."""
+        bubble, *between = (layout.bubble(name) for name in self.names)
+        if len(between) == 1 and between[0].length < OPEN * between[0].width:
+            loop, least = self.tuck.between[0], OPEN * between[0].width
+            yield Caution(
+                index,
+                f"{self.tuck.bubble} ({cm(bubble.length)}) may slip out of {loop} ({cm(between[0].length)})",
+                "the wall of so short a loop closes its hole",
+                f"make {loop} at least {cm(least)} long",
+            )
+
+    def perform(self, score: Score, index: int) -> None:
+        """Spread the others, bring it over them and in, and let them close on it."""
+        bubble, *between = (score.layout.bubble(name) for name in self.names)
+        calm = max(LEAST_SECONDS, WAY * bubble.length / HAND_SPEED)
+        doing = f"set {self.tuck.bubble} between {all_of(self.tuck.between)}"
+        score.refuse_haste(index, self.seconds, calm + SETTLE_SECONDS, doing)
+        move = moves.Tuck(
+            score.now,
+            calm / score.pace.leading,
+            index,
+            f"{self.word}: {self.tuck.bubble}",
+            bubble=self.tuck.bubble,
+            between=self.tuck.between,
+            width=_across(bubble),
+            tube=max(map(_across, between)),
+            point=None if self.point is None else score.towards(self.point),
+        )
+        score.settle(move)
+
+
+def _across(bubble: PlacedBubble) -> float:
+    """Return how much room hands make for a bubble, m: a ball is not wider than it is long."""
+    return min(bubble.width, bubble.length)
+
+
+def _names_in(value: object) -> list[tuple[Path, str]]:
+    """Return all names of bubbles in a value as it stands in a file, with their places in it."""
+    between = value.get("between") if isinstance(value, dict) else None
+    if not isinstance(value, dict) or not isinstance(between, (list, tuple)):
+        return []
+    places = [(("bubble",), value.get("bubble")), *((("between", k), name) for k, name in enumerate(between))]
+    return [(at, name) for at, name in places if isinstance(name, str)]
+
+
+def _faults(piece: Workpiece, name: str, between: Sequence[str]) -> Iterator[tuple[str, str]]:
+    """Yield at which key it stands, and why, that a bubble cannot be set between others."""
+    if len({name, *between}) <= len(between):
+        yield "between", "names a bubble twice, expected each once"
+        return
+    if len(between) == 1 and not piece.is_closed(between):
+        yield "between", f"{between[0]} is no closed ring by now, expected a loop or a fold, or two bubbles"
+    if any(name == contact.bubble for contact in piece.contacts):
+        yield "bubble", f"{name} is held by others already, expected each bubble once"
+    if apart := [each for each in between if not any({name, each} <= part for part in piece.pieces())]:
+        one = "is" if len(apart) == 1 else "are"
+        what = f"{all_of(apart)} {one} on another figure than {name}"
+        yield "between", f"{what}, expected a step before that joins both"
+    limb = piece.limb(name)
+    if limb is None:
+        what = f"no joint is there about which {name} could be turned against its figure"
+        yield "bubble", f"{what}, expected a bubble that hangs on one joint"
+    elif moved := [each for each in between if each in limb.bubbles]:
+        hangs = "hangs" if len(moved) == 1 else "hang"
+        what = f"{all_of(moved)} {hangs} on {name} and would be turned with it"
+        yield "between", f"{what}, expected bubbles of the rest of the figure"
