@@ -142,8 +142,8 @@ class Passing(OnBalloon, Pointed, Timed, Operation):
         elif not piece.is_closed(ring):
             what = f"{all_of(ring)} form no closed ring" if len(ring) > 1 else f"{ring[0]} is no closed ring"
             yield f"{what} by now, expected a loop, a fold, or all bubbles that a lock before closes to one"
-        elif any(name == contact.bubble for contact in piece.contacts):
-            yield f"{name} is in a ring already, expected each bubble once"
+        elif name in piece.gripped():
+            yield f"{name} is held by others already, expected each bubble once"
         else:
             yield from cls._faults_of_ends(piece, name, ring)
 

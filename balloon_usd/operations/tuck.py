@@ -34,8 +34,10 @@ OPEN = 3.6
 """Length of a loop below which nothing stays in its hole, in its widths: in simulations of a 260 an ear of
 4 cm slips out of one of 17 cm and stays in one of 18; of a 160 and a 350 it is 9 to 12 and 24 to 30.
 """
-PLACES = 3
-"""At how many places hands hold each bubble between which something is set."""
+MOST = 2
+"""Largest number of bubbles between which one is set."""
+PLACES, PLACES_OF_LOOP = 3, 7
+"""At how many places hands hold a bubble beside which something is set, and a loop around it."""
 
 
 class TuckedBubble(Entries):
@@ -43,7 +45,7 @@ class TuckedBubble(Entries):
 
     bubble: Name
     """The bubble that is set there, which hangs on one joint, with what hangs on it."""
-    between: Annotated[tuple[Name, ...], Field(min_length=1, max_length=2)]
+    between: Annotated[tuple[Name, ...], Field(min_length=1, max_length=MOST)]
     """Two bubbles, or one that closes on itself: then it is set into its hole."""
 
 
@@ -83,8 +85,9 @@ steps:
         return (self.tuck.bubble, *self.tuck.between)
 
     def held_at(self, piece: Workpiece) -> dict[str, int]:
-        """Return at how many places hands hold those between which it is set: loops are held anyway."""
-        return {name: PLACES for name in self.tuck.between if not piece.is_closed([name])}
+        """Return at how many places hands hold those between which it is set."""
+        closed = {name: piece.is_closed([name]) for name in self.tuck.between}
+        return {name: PLACES_OF_LOOP if closed[name] else PLACES for name in self.tuck.between}
 
     @classmethod
     def value_of(cls, units: Units, /, bubble: str, *between: str) -> object:
@@ -94,19 +97,23 @@ steps:
     @classmethod
     def uses(cls, value: object) -> tuple[str, ...]:
         """Return the bubble that is set there, and those between which it is."""
-        return tuple(name for _, name in _names_in(value))
+        return tuple(name for _, name in _places(value) if isinstance(name, str))
 
     @classmethod
     def check(cls, value: object, place: Place, bench: Workbench) -> None:
         """Set a bubble that is there, has its gas and hangs on one joint, between others that do not hang on
         it.
         """
-        path, named = (*place.path, cls.word), _names_in(value)
+        path, places = (*place.path, cls.word), _places(value)
         found = [
-            bench.has_name(name, (*path, *at)) and bench.find_firm(name, (*path, *at)) for at, name in named
+            isinstance(name, str)
+            and bench.has_name(name, (*path, *at))
+            and bench.find_firm(name, (*path, *at))
+            for at, name in places
         ]
         names = cls.uses(value)
-        if len(names) < 2 or not all(found) or not bench.knows(names):
+        # What is no name is told where it stands.
+        if len(names) < max(len(places), 2) or not all(found) or not bench.knows(names):
             return
         at, fault = next(_faults(bench.piece, names[0], names[1:]), ("", ""))
         if fault:
@@ -157,33 +164,43 @@ def _across(bubble: PlacedBubble) -> float:
     return min(bubble.width, bubble.length)
 
 
-def _names_in(value: object) -> list[tuple[Path, str]]:
-    """Return all names of bubbles in a value as it stands in a file, with their places in it."""
+def _places(value: object) -> list[tuple[Path, object]]:
+    """Return all that stands in a value for names of bubbles, with their places in it."""
     between = value.get("between") if isinstance(value, dict) else None
     if not isinstance(value, dict) or not isinstance(between, (list, tuple)):
         return []
-    places = [(("bubble",), value.get("bubble")), *((("between", k), name) for k, name in enumerate(between))]
-    return [(at, name) for at, name in places if isinstance(name, str)]
+    beside = [(("between", k), name) for k, name in enumerate(between[: MOST + 1])]
+    return [(("bubble",), value.get("bubble")), *beside]
 
 
 def _faults(piece: Workpiece, name: str, between: Sequence[str]) -> Iterator[tuple[str, str]]:
     """Yield at which key it stands, and why, that a bubble cannot be set between others."""
     if len({name, *between}) <= len(between):
-        yield "between", "names a bubble twice, expected each once"
+        yield "between", f"{all_of([name, *between])} are not all different, expected each bubble once"
         return
     if len(between) == 1 and not piece.is_closed(between):
         yield "between", f"{between[0]} is no closed ring by now, expected a loop or a fold, or two bubbles"
-    if any(name == contact.bubble for contact in piece.contacts):
+    if name in piece.gripped():
         yield "bubble", f"{name} is held by others already, expected each bubble once"
-    if apart := [each for each in between if not any({name, each} <= part for part in piece.pieces())]:
+    if circle := [each.bubble for each in piece.holding() if name in each.others and each.bubble in between]:
+        yield "between", f"{all_of(circle)} cannot hold {name}, which holds {all_of(circle)}, expected others"
+    if apart := [each for each in between if each not in piece.hangs_with(name)]:
         one = "is" if len(apart) == 1 else "are"
         what = f"{all_of(apart)} {one} on another figure than {name}"
         yield "between", f"{what}, expected a step before that joins both"
+    yield from _faults_of_limb(piece, name, between)
+
+
+def _faults_of_limb(piece: Workpiece, name: str, between: Sequence[str]) -> Iterator[tuple[str, str]]:
+    """Yield why no part of a figure with a bubble, and without some others, hangs on one joint."""
+    if piece.limb(name, between) is not None:
+        return
     limb = piece.limb(name)
-    if limb is None:
-        what = f"no joint is there about which {name} could be turned against its figure"
+    moved = [] if limb is None else [each for each in between if each in limb.bubbles]
+    if not moved:
+        what = f"no joint is there about which {name} could be turned against {all_of(between)}"
         yield "bubble", f"{what}, expected a bubble that hangs on one joint"
-    elif moved := [each for each in between if each in limb.bubbles]:
+    else:
         hangs = "hangs" if len(moved) == 1 else "hang"
         what = f"{all_of(moved)} {hangs} on {name} and would be turned with it"
         yield "between", f"{what}, expected bubbles of the rest of the figure"

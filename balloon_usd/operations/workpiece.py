@@ -12,7 +12,7 @@ from balloon_usd.operations.connections import Connections
 from balloon_usd.operations.disjoint_sets import DisjointSets
 
 if TYPE_CHECKING:
-    from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+    from collections.abc import Collection, Container, Iterable, Iterator, Mapping, Sequence
 
 ContactKind = Literal["roll", "push", "tuck", "thread", "wrap"]
 _BROUGHT: dict[ContactKind, str] = {
@@ -67,6 +67,8 @@ class Contact:
     kind: ContactKind
     bubble: str
     others: tuple[str, ...]
+    ring: bool = True
+    """Whether these formed one closed ring then, without which nothing holds it."""
 
     @property
     def text(self) -> str:
@@ -148,8 +150,9 @@ class Workpiece:
         self._do(Cut(step, end))
 
     def touch(self, step: int, kind: ContactKind, bubble: str, others: Iterable[str]) -> None:
-        """Let a ring of others hold a bubble that goes through it."""
-        self._do(Contact(step, kind, bubble, tuple(others)))
+        """Let others hold a bubble that lies between them, or goes through the ring that they form."""
+        named = tuple(others)
+        self._do(Contact(step, kind, bubble, named, self.is_closed(named)))
 
     def insert(self, step: int, balloon: str, bubble: str) -> None:
         """Put a balloon where a bubble of another will be."""
@@ -345,6 +348,10 @@ class Workpiece:
         elif contact.kind in _LEAVING_FREE:
             yield Joint(contact.bubble, "end")
 
+    def hangs_with(self, bubble: str) -> frozenset[str]:
+        """Return the bubbles that hang together with one, and itself, without what is popped."""
+        return self._stiff.reached(self._ends(bubble)[0])
+
     def free_to_spin(self, end: Joint) -> bool:
         """Whether a joint unwinds when it is let go."""
         return any(end in ends for ends in self.free_joints())
@@ -358,16 +365,16 @@ class Workpiece:
         """Whether anything hangs on one joint: of a closed net nothing does."""
         return any(True for _ in self._stiff.hinges())
 
-    def limb(self, bubble: str) -> Limb | None:
-        """Return the smallest part of a figure that has a bubble and hangs on one joint; None where no joint
-        parts it from the rest.
+    def limb(self, bubble: str, apart: Collection[str] = ()) -> Limb | None:
+        """Return the smallest part of a figure that has a bubble, and none of some others, and hangs on one
+        joint; None where no joint parts it from the rest.
         """
         whole, open_ends = self._stiff, {self._joints.root(end) for end in self.open_ends.values() if end}
         best: tuple[int, Limb] | None = None
         ends = {name: self._ends(name) for name in whole.reached(self._ends(bubble)[0])}
         for joint in dict.fromkeys(end for name in (bubble, *ends) for end in self._ends(name)):
             part = whole.beyond(bubble, joint)
-            if whole.at(joint) <= part and joint not in open_ends:
+            if not part.isdisjoint(apart) or (whole.at(joint) <= part and joint not in open_ends):
                 continue
             inner = {end for name in part for end in ends[name]} - {joint}
             size = len(part) + len(inner & open_ends)
@@ -413,15 +420,30 @@ class Workpiece:
         return tuple(found) if at in corners and alone else None
 
     def gripped(self) -> frozenset[str]:
-        """Return the bubbles that go through a ring of others which is still closed, or lie between them."""
+        """Return the bubbles that others hold which still form a closed ring, if they did."""
+        return frozenset(each.bubble for each in self.holding())
+
+    def holding(self) -> list[Contact]:
+        """Return the contacts in which a bubble is held: their ring closed, and no other popped."""
         firm = (each for each in self.contacts if self._popped.isdisjoint(each.others))
-        return frozenset(each.bubble for each in firm if each.kind == "tuck" or self.is_closed(each.others))
+        return [each for each in firm if self.is_closed(each.others) or not each.ring]
 
     def _in_rows(self) -> frozenset[str]:
-        """Return the bubbles of rows that lead from a ring back into it."""
-        gripped = self.gripped()
-        rows = (self.row_from(each.others, each.bubble) for each in self.contacts if each.bubble in gripped)
-        return frozenset(name for row in rows for name in row or ())
+        """Return the bubbles of rows that lead from a ring back into it, or from others to what they hold."""
+        found: set[str] = set()
+        for each in self.holding():
+            if each.kind == "tuck":
+                found.update(self._row_between(each.bubble, each.others))
+            else:
+                found.update(self.row_from(each.others, each.bubble) or ())
+        return frozenset(found)
+
+    def _row_between(self, bubble: str, others: Iterable[str]) -> Iterator[str]:
+        """Yield the bubbles by each of which alone a bubble hangs on all of some others."""
+        for name in self.bridges() - {bubble, *others}:
+            one, other = (self.hangs_on(end) for end in ends_of(name))
+            if (bubble in one and other.issuperset(others)) or (bubble in other and one.issuperset(others)):
+                yield name
 
     @property
     def _connections(self) -> Connections:

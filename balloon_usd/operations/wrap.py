@@ -116,8 +116,8 @@ steps:
         ends = ends_of(bubble)
         if bench.piece.are_one(ends):
             bench.complain((*path, "bubble"), f"{bubble} is closed already, expected push")
-        elif any(behind == contact.bubble for contact in bench.piece.contacts):
-            bench.complain(path, f"{behind} is in a ring already, expected each bubble once")
+        elif behind in bench.piece.gripped():
+            bench.complain(path, f"{behind} is held by others already, expected each bubble once")
         elif joint(value["neck"]).end != "start" or not _row_between(bench.piece, bubble, behind):
             what = f"{value['neck']} does not hang on {bubble}.end by a row of bubbles alone"
             bench.complain((*path, "neck"), f"{what}, expected the start of a bubble farther behind it")

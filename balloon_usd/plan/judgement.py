@@ -212,7 +212,7 @@ def _unwinding(recipe: Recipe, strips: Mapping[str, Strip], graph: SculptureGrap
             yield Caution(
                 steps[joint.ends[0].bubble],
                 f"the twist between {_neighbours(joint)} will unwind",
-                "nothing holds it: both bubbles are free to spin, and no ring closes over it",
+                "nothing holds it: what hangs there is free to spin, and no ring closes over it",
                 remedy,
             )
 

@@ -55,15 +55,20 @@ class PassedBubbles:
         """Find out what to look at; one mesh a balloon, in the order of `Plan.strips`."""
         self._fps = plan.recipe.fps
         piece = plan.recipe.piece
-        held = piece.after(len(plan.recipe.steps), without=plan.slipping).gripped() - piece.popped
-        rings = {contact.bubble: contact.others for contact in piece.contacts}
+        holding = piece.after(len(plan.recipe.steps), without=plan.slipping).holding()
+        rings = {(each.step, each.bubble): each.others for each in holding if each.bubble not in piece.popped}
         self._followed: list[_Followed] = []
         for move in plan.choreography.moves:
-            if isinstance(move, PassThrough) and move.bubble in held:
-                self._followed.append(_Passing(plan, meshes, move, rings[move.bubble]))
-            elif isinstance(move, Wrap) and move.bubble in held:
-                self._followed.append(_Wrapped(plan, meshes, move, rings[move.bubble]))
-            elif isinstance(move, Tuck) and move.bubble in held:
+            if not isinstance(move, (PassThrough, Tuck, Wrap)):
+                continue
+            ring = rings.get((move.step, move.bubble))
+            if ring is None:
+                continue
+            if isinstance(move, PassThrough):
+                self._followed.append(_Passing(plan, meshes, move, ring))
+            elif isinstance(move, Wrap):
+                self._followed.append(_Wrapped(plan, meshes, move, ring))
+            else:
                 self._followed.append(_Tucked(plan, meshes, move))
 
     def add(self, frame: Frame) -> None:

@@ -400,7 +400,7 @@ def test_springs_hold_nothing_in_a_ring(step: str) -> None:
         ),
         (
             "push: {bubble: nose, through: [left, right]}\n  - push: {bubble: nose, through: [left, right]}",
-            "nose is in a ring already",
+            "nose is held by others already",
         ),
         (
             "rest: neck\n  - pop: neck\n  - roll: {bubble: neck, between: [left, right]}",

@@ -23,6 +23,13 @@ steps:
   - bubbles: {egg: 5}
     balloon: other
 """
+HEAD = BIRD[: BIRD.index("steps:")]
+
+
+def on_main(steps: list[str]) -> str:
+    """Write steps, of which those that make bubbles do so on the first of the two balloons."""
+    makes = ("bubbles", "ear", "loop")
+    return "".join(f"  - {each}\n" + "    balloon: main\n" * each.startswith(makes) for each in steps)
 
 
 def messages(steps: str) -> list[str]:
@@ -35,8 +42,11 @@ def messages(steps: str) -> list[str]:
     ("value", "told"),
     [
         ("{bubble: nekc, between: [left_wing, right_wing]}", 'unknown bubble "nekc", did you mean "neck"?'),
-        ("{bubble: neck, between: [left_wing, left_wing]}", "names a bubble twice, expected each once"),
-        ("{bubble: neck, between: [neck, left_wing]}", "names a bubble twice, expected each once"),
+        (
+            "{bubble: neck, between: [left_wing, left_wing]}",
+            "are not all different, expected each bubble once",
+        ),
+        ("{bubble: neck, between: [neck, left_wing]}", "are not all different, expected each bubble once"),
         ("{bubble: neck, between: [left_wing]}", "left_wing is no closed ring by now, expected a loop"),
         ("{bubble: neck, between: [left_wing, right_wing, knob]}", "between"),
         ("{bubble: neck, between: []}", "between: is empty"),
@@ -87,3 +97,48 @@ def test_the_twist_by_which_it_hangs_holds_and_what_hangs_on_it_may_turn() -> No
         loose[name] = {str(each.end) for each in made.loose}
     assert loose == {"": {"head.end"}, "neck": {"head.end"}, "head": set()}
     assert "step 4 tucks head between left_wing, right_wing, which hold it" in plan_text(made)
+
+
+def test_of_several_joints_the_limb_turns_about_the_one_that_leaves_the_others_behind() -> None:
+    steps = [
+        "bubbles: {head: 5, a: 6, b: 6, neck: 8, left_wing: 12, right_wing: 12}",
+        "lock: [left_wing, right_wing]",
+        "tuck: {bubble: neck, between: [left_wing, right_wing]}",
+    ]
+    recipe = Recipe.parse(HEAD + "steps:\n" + on_main(steps))
+    limb = recipe.piece.limb("neck", ["left_wing", "right_wing"])
+    assert limb is not None
+    assert limb.bubbles == {"head", "a", "b", "neck"}
+
+
+@pytest.mark.parametrize(("tucked", "others"), [("e", "[a, b]"), ("a", "[d, e]")])
+def test_bubbles_between_a_limb_and_what_holds_it_do_not_unwind_either_way_round(
+    tucked: str, others: str
+) -> None:
+    steps = [
+        "bubbles: {a: 8, b: 8, c: 8, d: 8, e: 8}",
+        "ear: {z: 3}",
+        f"tuck: {{bubble: {tucked}, between: {others}}}",
+    ]
+    text = HEAD.replace("length: 24", "length: 34") + "steps:\n" + on_main(steps)
+    found = {str(each.end) for each in plan(Recipe.parse(text)).loose}
+    assert found == ({"a.end"} if tucked == "e" else {"d.end"})
+
+
+def test_a_loop_that_slips_holds_nothing_and_one_that_is_popped_frees_what_it_held() -> None:
+    loop = "loop: {wheel: 20}\n    turns: 1"
+    steps = ["bubbles: {hub: 6}", loop, "ear: {end: 3}", "tuck: {bubble: hub, between: [wheel]}"]
+    text = HEAD + "steps:\n" + on_main(steps)
+    assert {str(each.end) for each in plan(Recipe.parse(text)).loose} == {"hub.end"}
+    popped = text.replace("\n    turns: 1", "") + on_main(
+        ["pop: wheel", "tuck: {bubble: hub, between: [end]}"]
+    )
+    with pytest.raises(RecipeError, match=r"end .*has no hole"):
+        plan(Recipe.parse(popped))
+
+
+def test_two_loops_do_not_lie_in_each_other() -> None:
+    loops = "bubbles: {a: 5}", "loop: {one: 20}", "ear: {knob: 3}", "loop: {two: 24}"
+    tucks = "tuck: {bubble: one, between: [two]}", "tuck: {bubble: two, between: [one]}"
+    with pytest.raises(RecipeError, match="one cannot hold two, which holds one"):
+        Recipe.parse(HEAD + "steps:\n" + on_main([*loops, *tucks]))

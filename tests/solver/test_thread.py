@@ -216,7 +216,7 @@ BLADE = "  - rest: blade\n"
         (
             f"  - bubbles: {{more: 5}}\n  - thread: {{bubble: a, through: [guard]}}\n  - bubbles: {{a: 5}}\n{BLADE}"
             "  - thread: {bubble: a, through: [guard]}",
-            "a is in a ring already, expected each bubble once",
+            "a is held by others already, expected each bubble once",
         ),
         (f"{BLADE}  - thread: {{bubble: blade, through: [grip]}}", "grip is no closed ring"),
         (f"{BLADE}  - thread: {{bubble: blade, through: []}}", "is empty"),

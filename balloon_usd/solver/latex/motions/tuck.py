@@ -43,7 +43,7 @@ class Tuck(Motion):
     def __init__(self, move: moves.Tuck, sculpture: LatexSculpture) -> None:
         """Take hold of the limb, of those between which it is set, and of all the rest."""
         piece = sculpture.plan.recipe.piece.after(move.step)
-        limb = piece.limb(move.bubble)
+        limb = piece.limb(move.bubble, move.between)
         assert limb is not None, "what is set between others hangs on a joint"
         self._limb, self._hands = LedLimb(sculpture, piece, limb), sculpture.hands
         sides = _sides(piece, move, sculpture)
