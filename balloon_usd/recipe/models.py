@@ -34,7 +34,7 @@ class ModelTraits:
 
 MODELS: dict[ModelName, ModelTraits] = {
     "latex": ModelTraits(
-        version="latex 30",
+        version="latex 31",
         title="hyperelastic rubber and gas",
         has_weight=True,
         winds=True,

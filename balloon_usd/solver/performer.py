@@ -50,9 +50,11 @@ class Performer:
             return
         for running in self._running:
             running.advance(end)
+        begun = self._begun
         while self._begins(end):
             self._begin(self._moves[self._begun], end)
             self._begun += 1
+        self.sculpture.look_after(end, begun=self._begun > begun)
         self._running = [each for each in self._running if each.over > end or not each.motion.ended]
         self._update_status()
 
@@ -61,6 +63,7 @@ class Performer:
         return self._begun < len(self._moves) and self._moves[self._begun].start < end
 
     def _begin(self, move: Move, end: float) -> None:
+        self.sculpture.take_up()
         # A move begins where others have brought the rings.
         self.sculpture.hands.settle()
         motion = self._motions[type(move)](move, self.sculpture)

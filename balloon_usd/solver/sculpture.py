@@ -103,6 +103,14 @@ class Sculpture:
         """Bodies of all its balloons."""
         return tuple(self.body.values())
 
+    def take_up(self) -> None:
+        """Take the hands from what they only look after, before they begin something else."""
+
+    def look_after(self, end: float, *, begun: bool) -> None:
+        """Look after balloons that no hand holds in the frame that ends then (s); `begun`: whether hands
+        begin something else in it.
+        """
+
     def strip_of(self, ring: int) -> Strip:
         """Return the balloon of a ring of the plan."""
         return self.plan.strips[self.plan.table.rings[ring].balloon]

@@ -118,6 +118,19 @@ def test_a_row_of_rings_is_rolled_up_without_being_stretched(axis, turns):
     assert (places[0] - places[-1]) @ np.array(axis) == pytest.approx(0.03 * abs(turns))
 
 
+@pytest.mark.parametrize("turns", [-2.0, 3.0])
+@pytest.mark.parametrize("axis", [(0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, -1.0, 0.0)])
+def test_what_hangs_on_the_end_that_is_rolled_in_turns_with_it(axis, turns):
+    row = np.stack([np.linspace(0.6, 0.0, 961), np.zeros(961), np.zeros(961)], axis=1)
+    coil = Coil(Row(row), turns, np.array(axis), 0.03)
+    assert coil.turned(0.0) == pytest.approx(np.eye(3), abs=1e-9)
+    for progress in (0.2, 0.5, 0.9, 1.0):
+        places, turned = coil.places(progress), coil.turned(progress)
+        assert turned @ turned.T == pytest.approx(np.eye(3), abs=1e-9)
+        outward = (places[0] - places[1]) / np.linalg.norm(places[0] - places[1])
+        assert turned @ (1.0, 0.0, 0.0) == pytest.approx(outward, abs=0.03)
+
+
 def test_flat_rubber_is_wound_as_far_as_hands_hold_it_and_its_tip_goes_straight_on():
     sides = np.array([0.05, *[0.005] * 4, *[0.02] * 20])
     row = np.zeros((26, 3))

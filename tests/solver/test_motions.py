@@ -552,7 +552,7 @@ class Told(Motion):
 
     @property
     def ended(self):
-        return self.text != "lasting" or len(self.told) > 8
+        return self.text != "lasting" or len(self.told) > 10
 
     def advance(self, share):
         self.told.append((self.text, round(share, 3)))
@@ -571,6 +571,13 @@ class Stub:
     def settle(self):
         self.told.append("settled")
 
+    def take_up(self):
+        self.told.append("taken up")
+
+    def look_after(self, end, *, begun):
+        if begun:
+            self.told.append("looked after")
+
 
 def performed(*timeline, frames=3):
     stub = Stub(*timeline)
@@ -583,17 +590,17 @@ def performed(*timeline, frames=3):
 
 def test_moves_begin_one_after_another_each_where_others_have_brought_the_rings():
     assert performed((0.0, 2.5, "fold"), (2.5, 0.0, "weld"), (2.5, 1.0, "rest")) == [
-        *("settled", ("fold", "begins"), ("fold", 0.4), "fold"),
+        *("taken up", "settled", ("fold", "begins"), ("fold", 0.4), "looked after", "fold"),
         *(("fold", 0.8), "fold"),
         ("fold", 1.0),
-        *("settled", ("weld", "begins"), ("weld", 1.0)),
-        *("settled", ("rest", "begins"), ("rest", 0.5), "rest"),
+        *("taken up", "settled", ("weld", "begins"), ("weld", 1.0)),
+        *("taken up", "settled", ("rest", "begins"), ("rest", 0.5), "looked after", "rest"),
     ]
 
 
 def test_moves_at_the_same_time_end_each_at_its_own():
     told = performed((0.0, 1.0, "short"), (0.0, 2.0, "long"))
-    assert told[-5:] == [("long", 0.5), "long", ("long", 1.0), "long", "long"]
+    assert told[-6:] == [("long", 0.5), "looked after", "long", ("long", 1.0), "long", "long"]
 
 
 def test_a_motion_with_something_left_to_do_goes_on_when_its_move_is_over():

@@ -8,6 +8,7 @@ import numpy as np
 
 from balloon_usd.plan.nesting import hosts_of
 from balloon_usd.solver.latex.friction import Friction
+from balloon_usd.solver.latex.put_aside import PutAside
 from balloon_usd.solver.latex.spins import VertexSet
 from balloon_usd.solver.latex.torsion import Torsion
 from balloon_usd.solver.sculpture import ALL, Sculpture
@@ -43,6 +44,7 @@ class LatexSculpture(Sculpture):
         """Time at which each body had its gas, s."""
         self.open_bubbles: list[OpenBubble] = []
         """Bubbles that have torn or were cut off."""
+        self._put_aside = PutAside(self, hands)
         self.pose_kept: dict[tuple[int, ...], set[tuple[int, int]]] = {}
         """Pairs of joints (of the scene) whose distance friction keeps, by the weld whose it is."""
 
@@ -59,6 +61,14 @@ class LatexSculpture(Sculpture):
     def inertia(self, body: int) -> float:
         """Return the mass of the mesh of a body, kg: more than of its rubber, as steps in time are long."""
         return float(self.scene.mass.numpy()[self.scene.vertices_of(body)].sum())
+
+    def take_up(self) -> None:
+        """Take the hands from what they hold lest it drifts away."""
+        self._put_aside.take_up()
+
+    def look_after(self, end: float, *, begun: bool) -> None:
+        """Hold what drifts away while hands work on other balloons."""
+        self._put_aside.look(end, begun=begun)
 
     def hold_pose(self) -> None:
         """Let the friction of the welds keep the pose that the figure has."""

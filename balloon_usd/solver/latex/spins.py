@@ -31,6 +31,13 @@ class VertexSet:
         run = len(chosen) > 0 and chosen[-1] - chosen[0] + 1 == len(chosen)
         return cls(slice(int(chosen[0]), int(chosen[-1]) + 1) if run else chosen)
 
+    def meets(self, run: slice) -> bool:
+        """Return whether any of them is in a run of vertices."""
+        if isinstance(self.indices, slice):
+            return bool(self.indices.start < run.stop and run.start < self.indices.stop)
+        first, end = np.searchsorted(self.indices, (run.start, run.stop))
+        return bool(first < end)
+
 
 class Spins:
     """The spins of a scene in the coming frame."""
@@ -52,6 +59,10 @@ class Spins:
         `fields`: of a `Spin`; those that are not given are 0.
         """
         self._on[vertices] = fields
+
+    def moves(self, run: slice) -> bool:
+        """Return whether it moves any vertex of a run of them in the coming frame."""
+        return any(vertices.meets(run) for vertices in self._on)
 
     def shift(self, vertices: VertexSet, drift: NDArray[np.floating[Any]]) -> None:
         """Displace some vertices in the coming frame as they are, at a velocity (3,), m/s."""

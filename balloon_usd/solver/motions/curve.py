@@ -53,6 +53,9 @@ class Curve(Motion, ABC, Generic[AMove]):
     along.
     """
 
+    progress: float = 0.0
+    """How far it is along by the end of the coming frame, 0 to 1."""
+
     def __init__(self, move: AMove, sculpture: Sculpture) -> None:
         """Take hold of the bubble and of what hangs on it."""
         self._sculpture, self._hands = sculpture, sculpture.hands
@@ -92,12 +95,16 @@ class Curve(Motion, ABC, Generic[AMove]):
 
     def advance(self, share: float) -> None:
         """Lead the rings of the bubble along, and let it keep its curve in the end."""
-        progress = smooth(share)
+        self.progress = progress = smooth(share)
         goal = self._path.places(progress) + (1.0 - progress) * self._before
         self._hands.goal[self._joints] = goal
-        self._hands.goal[self._carried.joints] = self._carried.goals(goal - self._began)
+        self._hands.goal[self._carried.joints] = self.carried(goal)
         if share >= 1.0:
             self.set_bend(self._bubble)
+
+    def carried(self, goal: Floats) -> Floats:
+        """Return where what hangs on the bubble goes, (M, 3), m; `goal`: where its rings go, (N, 3), m."""
+        return self._carried.goals(goal - self._began)
 
     @abstractmethod
     def set_bend(self, bubble: str) -> None:

@@ -36,6 +36,12 @@ class Curl(LatexCurve[moves.Curl]):
         """Take hold of the rings of the flat tail to which gas may come, and leave the tip alone."""
         super().take_flat(joints[:-1])
 
+    def carried(self, goal: Floats) -> Floats:
+        """Return where what hangs on its free end goes, (M, 3), m: it turns with that end."""
+        arms = self._carried.places - self._began[0]
+        found: Floats = goal[0] + arms @ self._coil.turned(self.progress).T
+        return found
+
     def advance(self, share: float) -> None:
         """Roll the bubble on, and wind what gas has come to of the flat tail."""
         self._coil.measure(self._sculpture.frame.middle[self._joints].astype(np.float64))
@@ -68,7 +74,8 @@ class Coil:
         self._radius = math.sqrt(1.0 - self._slope**2) / self._angle
         self._onward = _across(row.axis, axis)
         """Unit direction of its beginning across the axis."""
-        self._inward: Floats = math.copysign(1.0, turns) * np.cross(axis, self._onward)
+        self._hand = math.copysign(1.0, turns)
+        self._inward: Floats = self._hand * np.cross(axis, self._onward)
         """Unit direction from there to the axis."""
         begin = math.sqrt(1.0 - self._slope**2) * self._onward + self._slope * axis
         self._tilt = turn_between(begin, row.axis)
@@ -92,6 +99,14 @@ class Coil:
         way += np.maximum(gone - rolled, 0.0)[:, None] * self._direction(np.array([rolled]))
         found: Floats = row.held + (way - way[0]) @ tilt.T
         return found[::-1]
+
+    def turned(self, progress: float) -> Floats:
+        """Return how far its first ring has turned with the coil, (3, 3)."""
+        axis, tilt = self._tilt
+        gone = self._along[-1] - self._row.begin - (1.0 - progress) * (self._row.end - self._row.begin)
+        rolled = turn_about(self._axis, self._hand * self._angle * max(gone, 0.0))
+        found: Floats = turn_about(axis, (1.0 - progress) * tilt) @ rolled @ turn_about(axis, -tilt)
+        return found
 
     def _helix(self, along: Floats) -> Floats:
         """Return the way from its beginning to some places along it (m), (N, 3), m."""
