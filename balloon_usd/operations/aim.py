@@ -105,9 +105,12 @@ steps:
             path = (*place.path, cls.word, name)
             if not (bench.has_name(name, path) and bench.find_firm(name, path) and bench.knows((name,))):
                 continue
-            if bench.piece.limb(name) is None:
+            if (limb := bench.piece.limb(name)) is None:
                 what = f"no joint is there about which {name} could be turned against its figure"
                 bench.complain(path, f"{what}, expected a bubble that hangs on one joint")
+            elif taken := [each for each in bench.piece.holding() if each.is_left_by(limb.bubbles)]:
+                what = f"{name} would take {taken[0].bubble} away from {all_of(taken[0].others)}"
+                bench.complain(path, f"{what}, which hold it: expected this step before that one")
 
     def perform(self, score: Score, index: int) -> None:
         """Turn one limb after another."""

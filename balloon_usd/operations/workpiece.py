@@ -70,6 +70,10 @@ class Contact:
     ring: bool = True
     """Whether these formed one closed ring then, without which nothing holds it."""
 
+    def is_left_by(self, bubbles: Container[str]) -> bool:
+        """Whether what was set between others, or one of these, comes along with some bubbles alone."""
+        return self.kind == "tuck" and len({each in bubbles for each in (self.bubble, *self.others)}) > 1
+
     @property
     def text(self) -> str:
         """What was done, in words: `pushes nose through left_ear, right_ear`."""

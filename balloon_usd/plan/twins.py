@@ -18,7 +18,10 @@ SAME_LENGTH = 1e-6
 
 
 def twins_of(recipe: Recipe, strips: Mapping[str, Strip]) -> list[tuple[PlannedBubble, PlannedBubble]]:
-    """Return the pairs of bubbles of which a recipe says the same, the left one first."""
+    """Return the pairs of bubbles of which a recipe says the same, the left one first; none that was set
+    between others as a whole, for it goes in edgewise.
+    """
+    tucked = _tucked(recipe)
     tubes = [strip for strip in strips.values() if strip.shape is None]
     by_name = {bubble.name: bubble for strip in tubes for bubble in strip.bubbles}
     twins = [
@@ -29,8 +32,17 @@ def twins_of(recipe: Recipe, strips: Mapping[str, Strip]) -> list[tuple[PlannedB
     return [
         (left, right)
         for left, right in twins
-        if right is not None and _said_equal(recipe, strips, left, right)
+        if right is not None
+        and not any({left.name, right.name} <= limb for limb in tucked)
+        and _said_equal(recipe, strips, left, right)
     ]
+
+
+def _tucked(recipe: Recipe) -> list[frozenset[str]]:
+    """Return the bubbles of each limb that is set between others."""
+    tucks = (contact for contact in recipe.piece.contacts if contact.kind == "tuck")
+    limbs = (recipe.piece.after(each.step).limb(each.bubble, each.others) for each in tucks)
+    return [limb.bubbles for limb in limbs if limb is not None]
 
 
 def _said_equal(

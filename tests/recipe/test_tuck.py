@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from balloon_usd.plan import plan, plan_text
+from balloon_usd.plan.twins import twins_of
 from balloon_usd.recipe import Recipe, RecipeError
 
 BIRD = """
@@ -142,3 +143,35 @@ def test_two_loops_do_not_lie_in_each_other() -> None:
     tucks = "tuck: {bubble: one, between: [two]}", "tuck: {bubble: two, between: [one]}"
     with pytest.raises(RecipeError, match="one cannot hold two, which holds one"):
         Recipe.parse(HEAD + "steps:\n" + on_main([*loops, *tucks]))
+
+
+def test_a_pair_of_legs_that_goes_in_edgewise_has_no_twins_and_those_that_hold_it_are_some() -> None:
+    steps = [
+        "bubbles: {neck: 5, left_foreleg: 10, right_foreleg: 10}",
+        "lock: [left_foreleg, right_foreleg]",
+        "bubbles: {body: 7, left_hindleg: 10, right_hindleg: 10}",
+        "lock: [left_hindleg, right_hindleg]",
+    ]
+    text = HEAD.replace("length: 24", "length: 30") + "steps:\n" + on_main(steps)
+    tuck = on_main(["tuck: {bubble: left_foreleg, between: [left_hindleg, right_hindleg]}"])
+    found = []
+    for recipe in (Recipe.parse(text), Recipe.parse(text + tuck)):
+        strips = plan(recipe).strips
+        found.append([left.name for left, _ in twins_of(recipe, strips)])
+    assert found == [["left_foreleg", "left_hindleg"], ["left_hindleg"]]
+
+
+@pytest.mark.parametrize(
+    ("aimed", "told"),
+    [
+        ("neck", "neck would take neck away from left_wing and right_wing, which hold it"),
+        ("left_wing", "left_wing would take neck away from left_wing and right_wing, which hold it"),
+        ("head", None),
+    ],
+)
+def test_what_is_tucked_is_not_aimed_away_nor_what_holds_it(aimed: str, told: str | None) -> None:
+    steps = f"  - tuck: {{bubble: neck, between: [left_wing, right_wing]}}\n  - aim: {{{aimed}: up}}\n"
+    if told is None:
+        assert Recipe.parse(BIRD + steps).steps
+    else:
+        assert any(told in each for each in messages(steps))
