@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from balloon_usd.operations.moves import LET_GO, OTHER_SIDE, TIPPED, Fall, Level, Move, SetDown, Sink
+from balloon_usd.operations.parting import parts_of
 from balloon_usd.plan.holding import hold_seconds
 from balloon_usd.plan.nesting import room_to_sink
 from balloon_usd.recipe.recipe import EARTH
@@ -79,7 +80,8 @@ def pose(recipe: Recipe, score: Score, *, mirrored: bool) -> None:
     """Add what becomes of the finished figure of a recipe to the moves that make it."""
     last = len(recipe.steps)
     weighs = recipe.gravity > 0.0 and recipe.physics.traits.has_weight
-    if recipe.pose == "stand" and weighs and recipe.piece.has_limbs:
+    whole = len(parts_of(recipe.piece)) == 1
+    if recipe.pose == "stand" and weighs and whole and recipe.piece.has_limbs:
         front, top = _sides(recipe, mirrored=mirrored)
         level = Level(score.now, LEVEL_SECONDS, last, "level its feet", front=front, top=top)
         score.retouch(level, LEVELLED_SECONDS)

@@ -91,6 +91,27 @@ def test_of_a_closed_ring_nothing_hangs_on_one_joint_and_so_no_feet_are_levelled
     made = plan(Recipe.parse(RING))
     assert not made.recipe.piece.has_limbs
     assert not any(isinstance(move, Level) for move in made.choreography.moves)
+
+
+def test_feet_of_a_figure_that_comes_apart_are_not_levelled():
+    text = """
+format: 1
+name: apart
+units: cm
+balloons:
+  main: {size: 260, length: 22, tail: 10}
+steps:
+  - bubbles: {front: 6, one: 7, two: 7}
+  - lock: [one, two]
+  - bubbles: {gap: 5}
+  - ear: {knob: 3}
+pose: stand
+"""
+    levelled = [
+        any(isinstance(move, Level) for move in plan(Recipe.parse(each)).choreography.moves)
+        for each in (text, text.replace("pose", "  - pop: gap\npose"))
+    ]
+    assert levelled == [True, False]
     assert plan(Recipe.parse(PAIR)).recipe.piece.has_limbs
 
 

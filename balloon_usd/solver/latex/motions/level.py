@@ -75,7 +75,7 @@ class Level(Motion):
     def _begin(self) -> None:
         """Look at the feet, and take hold of the legs and of all the rest."""
         sculpture = self._sculpture
-        if len(self._feet) < FEWEST or not self._legs or sculpture.unwinding or len(sculpture.parts) > 1:
+        if len(self._feet) < FEWEST or not self._legs or sculpture.unwinding:
             return
         walls = [sculpture.bubble_walls(name) for name in self._feet]
         feet = Feet.on_plane(walls, self._standing)

@@ -25,6 +25,7 @@ Floats = NDArray[np.float64]
 ROOM = 1.1
 """Room that hands make for the limb, in what walls need that just touch."""
 EDGEWISE = 0.5 * math.pi
+"""Turn of a limb about itself after which it is edgewise, rad."""
 SPREAD = 0.5
 """How far hands spread each of those between which it is set, at most, in their widths."""
 BESIDE = 0.5
@@ -49,39 +50,44 @@ class Tuck(Motion):
         sides = _sides(piece, move, sculpture)
         hold_figure(sculpture)
         self._limb.take(PUSHING)
-        middle, joints = sculpture.frame.middle, sculpture.joints
         held = sculpture.plan.table.joint(limb.joint)
         assert held is not None, "it hangs on no tip"
         self._carried = sculpture.carry((*(ring for side in sides for ring in side), held))
-        self._spread = [np.array([joints[ring] for ring in side]) for side in sides]
+        self._spread = [np.array([sculpture.joints[ring] for ring in side]) for side in sides]
         for side in self._spread:
             self._hands.lead_firmly(side, SPREADING)
-        self._began = [middle[side].astype(np.float64) for side in self._spread]
+        middle = sculpture.frame.middle.astype(np.float64)
+        self._began = [middle[side] for side in self._spread]
         one, other = (places.mean(axis=0) for places in self._began)
         gap = float(np.linalg.norm(other - one))
         self._aside = (other - one) / max(gap, 1e-9)
         """Unit direction from the one to the other."""
-        arm = middle[self._limb.outer(move.bubble)].mean(axis=0, dtype=np.float64) - self._limb.base
-        arm /= max(float(np.linalg.norm(arm)), 1e-9)
-        self._over, self._in = self._ways(arm, 0.5 * (one + other) - self._limb.base, move)
-        self._arm = arm
-        over = turn_about(*self._over)
-        across = {
-            spin: self._limb.reach(over @ turn_about(arm, spin), self._aside) for spin in (0.0, EDGEWISE)
-        }
-        self._spin = EDGEWISE if across[EDGEWISE] < across[0.0] - 0.5 * move.width else 0.0
-        """How far it is turned about itself: what is flat, such as a pair of legs, goes in edgewise."""
-        room = ROOM * (across[self._spin] + move.width + move.tube) - gap
+        arm = middle[self._limb.outer(move.bubble)].mean(axis=0) - self._limb.base
+        self._arm = arm / max(float(np.linalg.norm(arm)), 1e-9)
+        """Unit direction from its joint to the middle of the limb."""
+        self._over, self._in = self._ways(0.5 * (one + other) - self._limb.base, move)
+        self._spin, wide = self._edgewise(0.5 * move.width)
+        room = ROOM * (wide + move.width + move.tube) - gap
         self._widened = min(max(0.0, 0.5 * room), SPREAD * move.tube)
-        """How far each is spread, m: hands spread none farther than it is wide."""
+        """How far each is spread, m."""
 
-    def _ways(self, arm: Floats, into: Floats, move: moves.Tuck) -> tuple[tuple[Floats, float], float]:
+    def _edgewise(self, least: float) -> tuple[float, float]:
+        """Return how far the limb is turned about itself, rad, and how far its rings lie apart then across
+        the way in, m: what is flat, such as a pair of legs, goes in edgewise if that gains so much (m).
+        """
+        over = turn_about(*self._over)
+        flat, edge = (
+            self._limb.reach(over @ turn_about(self._arm, spin), self._aside) for spin in (0.0, EDGEWISE)
+        )
+        return (EDGEWISE, edge) if edge < flat - least else (0.0, flat)
+
+    def _ways(self, into: Floats, move: moves.Tuck) -> tuple[tuple[Floats, float], float]:
         """Return the turn of a limb to a place above both others, as an axis and an angle (rad), and by how
         much it has been turned too far about their common direction then, rad.
 
-        `arm`: unit direction to its middle; `into`: from its joint to the place between both, (3,), m.
+        `into`: from its joint to the place between both, (3,), m.
         """
-        aside = self._aside
+        aside, arm = self._aside, self._arm
         deep = float(np.linalg.norm(_across(into, aside)))
         if move.point is not None:
             into = np.array(move.point)
@@ -124,7 +130,9 @@ def _sides(piece: Workpiece, move: moves.Tuck, sculpture: LatexSculpture) -> lis
         guides = table.guides(move.between[0])
         half = len(guides) // 2
         return [guides[:half], guides[-half:]]
-    return [(*table.guides(name), *_free_end(piece, name, move.bubble, sculpture)) for name in move.between]
+    found = [(*table.guides(name), *_free_end(piece, name, move.bubble, sculpture)) for name in move.between]
+    # Very short ones have no ring but at their ends.
+    return [rings or table.along(name) for rings, name in zip(found, move.between, strict=True)]
 
 
 def _free_end(piece: Workpiece, name: str, limb: str, sculpture: LatexSculpture) -> tuple[int, ...]:
