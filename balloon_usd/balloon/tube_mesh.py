@@ -87,6 +87,10 @@ class BalloonMesh:
         """Return the ring nearest to this unstressed distance from the knot (m)."""
         return int(np.argmin(np.abs(self.ring_along - along)))
 
+    def rings_between(self, first: float, last: float) -> list[int]:
+        """Return the rings from one unstressed distance from the knot (m) to another."""
+        return list(range(self.ring_at(first), self.ring_at(last) + 1))
+
 
 def ring_stations(
     detail: Detail,

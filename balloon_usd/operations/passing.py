@@ -91,16 +91,7 @@ class Passing(OnBalloon, Pointed, Timed, Operation):
     @classmethod
     def uses(cls, value: object) -> tuple[str, ...]:
         """Return the bubble that goes through, and those of the ring."""
-        return tuple(name for _, name in cls._names_in(value) if isinstance(name, str))
-
-    @classmethod
-    def _names_in(cls, value: object) -> list[tuple[Path, object]]:
-        """Return all that stands in its value for names of bubbles, with their places in it."""
-        ring = value.get(cls.ring_key) if isinstance(value, dict) else None
-        if not isinstance(value, dict) or not isinstance(ring, list):
-            return []
-        sides = [((cls.ring_key, at), name) for at, name in enumerate(ring[:MOST_SIDES])]
-        return [(("bubble",), value.get("bubble")), *sides]
+        return tuple(name for _, name in names_in(value, cls.ring_key) if isinstance(name, str))
 
     @classmethod
     def check(cls, value: object, place: Place, bench: Workbench) -> None:
@@ -109,7 +100,7 @@ class Passing(OnBalloon, Pointed, Timed, Operation):
         piece = cls.piece_with(names[0], place, bench) if names else bench.piece
         found = [
             isinstance(name, str) and cls.finds(name, (*path, *at), piece, bench)
-            for at, name in cls._names_in(value)
+            for at, name in names_in(value, cls.ring_key)
         ]
         if len(names) < 2 or not all(found) or not set(names) <= piece.bubbles.keys():
             return
@@ -248,6 +239,17 @@ class Passing(OnBalloon, Pointed, Timed, Operation):
         score.add(self.as_moved(move, layout))
         score.add(Move(score.now, SETTLE_SECONDS, index, text))
         score.let_go(index)
+
+
+def names_in(value: object, key: str) -> list[tuple[Path, object]]:
+    """Return all that stands in a value for the name of a bubble and, under a key, of others that hold it,
+    with their places in it.
+    """
+    others = value.get(key) if isinstance(value, dict) else None
+    if not isinstance(value, dict) or not isinstance(others, (list, tuple)):
+        return []
+    sides = [((key, at), name) for at, name in enumerate(others[:MOST_SIDES])]
+    return [(("bubble",), value.get("bubble")), *sides]
 
 
 def without_hole(name: str, layout: Layout) -> str | None:

@@ -13,14 +13,13 @@ from balloon_usd.operations import moves
 from balloon_usd.operations.caution import Caution
 from balloon_usd.operations.modifiers import Entries, Pointed, Timed
 from balloon_usd.operations.operation import Operation
-from balloon_usd.operations.passing import without_hole
+from balloon_usd.operations.passing import names_in, without_hole
 from balloon_usd.operations.score import HAND_SPEED, SETTLE_SECONDS
 from balloon_usd.operations.workpiece import ContactKind
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from balloon_usd.language.problem import Path
     from balloon_usd.language.quantities import Units
     from balloon_usd.operations.score import Layout, PlacedBubble, Score
     from balloon_usd.operations.workbench import Place, Workbench
@@ -86,8 +85,8 @@ steps:
 
     def held_at(self, piece: Workpiece) -> dict[str, int]:
         """Return at how many places hands hold those between which it is set."""
-        closed = {name: piece.is_closed([name]) for name in self.tuck.between}
-        return {name: PLACES_OF_LOOP if closed[name] else PLACES for name in self.tuck.between}
+        between = self.tuck.between
+        return {name: PLACES_OF_LOOP if piece.is_closed([name]) else PLACES for name in between}
 
     @classmethod
     def value_of(cls, units: Units, /, bubble: str, *between: str) -> object:
@@ -97,23 +96,22 @@ steps:
     @classmethod
     def uses(cls, value: object) -> tuple[str, ...]:
         """Return the bubble that is set there, and those between which it is."""
-        return tuple(name for _, name in _places(value) if isinstance(name, str))
+        return tuple(name for _, name in names_in(value, "between") if isinstance(name, str))
 
     @classmethod
     def check(cls, value: object, place: Place, bench: Workbench) -> None:
         """Set a bubble that is there, has its gas and hangs on one joint, between others that do not hang on
         it.
         """
-        path, places = (*place.path, cls.word), _places(value)
+        path, names = (*place.path, cls.word), cls.uses(value)
         found = [
             isinstance(name, str)
             and bench.has_name(name, (*path, *at))
             and bench.find_firm(name, (*path, *at))
-            for at, name in places
+            for at, name in names_in(value, "between")
         ]
-        names = cls.uses(value)
         # What is no name is told where it stands.
-        if len(names) < max(len(places), 2) or not all(found) or not bench.knows(names):
+        if len(names) < 2 or not all(found) or not bench.knows(names):
             return
         at, fault = next(_faults(bench.piece, names[0], names[1:]), ("", ""))
         if fault:
@@ -162,15 +160,6 @@ steps:
 def _across(bubble: PlacedBubble) -> float:
     """Return how much room hands make for a bubble, m: a ball is not wider than it is long."""
     return min(bubble.width, bubble.length)
-
-
-def _places(value: object) -> list[tuple[Path, object]]:
-    """Return all that stands in a value for names of bubbles, with their places in it."""
-    between = value.get("between") if isinstance(value, dict) else None
-    if not isinstance(value, dict) or not isinstance(between, (list, tuple)):
-        return []
-    beside = [(("between", k), name) for k, name in enumerate(between[: MOST + 1])]
-    return [(("bubble",), value.get("bubble")), *beside]
 
 
 def _faults(piece: Workpiece, name: str, between: Sequence[str]) -> Iterator[tuple[str, str]]:

@@ -10,12 +10,7 @@ import numpy as np
 from balloon_usd.quality.solid_angle import WHOLE, solid_angles
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from numpy.typing import NDArray
-
-    from balloon_usd.balloon.tube_mesh import BalloonMesh
-    from balloon_usd.plan import Plan
 
     Floats = NDArray[np.float64]
 
@@ -39,6 +34,14 @@ class Tube(NamedTuple):
     radii: Floats
     """(R,), m."""
 
+    @classmethod
+    def of(cls, corners: Floats) -> Self:
+        """Find those of the rings of a bubble; `corners`: (R, N, 3), m."""
+        middles = corners.mean(axis=1)
+        radii = np.linalg.norm(corners - middles[:, None], axis=2).mean(axis=1)
+        wide = radii >= WIDE * radii.max()
+        return cls(middles[wide], radii[wide])
+
     def nearest(self, other: Tube) -> tuple[float, Floats]:
         """Return how far its wall is from that of another where they are nearest, in its radius there, and
         the unit way there, (3,).
@@ -48,34 +51,6 @@ class Tube(NamedTuple):
         gaps = far - self.radii[:, None] - other.radii[None]
         at = np.unravel_index(int(np.argmin(gaps)), gaps.shape)
         return float(gaps[at] / self.radii[at[0]]), between[at] / max(float(far[at]), 1e-9)
-
-
-class WallRings(NamedTuple):
-    """The rings of a bubble among the points of a frame."""
-
-    balloon: int
-    """Index of its balloon, in the order of `Plan.strips`."""
-    first: NDArray[np.int64]
-    """First vertex of each ring among those of the balloon, (R,)."""
-    around: int
-    """Vertices of a ring."""
-
-    @classmethod
-    def of(cls, plan: Plan, meshes: Sequence[BalloonMesh], name: str) -> Self:
-        """Find those of a bubble; one mesh a balloon, in the order of `Plan.strips`."""
-        bubble = next(each for each in plan.bubbles if each.name == name)
-        balloon = list(plan.strips).index(bubble.balloon)
-        mesh = meshes[balloon]
-        rings = range(mesh.ring_at(bubble.rest_start), mesh.ring_at(bubble.rest_end) + 1)
-        return cls(balloon, np.array([int(mesh.ring_start[ring]) for ring in rings]), mesh.around)
-
-    def tube(self, points: Sequence[NDArray[np.float32]]) -> Tube:
-        """Return where those that are wide are; `points`: of all balloons in a frame."""
-        corners = points[self.balloon][self.first[:, None] + np.arange(self.around)].astype(np.float64)
-        middles = corners.mean(axis=1)
-        radii = np.linalg.norm(corners - middles[:, None], axis=2).mean(axis=1)
-        wide = radii >= WIDE * radii.max()
-        return Tube(middles[wide], radii[wide])
 
 
 def share_between(own: Tube, one: Tube, other: Tube) -> float:

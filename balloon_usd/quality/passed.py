@@ -12,11 +12,12 @@ import numpy as np
 from balloon_usd.language.choices import all_of
 from balloon_usd.language.joint import ends_of
 from balloon_usd.operations.moves import PassThrough, Tuck, Wrap
-from balloon_usd.quality.astride import ASTRIDE, WallRings, share_between, share_in_hole
+from balloon_usd.quality.astride import ASTRIDE, Tube, share_between, share_in_hole
 from balloon_usd.quality.joints import SLIPPED
 from balloon_usd.quality.measures import MEASURES
 from balloon_usd.quality.ring_corners import RingCorners
 from balloon_usd.quality.solid_angle import WHOLE, solid_angles
+from balloon_usd.quality.wall_rings import WallRings
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -105,6 +106,10 @@ class _Followed(ABC):
     """Share beyond which it is in its ring."""
     seen_before: bool
     """Whether its way into the ring is followed, too."""
+    into, out_of = "into its ring", "out of its ring"
+    """Where it comes, and from where it slips, in words."""
+    if_stuck = "make the bubble shorter or the ring larger"
+    if_slipped = "make the ring smaller or the bubble larger"
     share: float = 0.0
     """How far it is through its ring."""
 
@@ -135,13 +140,12 @@ class _Followed(ABC):
 
     @property
     def stuck(self) -> str:
-        """Say that it has not come into its ring, and what helps."""
-        return f"{self.name} did not come into its ring: make the bubble shorter or the ring larger"
+        """Say that it has not come to where others would hold it, and what helps."""
+        return f"{self.name} did not come {self.into}: {self.if_stuck}"
 
     def slipped_at(self, seconds: float) -> str:
-        """Say that it has slipped out of its ring at a time (s), and what helps."""
-        what = f"{self.name} slipped out of its ring at {seconds:.1f} s"
-        return f"{what}: make the ring smaller or the bubble larger"
+        """Say that it has slipped out of there at a time (s), and what helps."""
+        return f"{self.name} slipped {self.out_of} at {seconds:.1f} s: {self.if_slipped}"
 
     @abstractmethod
     def _look(self, frame: Frame) -> float:
@@ -205,9 +209,9 @@ class _Wrapped(_Followed):
         mesh = meshes[self._balloon]
         self._mesh = mesh
         ends = (rings[move.corners[0]].along, rings[move.corners[-1]].along)
-        self._ring = _rings_between(mesh, *ends)
+        self._ring = mesh.rings_between(*ends)
         middles = (0.5 * (each.rest_start + each.rest_end) for each in (before, behind))
-        self._strand = _rings_between(mesh, *middles)
+        self._strand = mesh.rings_between(*middles)
 
     def _look(self, frame: Frame) -> float:
         points = frame.points[self._balloon].astype(np.float64)
@@ -235,31 +239,17 @@ class _Tucked(_Followed):
 
     def __init__(self, plan: Plan, meshes: Sequence[BalloonMesh], move: Tuck) -> None:
         super().__init__(plan.recipe.fps, move, ())
-        self._between = all_of(move.between)
-        self._own, *self._sides = (WallRings.of(plan, meshes, name) for name in (move.bubble, *move.between))
-
-    @property
-    def stuck(self) -> str:
-        """Say that it has not come to where it is held, and what helps."""
-        what = "into" if len(self._sides) == 1 else "between"
-        return f"{self.name} did not come {what} {self._between}: {self._advice}"
-
-    def slipped_at(self, seconds: float) -> str:
-        """Say that it has slipped out of there at a time (s), and what helps."""
-        what = "out of" if len(self._sides) == 1 else "from between"
-        return f"{self.name} slipped {what} {self._between} at {seconds:.1f} s: {self._advice}"
-
-    @property
-    def _advice(self) -> str:
-        if len(self._sides) == 1:
-            return "make the loop longer or the bubble shorter"
-        return "make it reach farther, or bring them nearer to its joint"
+        bubbles = {each.name: each for each in plan.bubbles}
+        names = (move.bubble, *move.between)
+        self._walls = [WallRings.of(plan, meshes, bubbles[name]) for name in names]
+        between = all_of(move.between)
+        if len(move.between) == 1:
+            self.into, self.out_of = f"into {between}", f"out of {between}"
+            self.if_stuck = self.if_slipped = "make the loop longer or the bubble shorter"
+        else:
+            self.into, self.out_of = f"between {between}", f"from between {between}"
+            self.if_stuck = self.if_slipped = "make it reach farther, or bring them nearer to its joint"
 
     def _look(self, frame: Frame) -> float:
-        own, *sides = (each.tube(frame.points) for each in (self._own, *self._sides))
+        own, *sides = (Tube.of(wall.corners(frame)) for wall in self._walls)
         return share_between(own, *sides) if len(sides) > 1 else share_in_hole(own, *sides)
-
-
-def _rings_between(mesh: BalloonMesh, first: float, last: float) -> list[int]:
-    """Return the rings of a mesh from one unstressed distance from the knot (m) to another."""
-    return list(range(mesh.ring_at(first), mesh.ring_at(last) + 1))

@@ -8,6 +8,7 @@ import numpy as np
 
 from balloon_usd.plan.twins import LEFT, twins_of
 from balloon_usd.quality.measures import MEASURES
+from balloon_usd.quality.wall_rings import WallRings
 from balloon_usd.solver.mirroring import Mirror
 
 if TYPE_CHECKING:
@@ -66,11 +67,7 @@ def mirrored(pairs: Mapping[str, tuple[Floats, Floats]]) -> dict[str, float]:
 
 
 def _twin(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame, bubble: PlannedBubble) -> _Twin:
-    balloon = list(plan.strips).index(bubble.balloon)
-    mesh = meshes[balloon]
-    first, last = mesh.ring_at(bubble.rest_start), mesh.ring_at(bubble.rest_end)
-    rings = mesh.ring_start[first : last + 1, None] + np.arange(mesh.around)
-    line = frame.points[balloon][rings].astype(np.float64).mean(axis=1)
+    line = WallRings.of(plan, meshes, bubble).corners(frame).mean(axis=1)
     run = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
     at = np.linspace(0.0, run[-1], PLACES)
     middle = np.stack([np.interp(at, run, line[:, axis]) for axis in range(3)], axis=1)

@@ -89,8 +89,12 @@ def _direction(facing: Facing, middle: Floats, of: Callable[[str], Floats]) -> F
     """Return the unit direction (3,) of a side, or that in which bubbles lie from the middle of a figure."""
     if isinstance(facing, str):
         return np.array(FRONTS[facing])
-    way = np.mean([of(bubble) for bubble in facing], axis=0) - middle
-    found: Floats = way / max(float(np.linalg.norm(way)), 1e-9)
+    return unit(np.mean([of(bubble) for bubble in facing], axis=0) - middle)
+
+
+def unit(vector: Floats) -> Floats:
+    """Return a vector (3,) at length 1."""
+    found: Floats = vector / max(float(np.linalg.norm(vector)), 1e-9)
     return found
 
 

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from balloon_usd.solver.placement import unit
+
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
@@ -59,6 +61,10 @@ class LedLimb:
         table, joints = self._sculpture.plan.table, self._sculpture.joints
         rings = (*table.ends(bubble), *table.guides(bubble))
         return [joints[ring] for ring in rings if ring is not None and joints[ring] not in self._held]
+
+    def way_to(self, joints: list[int]) -> Floats:
+        """Return the unit direction (3,) from the joint on which it hangs to the middle of some others."""
+        return unit(self._sculpture.frame.middle[joints].mean(axis=0, dtype=np.float64) - self.base)
 
     def take(self, force: float = TURNING) -> None:
         """Grip the joint on which it hangs, and take hold of the rest of it with up to a force (N)."""

@@ -34,6 +34,11 @@ class PutAside:
         self._sculpture, self._hands = sculpture, hands
         starts = sculpture.scene.joint_start
         self._joints = {body: np.arange(starts[body], starts[body + 1]) for body in sculpture.bodies}
+        self._inside = [
+            (sculpture.body[name], sculpture.body[host.balloon])
+            for name, host in hosts_of(sculpture.plan.strips).items()
+        ]
+        """Bodies that lie in another, each with that."""
         self._places: dict[int, NDArray[np.float64]] = {}
         """Where the figure of each body was put aside, (3,), m."""
         self._grips: dict[int, tuple[int, NDArray[np.float32]]] = {}
@@ -75,8 +80,8 @@ class PutAside:
         """Return the bodies that hang together by welds, or lie in each other."""
         sculpture = self._sculpture
         together: DisjointSets[int] = DisjointSets()
-        for name, host in hosts_of(sculpture.plan.strips).items():
-            together.merge([sculpture.body[name], sculpture.body[host.balloon]])
+        for pair in self._inside:
+            together.merge(pair)
         for weld in sculpture.welds:
             together.merge([sculpture.body[sculpture.balloons[ring]] for ring in weld])
         figures: dict[int, list[int]] = {}

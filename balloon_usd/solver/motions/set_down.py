@@ -17,6 +17,7 @@ from balloon_usd.solver.placement import (
     turn_about,
     turn_between,
     turn_facing,
+    unit,
 )
 from balloon_usd.solver.resting import standing_direction
 from balloon_usd.solver.sculpture import ALL
@@ -111,7 +112,7 @@ class SetDown(Motion):
         if move.pose == "stand":
             down = standing_direction(arms, np.zeros(3), DOWN)
         elif move.pose == "hang":
-            down = _unit(-thread)
+            down = unit(-thread)
         tipping = turn_about(*turn_between(down, DOWN))
         turn = tipping @ facing
         if move.pose == "as made":
@@ -164,9 +165,3 @@ def _pivot(pose: str, turned: Floats, thread: Floats) -> Floats:
     if pose in ("stand", *LET_GO):
         middle[2] = low[2]
     return middle
-
-
-def _unit(vector: Floats) -> Floats:
-    """Return a vector (3,) at length 1."""
-    found: Floats = vector / max(float(np.linalg.norm(vector)), 1e-9)
-    return found

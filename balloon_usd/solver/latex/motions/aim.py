@@ -32,8 +32,7 @@ class Aim(Motion):
         if any(end.bubble == move.bubble for end in piece.joint(limb.joint)):
             # Else it lies across, on the far side of a ring of others, and points by its middle.
             own = [max(own, key=lambda joint: float(np.linalg.norm(places[joint] - base)))]
-        arm = places[own].mean(axis=0, dtype=np.float64) - base
-        arm /= max(float(np.linalg.norm(arm)), 1e-9)
+        arm = self._limb.way_to(own)
         self._arm, self._spin = arm, move.spin
         self._axis, self._angle = turn_between(arm, np.array(move.toward))
 

@@ -13,7 +13,7 @@ from balloon_usd.solver.latex.led_limb import LedLimb, hold_figure
 from balloon_usd.solver.latex.motions.into_ring import PUSHING, SPREADING
 from balloon_usd.solver.motions.motion import Motion
 from balloon_usd.solver.motions.smooth import smooth
-from balloon_usd.solver.placement import turn_about, turn_between
+from balloon_usd.solver.placement import turn_about, turn_between, unit
 
 if TYPE_CHECKING:
     from balloon_usd.operations import moves
@@ -62,8 +62,7 @@ class Tuck(Motion):
         gap = float(np.linalg.norm(other - one))
         self._aside = (other - one) / max(gap, 1e-9)
         """Unit direction from the one to the other."""
-        arm = middle[self._limb.outer(move.bubble)].mean(axis=0) - self._limb.base
-        self._arm = arm / max(float(np.linalg.norm(arm)), 1e-9)
+        self._arm = self._limb.way_to(self._limb.outer(move.bubble))
         """Unit direction from its joint to the middle of the limb."""
         self._over, self._in = self._ways(0.5 * (one + other) - self._limb.base, move)
         self._spin, wide = self._edgewise(0.5 * move.width)
@@ -94,8 +93,7 @@ class Tuck(Motion):
         elif deep < BESIDE * move.tube:
             # Both are beside its joint: it comes in where it hangs.
             into = arm
-        into = _across(into, aside)
-        into /= max(float(np.linalg.norm(into)), 1e-9)
+        into = unit(_across(into, aside))
         above = 0.5 * ROOM * (move.width + move.tube)
         too_far = math.asin(min(1.0, above / max(deep, 1e-9)))
         if float(arm @ np.cross(aside, into)) < 0.0:
