@@ -295,11 +295,11 @@ class Score:
         if self._same_balloon(first, last):
             self.gather(*self._nearest(first, last), point, text, index)
             return
-        ring, to = self._lead_in(first, last, index)
+        ring, to = self.lead_in(first, last, index)
         seconds = max(BRING_SECONDS, far / HAND_SPEED) / self.pace.leading
         self.add(Bring(self.now, seconds, index, text, ring=ring, to=to))
 
-    def _lead_in(self, first: int, last: int, index: int) -> tuple[int, int]:
+    def lead_in(self, first: int, last: int, index: int) -> tuple[int, int]:
         """Lead in what lies aside with one of two rings of different balloons, unless they hang together;
         return the ring that moves and the one that is held.
         """

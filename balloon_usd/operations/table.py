@@ -37,6 +37,7 @@ from balloon_usd.operations.thread import Thread
 from balloon_usd.operations.tie import Tie
 from balloon_usd.operations.tuck import Tuck
 from balloon_usd.operations.tulip import Tulip
+from balloon_usd.operations.tulip_link import TulipLink
 from balloon_usd.operations.wait import Wait
 from balloon_usd.operations.weave import Weave
 from balloon_usd.operations.wrap import Wrap
@@ -55,6 +56,7 @@ OPERATIONS: tuple[type[Operation], ...] = (
     Split,
     Gather,
     Tulip,
+    TulipLink,
     Weave,
     Marriage,
     Rest,

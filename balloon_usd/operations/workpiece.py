@@ -14,12 +14,13 @@ from balloon_usd.operations.disjoint_sets import DisjointSets
 if TYPE_CHECKING:
     from collections.abc import Collection, Container, Iterable, Iterator, Mapping, Sequence
 
-ContactKind = Literal["roll", "push", "tuck", "thread", "wrap"]
+ContactKind = Literal["roll", "push", "tuck", "thread", "tulip_link", "wrap"]
 _BROUGHT: dict[ContactKind, str] = {
     "roll": "rolls {0} between {1}",
     "push": "pushes {0} through {1}",
     "tuck": "tucks {0} between {1}",
     "thread": "threads {0} through {1}",
+    "tulip_link": "presses {0} into {1}",
     "wrap": "wraps {1} round the neck of {0}",
 }
 _TUCKED_INTO = "tucks {0} into {1}"

@@ -24,6 +24,7 @@ from balloon_usd.operations.thread import Thread
 from balloon_usd.operations.tie import Tie
 from balloon_usd.operations.tuck import Tuck
 from balloon_usd.operations.tulip import Tulip
+from balloon_usd.operations.tulip_link import TulipLink
 from balloon_usd.operations.wrap import Wrap
 
 from .balloons import balloons_in
@@ -60,6 +61,7 @@ LATEX_STEPS = {
     Cut.word: (", whose air particles stay in", "no such step"),
     Split.word: (", whose air particles find no way into both halves", "ear"),
     Tulip.word: (", whose net is not turned inside out", "no such step"),
+    TulipLink.word: (", whose net is not turned inside out", "lock: {joints: [...]}"),
     Tie.word: (", whose balloons have neither nozzle nor flat tip", "lock: {joints: [...]}"),
     TailBall.word: (", whose springs do not soften", "no such step"),
     "burp": (", whose bubbles keep the air particles that are in them", "no burp"),

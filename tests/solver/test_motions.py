@@ -146,6 +146,8 @@ def test_hands_wait_while_nothing_moves_and_in_model_kosaka_where_nothing_is_blo
         moves.Plait,
         moves.Wrap,
         moves.Invert,
+        moves.FaceKnot,
+        moves.PressIn,
         moves.Straighten,
         moves.Level,
     }

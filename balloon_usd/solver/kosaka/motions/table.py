@@ -52,6 +52,8 @@ KOSAKA_MOTIONS: Motions = {
     moves.Plait: Wait,
     moves.Wrap: Wait,
     moves.Invert: Wait,
+    moves.FaceKnot: Wait,
+    moves.PressIn: Wait,
     moves.Loosen: Wait,
     moves.Straighten: Wait,
     moves.Level: Wait,

@@ -10,6 +10,7 @@ from balloon_usd.solver.latex.motions.bend import LatexBend
 from balloon_usd.solver.latex.motions.bring_inside import BringInside
 from balloon_usd.solver.latex.motions.curl import Curl
 from balloon_usd.solver.latex.motions.cut import Cut
+from balloon_usd.solver.latex.motions.face_knot import FaceKnot
 from balloon_usd.solver.latex.motions.fall import Fall
 from balloon_usd.solver.latex.motions.halve import Halve
 from balloon_usd.solver.latex.motions.hold import Hold
@@ -24,6 +25,7 @@ from balloon_usd.solver.latex.motions.pinch import Pinch
 from balloon_usd.solver.latex.motions.plait import Plait
 from balloon_usd.solver.latex.motions.pop import Pop
 from balloon_usd.solver.latex.motions.press import LatexPress
+from balloon_usd.solver.latex.motions.press_in import PressIn
 from balloon_usd.solver.latex.motions.set_down import LatexSetDown
 from balloon_usd.solver.latex.motions.set_net import LatexSetNet
 from balloon_usd.solver.latex.motions.sink import Sink
@@ -69,6 +71,8 @@ LATEX_MOTIONS: Motions = {
     moves.WindRound: WindRound,
     moves.Plait: Plait,
     moves.Invert: Invert,
+    moves.FaceKnot: FaceKnot,
+    moves.PressIn: PressIn,
     moves.Weld: Weld,
     moves.TurnFold: TurnFold,
     moves.Straighten: Straighten,

@@ -1,0 +1,158 @@
+"""`tulip_link`: the end of another balloon is pressed in with the knot, and a tulip is twisted over it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, ClassVar
+
+from balloon_usd.language.joint import Joint
+from balloon_usd.language.names import Name
+from balloon_usd.language.problem import quoted
+from balloon_usd.language.quantities import Length, length_entry, written_length
+from balloon_usd.operations.inverting import INVERT_SECONDS, InvertsBubble
+from balloon_usd.operations.modifiers import Entries
+from balloon_usd.operations.moves import FaceKnot, PressIn
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from balloon_usd.language.quantities import LengthLike, Units
+    from balloon_usd.operations.score import Score
+    from balloon_usd.operations.workbench import Place, Workbench
+    from balloon_usd.operations.workpiece import ContactKind, Workpiece
+
+FACE_SECONDS = 2.0
+"""Shortest time in which a balloon is turned until it faces the knot of another, s."""
+SECONDS_PER_METRE = 8.0
+"""Time that it takes for each metre of it, s/m: its end stays below 1.3 m/s."""
+
+
+class LinkingTulip(Entries):
+    """A tulip, and what is pressed into it."""
+
+    bubble: Name
+    """The tulip that is made, the first bubble of its balloon."""
+    length: Length
+    """Its length before the knot is pressed in; m in Python."""
+    over: Name
+    """The first bubble of another balloon, which is pressed in with its knot ahead."""
+
+
+class TulipLink(InvertsBubble):
+    """Press the first bubble of another balloon in with the knot, and twist a tulip over it."""
+
+    word: ClassVar[ContactKind] = "tulip_link"
+    value_model: ClassVar[type[Entries] | None] = LinkingTulip
+    across: ClassVar[bool] = True
+    gas: ClassVar[float] = 0.6
+    example: ClassVar[str] = """\
+format: 1
+name: candle
+units: cm
+balloons:
+  main: {size: 260, color: white, length: 14, tail: 6}
+  fire: {size: 160, color: orange, length: 6, tail: 2.5}
+steps:
+  - bubbles: {root: 3}
+    balloon: fire
+  - rest: flame
+    balloon: fire
+  - tulip_link: {bubble: socket, length: 7, over: root}
+    balloon: main
+  - rest: wax
+    balloon: main
+"""
+    sources: ClassVar[tuple[str, ...]] = ("balloonotherapy.blogspot.com 2013-03: the flame of the candle",)
+
+    tulip_link: LinkingTulip
+    """Press the first bubble of another balloon in with the knot, and twist a tulip over it."""
+
+    @property
+    def lengths(self) -> dict[str, float]:
+        """The tulip that it makes: its length (m) by its name."""
+        return {self.tulip_link.bubble: self.tulip_link.length}
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The tulip, and what is pressed into it."""
+        return self.tulip_link.bubble, self.tulip_link.over
+
+    def path_of(self, bubble: str) -> tuple[str, ...]:
+        """Return the keys under which the length of its tulip stands."""
+        return (self.word, "length")
+
+    def entry(self, units: str | None) -> object:
+        """Return its value as it stands in a file."""
+        link = self.tulip_link
+        return {"bubble": link.bubble, "length": length_entry(link.length, units), "over": link.over}
+
+    @classmethod
+    def value_of(cls, units: Units, /, bubble: str, length: LengthLike, over: str) -> object:
+        """Return its value as it stands in a file: a tulip, its length, and what it is twisted over."""
+        return {"bubble": bubble, "length": written_length(length, units), "over": over}
+
+    @classmethod
+    def makes(cls, value: object) -> tuple[str, ...]:
+        """Return the tulip that it makes."""
+        return _names_in(value, "bubble")
+
+    @classmethod
+    def uses(cls, value: object) -> tuple[str, ...]:
+        """Return the bubble that is pressed in."""
+        return _names_in(value, "over")
+
+    @classmethod
+    def check(cls, value: object, place: Place, bench: Workbench) -> None:
+        """Make a tulip over the first bubble of another balloon, whose knot is free."""
+        path = (*place.path, cls.word)
+        made = [name for name in cls.makes(value) if bench.make(name, (*path, "bubble"), place.balloon)]
+        for name in made:
+            bench.close(name, (*path, "bubble"))
+            cls.check_first(name, (*path, "bubble"), place, bench)
+        over = cls.uses(value)
+        found = [
+            bench.has_name(name, (*path, "over")) and bench.find_firm(name, (*path, "over")) for name in over
+        ]
+        if not (made and over and all(found) and bench.knows((*made, *over))):
+            return
+        if fault := next(_faults(bench.piece, made[0], over[0]), ""):
+            bench.complain((*path, "over"), fault)
+        else:
+            bench.join(path, [Joint(made[0], "start"), Joint(over[0], "start")], (*made, *over))
+            bench.piece.touch(place.index, cls.word, over[0], made)
+
+    def perform(self, score: Score, index: int) -> None:
+        """Twist the tulip off, bring both balloons into line, press them together, twist both into one."""
+        link, layout = self.tulip_link, score.layout
+        begin, lead = score.now, score.pace.leading
+        score.twist(link.bubble, self.turns, index)
+        knot, neck = layout.ends(link.bubble)
+        assert neck is not None, "what is left of a balloon is no tulip"
+        other, _ = layout.ends(link.over)
+        moved, _ = score.lead_in(knot, other, index)
+        length = sum(layout.bubble(name).length for name in layout.onward(layout.ring(moved).bubble))
+        face = max(FACE_SECONDS, SECONDS_PER_METRE * length) / lead
+        rings = {"knot": knot, "neck": neck, "other": other, "moved": moved}
+        score.add(FaceKnot(score.now, face, index, self.label, **rings))
+        score.add(PressIn(score.now, INVERT_SECONDS / lead, index, self.label, **rings))
+        score.weld((knot, neck, other), self.turns, self.label, index)
+        score.refuse_haste(index, self.seconds, score.now - begin, "press the end of a balloon into another")
+
+
+def _names_in(value: object, key: str) -> tuple[str, ...]:
+    name = value.get(key) if isinstance(value, dict) else None
+    return (name,) if isinstance(name, str) else ()
+
+
+def _faults(piece: Workpiece, tulip: str, over: str) -> Iterator[str]:
+    """Yield why a bubble cannot be pressed into a tulip."""
+    balloon = piece.bubbles[over].balloon
+    first = piece.row(balloon)[0]
+    if balloon == piece.bubbles[tulip].balloon:
+        yield f"{quoted(over)} is of {quoted(balloon)} itself, expected the first bubble of another balloon"
+    elif over != first:
+        what = f"{quoted(over)} is not the first bubble of {quoted(balloon)}, {quoted(first)} is"
+        yield f"{what}: expected the one at the knot, which goes ahead"
+    elif others := [str(end) for end in piece.joint(Joint(over, "start")) if end != Joint(over, "start")]:
+        yield f"the knot of {quoted(balloon)} is twisted to {others[0]} by now, expected one that is free"
+    elif over in piece.gripped():
+        yield f"{over} is held by others already, expected each bubble once"
