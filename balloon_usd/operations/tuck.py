@@ -165,7 +165,7 @@ def _across(bubble: PlacedBubble) -> float:
 def _faults(piece: Workpiece, name: str, between: Sequence[str]) -> Iterator[tuple[str, str]]:
     """Yield at which key it stands, and why, that a bubble cannot be set between others."""
     if len({name, *between}) <= len(between):
-        yield "between", f"{all_of([name, *between])} are not all different, expected each bubble once"
+        yield "between", "names a bubble twice, expected each once"
         return
     if len(between) == 1 and not piece.is_closed(between):
         yield "between", f"{between[0]} is no closed ring by now, expected a loop or a fold, or two bubbles"

@@ -45,9 +45,9 @@ def messages(steps: str) -> list[str]:
         ("{bubble: nekc, between: [left_wing, right_wing]}", 'unknown bubble "nekc", did you mean "neck"?'),
         (
             "{bubble: neck, between: [left_wing, left_wing]}",
-            "are not all different, expected each bubble once",
+            "names a bubble twice, expected each once",
         ),
-        ("{bubble: neck, between: [neck, left_wing]}", "are not all different, expected each bubble once"),
+        ("{bubble: neck, between: [neck, left_wing]}", "names a bubble twice, expected each once"),
         ("{bubble: neck, between: [left_wing]}", "left_wing is no closed ring by now, expected a loop"),
         ("{bubble: neck, between: [left_wing, right_wing, knob]}", "between"),
         ("{bubble: neck, between: []}", "between: is empty"),

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from balloon_usd.operations import moves
 from balloon_usd.solver.motions.curve import Curve, Row
+from balloon_usd.solver.placement import unit
 
 if TYPE_CHECKING:
     from balloon_usd.solver.motions.curve import Path
@@ -34,8 +35,7 @@ class Arc:
         `angle`: between the directions of both ends, rad; `point`: unit direction in which the first goes.
         """
         self._row = row
-        self._point = point - row.axis * float(point @ row.axis)
-        self._point /= max(float(np.linalg.norm(self._point)), 1e-9)
+        self._point = unit(point - row.axis * float(point @ row.axis))
         bent = np.clip((row.along - row.begin) / max(row.end - row.begin, 1e-9), 0.0, 1.0)
         self._turn = 0.5 * angle * (bent[1:] + bent[:-1])
         """How far each side is turned in the end, rad."""

@@ -8,6 +8,7 @@ import numpy as np
 
 from balloon_usd.solver.motions.motion import Motion
 from balloon_usd.solver.motions.smooth import smooth
+from balloon_usd.solver.placement import unit
 
 if TYPE_CHECKING:
     from balloon_usd.operations import moves
@@ -34,8 +35,7 @@ class Bring(Motion):
         for joint in (self._joint, held):
             self._hands.grip(joint, sculpture.frame.middle)
         self._here, there = sculpture.frame.middle[[self._joint, held]].astype(np.float64)
-        away = (self._here - there) / max(float(np.linalg.norm(self._here - there)), 1e-9)
-        self._goal = there + away * 2.0 * float(self._hands.neck[held])
+        self._goal = there + unit(self._here - there) * 2.0 * float(self._hands.neck[held])
         hanging, _ = sculpture.hanging_on((move.ring, move.to))
         length = np.linalg.norm(sculpture.frame.middle[hanging] - self._here, axis=1).max(initial=0.0)
         far = move.carried and float(np.linalg.norm(self._goal - self._here)) > FOLLOWING * float(length)

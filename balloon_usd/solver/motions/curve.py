@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from balloon_usd.operations import moves
 from balloon_usd.solver.motions.motion import Motion
 from balloon_usd.solver.motions.smooth import smooth
+from balloon_usd.solver.placement import unit
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -30,9 +31,8 @@ class Row:
         """Lengths between its rings, from the held one on, (N - 1,), m."""
         self.along: Floats = np.concatenate([[0.0], np.cumsum(self.sides)])
         """How far along it each ring lies, from the held one on, (N,), m."""
-        self.axis: Floats = began[0] - began[-1]
+        self.axis = unit(began[0] - began[-1])
         """Unit direction from the held ring to the first one."""
-        self.axis /= max(float(np.linalg.norm(self.axis)), 1e-9)
         self.held: Floats = began[-1]
         """Where the held ring is, m."""
         self.begin = float(self.along[straight[1]])

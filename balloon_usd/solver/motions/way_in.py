@@ -9,7 +9,7 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from balloon_usd.solver.placement import turn_about, turn_between
+from balloon_usd.solver.placement import turn_about, turn_between, unit
 from balloon_usd.solver.sculpture import ALONG
 
 Floats = NDArray[np.float64]
@@ -85,8 +85,7 @@ def way_in(
         done: whether nothing more is made of what comes; the rest of a balloon that is worked on must lie
             along x.
     """
-    side = (begin - held) * (1.0 - ALONG)
-    side /= max(float(np.linalg.norm(side)), 1e-9)
+    side = unit((begin - held) * (1.0 - ALONG))
     tilts = (TILT, *MORE_TILTS) if done else (TILT,)
     sides = [turn_about(ALONG, angle) @ side for angle in SIDES]
     if toward is not None:
@@ -108,8 +107,7 @@ def _way(begin: Floats, held: Floats, coming: Floats, side: Floats, lift: float,
     """Return the way to a place on a side (3,) of a ring, to which what hangs on the joint is turned, unless
     it hangs there on both sides.
     """
-    hanging = coming.mean(axis=0) - begin
-    hanging /= max(float(np.linalg.norm(hanging)), 1e-9)
+    hanging = unit(coming.mean(axis=0) - begin)
     axis, angle = turn_between(hanging, side)
     if float(((coming - begin) @ hanging).min()) < -NEAR:
         angle = 0.0

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from balloon_usd.solver.motions.motion import Motion
+from balloon_usd.solver.placement import unit
 
 if TYPE_CHECKING:
     from balloon_usd.operations import moves
@@ -41,11 +42,10 @@ class RingPlane(NamedTuple):
     def of(cls, ring: Floats, points: Floats) -> Self:
         """Return that of a ring, (N, 3), m, in order round it; `points`: unit direction of the bubble."""
         hole = ring.mean(axis=0)
-        inward: Floats = hole / max(float(np.linalg.norm(hole)), 1e-9)
+        inward = unit(hole)
         around = ring - hole
         normal = np.cross(around, np.roll(around, -1, axis=0)).sum(axis=0)
-        normal -= inward * float(normal @ inward)
-        normal /= max(float(np.linalg.norm(normal)), 1e-9)
+        normal = unit(normal - inward * float(normal @ inward))
         # One in the hole is on neither side; one behind it swings over the side that it is nearer to.
         least = -IN_PLANE if float(points @ inward) > 0.0 else 0.0
         if float(points @ normal) < least:

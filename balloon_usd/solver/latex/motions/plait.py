@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from balloon_usd.solver.latex.memory import set_bend
 from balloon_usd.solver.motions.motion import Motion
 from balloon_usd.solver.motions.smooth import smooth
+from balloon_usd.solver.placement import unit
 
 if TYPE_CHECKING:
     from balloon_usd.operations import moves
@@ -149,12 +150,10 @@ def _frame(began: list[Floats]) -> Floats:
     `began`: places of each strand from its held end on, (N, 3), m.
     """
     ends = np.array([row[-1] for row in began])
-    along = ends.mean(axis=0)
-    along /= max(float(np.linalg.norm(along)), 1e-9)
+    along = unit(ends.mean(axis=0))
     middles = np.array([row.mean(axis=0) for row in began])
     across = middles - middles.mean(axis=0)
     across -= (across @ along)[:, None] * along
     aside = np.linalg.svd(across)[2][0]
-    aside -= along * float(aside @ along)
-    aside /= max(float(np.linalg.norm(aside)), 1e-9)
+    aside = unit(aside - along * float(aside @ along))
     return np.array([along, aside, np.cross(along, aside)])

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from balloon_usd.solver.latex.motions.into_ring import IntoRing, RingPlane
 from balloon_usd.solver.motions.smooth import smooth
-from balloon_usd.solver.placement import turn_about, turn_between
+from balloon_usd.solver.placement import turn_about, turn_between, unit
 
 if TYPE_CHECKING:
     from balloon_usd.operations import moves
@@ -60,7 +60,7 @@ class Thread(IntoRing):
         super().__init__(move, sculpture, firm, min(move.width / FULL_FORCE, 1.0))
         steps = np.diff(self._began, axis=0, prepend=np.zeros((1, 3)))
         self._along: Floats = np.cumsum(np.linalg.norm(steps, axis=1))
-        points = self._began[firm - 1] / max(float(np.linalg.norm(self._began[firm - 1])), 1e-9)
+        points = unit(self._began[firm - 1])
         self._plane = plane = RingPlane.of(self._whole, points)
         aside, _ = self._spread_aside(plane, move.width)
         far = self._ring @ plane.inward

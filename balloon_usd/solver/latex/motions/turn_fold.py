@@ -13,7 +13,7 @@ from balloon_usd.solver.latex.motions.beyond import vertices_at
 from balloon_usd.solver.latex.spins import VertexSet
 from balloon_usd.solver.motions.hanging import folded_between
 from balloon_usd.solver.motions.motion import Motion
-from balloon_usd.solver.placement import turn_about
+from balloon_usd.solver.placement import turn_about, unit
 
 if TYPE_CHECKING:
     from balloon_usd.operations import moves
@@ -48,8 +48,7 @@ class TurnFold(Motion):
         for joint in set(joints) - fold - set(bases):
             hands.lead(joint, middle)
         self._point: Floats = middle[bases].mean(axis=0, dtype=np.float64)
-        away: Floats = hands.places[self._turning.indices].mean(axis=0, dtype=np.float64) - self._point
-        self._axis = away / max(float(np.linalg.norm(away)), 1e-9)
+        self._axis = unit(hands.places[self._turning.indices].mean(axis=0, dtype=np.float64) - self._point)
         self._led = np.array([joint for joint in sorted(fold) if hands.leads(joint)], dtype=np.int64)
         self._began: Floats = hands.goal[self._led] - self._point
 

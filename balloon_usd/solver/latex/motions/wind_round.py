@@ -13,7 +13,7 @@ from balloon_usd.solver.latex.motions.beyond import vertices_at
 from balloon_usd.solver.latex.spins import VertexSet
 from balloon_usd.solver.motions.motion import Motion
 from balloon_usd.solver.motions.smooth import smooth
-from balloon_usd.solver.placement import turn_about, turn_between
+from balloon_usd.solver.placement import turn_about, turn_between, unit
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -65,9 +65,7 @@ class WindRound(Motion):
 
         places = middle[[[joints[strand[k]] for strand in strands] for k in (0, -1)]].astype(np.float64)
         self._near, self._far = places.mean(axis=1)
-        self._axis: Floats = (self._far - self._near) / max(
-            float(np.linalg.norm(self._far - self._near)), 1e-9
-        )
+        self._axis = unit(self._far - self._near)
         self._beside: Floats = middle[self._turned] - self._far
         across = _across(self._axis)
         self._across = across
@@ -110,8 +108,7 @@ class WindRound(Motion):
             near = inside[: max(2, len(inside) // 2)]
             way = middle[near[-1]].astype(np.float64) - middle[near[0]]
             point = middle[near].mean(axis=0, dtype=np.float64)
-            axis = way / max(float(np.linalg.norm(way)), 1e-9)
-            self._hands.spin(rolling, point, axis, ROLLED * twisted / (end - begin))
+            self._hands.spin(rolling, point, unit(way), ROLLED * twisted / (end - begin))
 
     def _first_corners(self, rings: Ints) -> Floats:
         """Return where the first vertex of each of some rings is, (N, 3), m."""

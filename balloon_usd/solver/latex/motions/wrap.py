@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from balloon_usd.solver.motions.gather import Gather
 from balloon_usd.solver.motions.smooth import smooth
-from balloon_usd.solver.placement import turn_about, turn_between
+from balloon_usd.solver.placement import turn_about, turn_between, unit
 from balloon_usd.solver.sculpture import ALONG
 
 if TYPE_CHECKING:
@@ -60,7 +60,7 @@ class Wrap(Gather):
         steps = np.diff(began, axis=0, prepend=np.zeros((1, 3)))
         self._along: Floats = np.cumsum(np.linalg.norm(steps, axis=1))
         """Distances of these rings from the held joint along the row, (N,), m."""
-        self._out: Floats = began[move.row - 1] / max(float(np.linalg.norm(began[move.row - 1])), 1e-9)
+        self._out: Floats = unit(began[move.row - 1])
         """Unit direction of the row before."""
         self._off: Floats = began - self._along[:, None] * self._out
         """How far these rings are off it, (N, 3), m."""
@@ -103,8 +103,7 @@ class Wrap(Gather):
         length = float(self._along[self._row - 1])
         chord = float(np.linalg.norm(hole))
         toward = hole / max(chord, 1e-9)
-        aside = normal - toward * float(normal @ toward)
-        aside /= max(float(np.linalg.norm(aside)), 1e-9)
+        aside = unit(normal - toward * float(normal @ toward))
         half = half_angle(chord / length)
         leaves = math.cos(half) * toward + math.sin(half) * aside
         axis, angle = turn_between(leaves, self._out)
@@ -116,8 +115,7 @@ class Wrap(Gather):
         across = np.cross(np.cross(aside, toward), leaves)
         ways = np.cos(bends) * leaves + np.sin(bends) * across
         row = np.cumsum(np.diff(along)[:, None] * ways[:-1], axis=0)
-        ahead: Floats = back @ ((1.0 - laid) * ways[-1] - laid * normal)
-        ahead /= max(float(np.linalg.norm(ahead)), 1e-9)
+        ahead = unit(back @ ((1.0 - laid) * ways[-1] - laid * normal))
         row = row @ back.T
         own = row[-1] + (self._along[self._row :] - length)[:, None] * ahead
         return np.concatenate([row, own]) + (1.0 - laid) * self._off, ahead
