@@ -109,8 +109,7 @@ steps:
                 what = f"no joint is there about which {name} could be turned against its figure"
                 bench.complain(path, f"{what}, expected a bubble that hangs on one joint")
             elif taken := [each for each in bench.piece.holding() if each.is_left_by(limb.bubbles)]:
-                what = f"{name} would take {taken[0].bubble} away from {all_of(taken[0].others)}"
-                bench.complain(path, f"{what}, which hold it: expected this step before that one")
+                bench.complain(path, f"{name} {taken[0].would_leave}: expected this step before that one")
 
     def perform(self, score: Score, index: int) -> None:
         """Turn one limb after another."""

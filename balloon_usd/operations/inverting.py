@@ -41,6 +41,10 @@ class InvertsBubble(Turned, MakesBubbles):
         if made is None or made.step != place.index or bench.piece.row(made.balloon)[0] == name:
             return
         first = bench.piece.row(made.balloon)[0]
+        if first in bench.piece.popped:
+            what = f"{quoted(made.balloon)} has no knot any more, {quoted(first)} is popped"
+            bench.complain(path, f"{what}: expected this step before that one")
+            return
         what = f"{quoted(name)} is not the first bubble of {quoted(made.balloon)}, {quoted(first)} is"
         bench.complain(path, f"{what}: expected the bubble at the knot, which is pressed through it")
 

@@ -182,7 +182,10 @@ def _faults(piece: Workpiece, name: str, between: Sequence[str]) -> Iterator[tup
 
 def _faults_of_limb(piece: Workpiece, name: str, between: Sequence[str]) -> Iterator[tuple[str, str]]:
     """Yield why no part of a figure with a bubble, and without some others, hangs on one joint."""
-    if piece.limb(name, between) is not None:
+    limb = piece.limb(name, between)
+    if limb is not None:
+        if taken := [each for each in piece.holding() if each.is_left_by(limb.bubbles)]:
+            yield "bubble", f"{name} {taken[0].would_leave}: expected this step before that one"
         return
     limb = piece.limb(name)
     moved = [] if limb is None else [each for each in between if each in limb.bubbles]

@@ -5,9 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, ClassVar
 
 from balloon_usd.language.joint import Joint
+from balloon_usd.language.lengths import at_most
 from balloon_usd.language.names import Name
 from balloon_usd.language.problem import quoted
 from balloon_usd.language.quantities import Length, length_entry, written_length
+from balloon_usd.operations.caution import Caution
 from balloon_usd.operations.inverting import INVERT_SECONDS, InvertsBubble
 from balloon_usd.operations.modifiers import Entries
 from balloon_usd.operations.moves import FaceKnot, PressIn
@@ -16,12 +18,16 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from balloon_usd.language.quantities import LengthLike, Units
-    from balloon_usd.operations.score import Score
+    from balloon_usd.operations.score import Layout, Score
     from balloon_usd.operations.workbench import Place, Workbench
     from balloon_usd.operations.workpiece import ContactKind, Workpiece
 
 FACE_SECONDS = 2.0
 """Shortest time in which a balloon is turned until it faces the knot of another, s."""
+WIDE = 1.4
+"""Width of what is pressed in, in that of the tulip's tube, beyond which it may lean: a whole 350 in a 260 by
+6 to 15 degrees, a 646 in a 350 by 29, a 260 in a 260 and a ball of 4 cm of a 350 in a 260 by 3 at most.
+"""
 SECONDS_PER_METRE = 8.0
 """Time that it takes for each metre of it, s/m: its end stays below 1.3 m/s."""
 
@@ -34,11 +40,11 @@ class LinkingTulip(Entries):
     length: Length
     """Its length before the knot is pressed in; m in Python."""
     over: Name
-    """The first bubble of another balloon, which is pressed in with its knot ahead."""
+    """The first bubble of another balloon, or all of it, which is pressed in with its knot ahead."""
 
 
 class TulipLink(InvertsBubble):
-    """Press the first bubble of another balloon in with the knot, and twist a tulip over it."""
+    """Press the end of another balloon in with the knot, and twist a tulip over it."""
 
     word: ClassVar[ContactKind] = "tulip_link"
     value_model: ClassVar[type[Entries] | None] = LinkingTulip
@@ -50,13 +56,11 @@ name: candle
 units: cm
 balloons:
   main: {size: 260, color: white, length: 14, tail: 6}
-  fire: {size: 160, color: orange, length: 6, tail: 2.5}
+  fire: {size: 160, color: orange, length: 7, tail: 2.5}
 steps:
-  - bubbles: {root: 3}
-    balloon: fire
   - rest: flame
     balloon: fire
-  - tulip_link: {bubble: socket, length: 7, over: root}
+  - tulip_link: {bubble: socket, length: 7, over: flame}
     balloon: main
   - rest: wax
     balloon: main
@@ -64,7 +68,7 @@ steps:
     sources: ClassVar[tuple[str, ...]] = ("balloonotherapy.blogspot.com 2013-03: the flame of the candle",)
 
     tulip_link: LinkingTulip
-    """Press the first bubble of another balloon in with the knot, and twist a tulip over it."""
+    """Press the end of another balloon in with the knot, and twist a tulip over it."""
 
     @property
     def lengths(self) -> dict[str, float]:
@@ -103,7 +107,7 @@ steps:
     @classmethod
     def check(cls, value: object, place: Place, bench: Workbench) -> None:
         """Make a tulip over the first bubble of another balloon, whose knot is free."""
-        path = (*place.path, cls.word)
+        path, known = (*place.path, cls.word), len(bench.complaints)
         made = [name for name in cls.makes(value) if bench.make(name, (*path, "bubble"), place.balloon)]
         for name in made:
             bench.close(name, (*path, "bubble"))
@@ -112,13 +116,27 @@ steps:
         found = [
             bench.has_name(name, (*path, "over")) and bench.find_firm(name, (*path, "over")) for name in over
         ]
-        if not (made and over and all(found) and bench.knows((*made, *over))):
+        if len(bench.complaints) > known or not (
+            made and over and all(found) and bench.knows((*made, *over))
+        ):
             return
         if fault := next(_faults(bench.piece, made[0], over[0]), ""):
             bench.complain((*path, "over"), fault)
         else:
             bench.join(path, [Joint(made[0], "start"), Joint(over[0], "start")], (*made, *over))
             bench.piece.touch(place.index, cls.word, over[0], made)
+
+    def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:
+        """Warn of what is so wide that it does not stand straight in the tulip."""
+        link = self.tulip_link
+        socket, over = layout.bubble(link.bubble), layout.bubble(link.over)
+        if min(over.width, over.length) > WIDE * socket.width:
+            yield Caution(
+                index,
+                f"{link.over} may lean on {link.bubble}",
+                f"a {over.size} is so wide that it hardly goes into a {socket.size}",
+                f"twist a bubble of {at_most(socket.width)} off at its knot, or make {link.bubble} wider",
+            )
 
     def perform(self, score: Score, index: int) -> None:
         """Twist the tulip off, bring both balloons into line, press them together, twist both into one."""
@@ -149,6 +167,8 @@ def _faults(piece: Workpiece, tulip: str, over: str) -> Iterator[str]:
     first = piece.row(balloon)[0]
     if balloon == piece.bubbles[tulip].balloon:
         yield f"{quoted(over)} is of {quoted(balloon)} itself, expected the first bubble of another balloon"
+    elif first in piece.popped:
+        yield f"{quoted(balloon)} has no knot any more, {quoted(first)} is popped: expected another balloon"
     elif over != first:
         what = f"{quoted(over)} is not the first bubble of {quoted(balloon)}, {quoted(first)} is"
         yield f"{what}: expected the one at the knot, which goes ahead"

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
+from balloon_usd.language.choices import all_of
 from balloon_usd.language.joint import Joint, ends_of
 from balloon_usd.operations.connections import Connections
 from balloon_usd.operations.disjoint_sets import DisjointSets
@@ -26,8 +27,8 @@ _BROUGHT: dict[ContactKind, str] = {
 _TUCKED_INTO = "tucks {0} into {1}"
 
 
-_LEAVING_FREE = ("thread", "wrap")
-"""Contacts in which a ring holds the start of a bubble alone: its end may turn."""
+_LEAVING_FREE = ("thread", "tulip_link", "wrap")
+"""Contacts in which a ring or a tulip holds the start of a bubble alone: its end may turn."""
 
 
 @dataclass(frozen=True)
@@ -72,8 +73,19 @@ class Contact:
     """Whether these formed one closed ring then, without which nothing holds it."""
 
     def is_left_by(self, bubbles: Container[str]) -> bool:
-        """Whether what was set between others, or one of these, comes along with some bubbles alone."""
-        return self.kind == "tuck" and len({each in bubbles for each in (self.bubble, *self.others)}) > 1
+        """Whether what was set between others or into a tulip, or one of these, comes along with some bubbles
+        alone.
+        """
+        return (
+            self.kind in ("tuck", "tulip_link")
+            and len({each in bubbles for each in (self.bubble, *self.others)}) > 1
+        )
+
+    @property
+    def would_leave(self) -> str:
+        """What would happen if just one of both were moved, in words."""
+        hold = "holds" if len(self.others) == 1 else "hold"
+        return f"would take {self.bubble} away from {all_of(self.others)}, which {hold} it"
 
     @property
     def text(self) -> str:

@@ -107,10 +107,16 @@ class SculptureGraph:
     def fewest_balloons(self) -> int:
         """Fewest balloons that can be twisted into this graph without popping a bubble.
 
-        Half the odd joints of every piece, at least one (Demaine, Demaine & Hart 2008, theorems 1 and 2).
+        Half the odd joints of every piece, at least one (Demaine, Demaine & Hart 2008, theorems 1 and 2), and
+        two for each tulip that is twisted over another balloon, for it takes the knots of both.
         """
         odd = set(self.odd_joints)
-        return sum(max(1, len(odd & piece) // 2) for piece in self.pieces)
+        links = [
+            self.joint_of(Joint(c.bubble, "start")).index for c in self.contacts if c.kind == "tulip_link"
+        ]
+        return sum(
+            max(1, len(odd & piece) // 2, 2 * sum(link in piece for link in links)) for piece in self.pieces
+        )
 
     @property
     def one_stroke(self) -> bool:

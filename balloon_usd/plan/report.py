@@ -140,16 +140,18 @@ def _graph_lines(plan: Plan) -> Iterator[str]:
     strokes = "one balloon" if graph.one_stroke else f"{graph.fewest_balloons} balloons"
     yield f"{ring_line(graph)}; {strokes} could make it"
     led_in = _led_in(plan)
-    for event in plan.recipe.piece.history:
+    piece = plan.recipe.piece
+    firm = piece.after(len(plan.recipe.steps), without=plan.slipping).holding()
+    for event in piece.history:
         if isinstance(event, Contact):
             hold = "holds" if len(event.others) == 1 else "hold"
-            yield f"  step {event.step + 1} {event.text}, which {hold} it"
+            yield f"  step {event.step + 1} {event.text}" + f", which {hold} it" * (event in firm)
         if isinstance(event, Popped):
             does = f"{plan.recipe.steps[event.step].does} {event.bubble}"
             yield f"  step {event.step + 1} {does}{_apart(plan, event)}"
         if isinstance(event, Joined):
-            for balloon in [name for name, step in led_in.items() if step == event.step]:
-                del led_in[balloon]
+            for balloon in [name for name, step in led_in if step == event.step]:
+                led_in.remove((balloon, event.step))
                 side = "right" if _aside(plan)[balloon] > 0.0 else "left"
                 yield f"  step {event.step + 1} leads in {balloon} from the {side}"
         if isinstance(event, Joined) and not plan.recipe.steps[event.step].closes:
@@ -179,11 +181,13 @@ def _aside(plan: Plan) -> dict[str, float]:
     return {name: 0.0 - place for name, place in places.items()} if plan.mirrored else places
 
 
-def _led_in(plan: Plan) -> dict[str, int]:
-    """Return the steps at which balloons are led in to the figure, by balloon."""
+def _led_in(plan: Plan) -> list[tuple[str, int]]:
+    """Return which balloons are led in to others, and at which steps: one to which others were led may be
+    led on with them.
+    """
     rings = plan.table.rings
     moves = (move for move in plan.choreography.moves if isinstance(move, LeadIn))
-    return {rings[move.ring].balloon: move.step for move in moves}
+    return [(rings[move.ring].balloon, move.step) for move in moves]
 
 
 def ring_line(graph: SculptureGraph) -> str:
@@ -221,7 +225,7 @@ def caution_lines(cautions: tuple[Caution, ...]) -> Iterator[str]:
 
 def plan_json(plan: Plan) -> dict[str, Any]:
     """Return the plan as plain data, ready for JSON: SI units, step indices from 0."""
-    aside, led_in = _aside(plan), _led_in(plan)
+    aside, led_in = _aside(plan), dict(reversed(_led_in(plan)))
     return {
         **head_json(plan),
         "balloons": [

@@ -19,9 +19,10 @@ SAME_LENGTH = 1e-6
 
 def twins_of(recipe: Recipe, strips: Mapping[str, Strip]) -> list[tuple[PlannedBubble, PlannedBubble]]:
     """Return the pairs of bubbles of which a recipe says the same, the left one first; none that was set
-    between others as a whole, for it goes in edgewise.
+    between others as a whole, for it goes in edgewise, and none with one that sits in a tulip.
     """
     tucked = _tucked(recipe)
+    pressed = {contact.bubble for contact in recipe.piece.contacts if contact.kind == "tulip_link"}
     tubes = [strip for strip in strips.values() if strip.shape is None]
     by_name = {bubble.name: bubble for strip in tubes for bubble in strip.bubbles}
     twins = [
@@ -34,6 +35,7 @@ def twins_of(recipe: Recipe, strips: Mapping[str, Strip]) -> list[tuple[PlannedB
         for left, right in twins
         if right is not None
         and not any({left.name, right.name} <= limb for limb in tucked)
+        and pressed.isdisjoint((left.name, right.name))
         and _said_equal(recipe, strips, left, right)
     ]
 

@@ -9,7 +9,10 @@ from balloon_usd.plan import plan, plan_text
 from balloon_usd.recipe import Recipe, RecipeError
 
 LINK = "tulip_link: {bubble: socket, length: 7, over: root}"
-CANDLE = TulipLink.example
+CANDLE = TulipLink.example.replace(
+    "  - rest: flame", "  - bubbles: {root: 3}\n    balloon: fire\n  - rest: flame"
+)
+CANDLE = CANDLE.replace("over: flame", "over: root")
 
 
 def told(text: str) -> str:
@@ -50,17 +53,47 @@ def test_without_a_balloon_it_is_not_known_whose_first_bubble_is_made() -> None:
 def test_what_is_pressed_in_is_held_and_the_plan_says_so() -> None:
     recipe = Recipe.parse(CANDLE)
     assert recipe.piece.gripped() == {"root"}
-    assert not recipe.piece.free_joints()
     text = plan_text(plan(recipe))
     assert "presses root into socket, which holds it" in text
     assert "socket.start = socket.end = wax.start = root.start" in text
 
 
+def test_the_twist_behind_what_is_pressed_in_is_outside_and_unwinds() -> None:
+    (ends,) = Recipe.parse(CANDLE).piece.free_joints()
+    assert [str(end) for end in ends] == ["root.end", "flame.start"]
+    assert not Recipe.parse(TulipLink.example).piece.free_joints()
+
+
 def test_with_one_turn_nothing_is_held() -> None:
-    found = plan(
-        Recipe.parse(CANDLE.replace("balloon: main\n  - rest", "balloon: main\n    turns: 1\n  - rest"))
-    )
-    assert any("slip" in caution.what or "unwind" in caution.what for caution in found.cautions)
+    loose = CANDLE.replace("root}\n    balloon: main", "root}\n    balloon: main\n    turns: 1")
+    found = plan(Recipe.parse(loose))
+    assert any("may unwind" in caution.what for caution in found.cautions)
+    assert "presses root into socket\n" in plan_text(found)
+
+
+def test_a_wide_balloon_leans_unless_a_ball_is_twisted_off_at_its_knot() -> None:
+    def cautions(text: str) -> list[str]:
+        wide = text.replace("size: 160, color: orange, length: 7", "size: 350, color: orange, length: 14")
+        return [each.what for each in plan(Recipe.parse(wide)).cautions]
+
+    assert "flame may lean on socket" in cautions(TulipLink.example)
+    assert "root may lean on socket" not in cautions(CANDLE.replace("root: 3", "root: 5"))
+
+
+@pytest.mark.parametrize("step", ["aim: {socket: up}", "aim: {root: up}"])
+def test_neither_is_turned_away_from_the_other(step: str) -> None:
+    expected = "would take root away from socket, which holds it: expected this step before that one"
+    assert expected in told(f"{CANDLE}  - {step}\n")
+
+
+def test_a_balloon_whose_first_bubble_was_cut_off_has_no_knot() -> None:
+    ear = "  - ear: {e: 3}\n    balloon: fire\n  - cut: root\n  - rest: flame"
+    sealed = CANDLE.replace("  - rest: flame", ear).replace("over: root", "over: e")
+    assert '"fire" has no knot any more, "root" is popped' in told(sealed)
+
+
+def test_each_link_takes_the_knots_of_two_balloons() -> None:
+    assert "2 balloons could make it" in plan_text(plan(Recipe.parse(CANDLE)))
 
 
 def test_a_popped_tulip_holds_nothing_any_more() -> None:
