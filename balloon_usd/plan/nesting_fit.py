@@ -82,6 +82,8 @@ def _too_large(guest: Strip, owner: Strip, host: Host) -> str:
     bubble = owner.bubbles[host.bubble]
     if bubble.length == 0.0:
         return f"lies in {bubble.name}, which is flat for ever, expected a bubble with gas"
+    if owner.inverted and host.bubble == 0:
+        return f"lies in {bubble.name}, a tulip, whose own wall takes the room in it, expected another bubble"
     nozzle, blown = nozzle_length(guest), blown_length(guest) - guest.tail
     whole = blown + guest.tail + nozzle
     wide = min(guest.inflated_radius / owner.inflated_radius, 1.0)

@@ -93,6 +93,12 @@ def test_the_plan_tells_what_lies_where_and_asks_for_no_lock(planned):
     assert not any("joined" in caution.what for caution in made.cautions)
 
 
+def test_nothing_lies_in_a_tulip_whose_own_wall_takes_the_room():
+    head = POD.replace("bubbles: {a: 9, b: 9, c: 9}", "tulip: {a: 9}\n    balloon: pod\n  - bubbles: {c: 9}")
+    with pytest.raises(RecipeError, match="lies in a, a tulip, whose own wall takes the room in it"):
+        plan(Recipe.parse(HEAD + head))
+
+
 def test_the_example_needs_no_caution():
     assert plan(Recipe.parse(Insert.example)).cautions == ()
 
