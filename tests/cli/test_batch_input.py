@@ -116,12 +116,12 @@ def test_nobody_at_the_address_of_a_cluster_is_told_soon_in_one_line(cli, solver
     assert result.stderr.splitlines() == [f"127.0.0.1:{port}: no Ray cluster answers (Connection refused)"]
 
 
-def meanwhile(action, folder):
-    """Do something once the first recipe is simulated."""
+def meanwhile(action, folder, name="log"):
+    """Do something once the first recipe is simulated, or a file of another name is in the folder."""
 
     def wait():
         end = time.monotonic() + 60
-        while time.monotonic() < end and not (folder / "log").exists():
+        while time.monotonic() < end and not any(folder.glob(name)):
             time.sleep(0.01)
         action()
 
@@ -170,7 +170,8 @@ def test_an_output_folder_that_is_deleted_during_the_run_is_told(cli, solver, wr
     def delete():
         (tmp_path / "out").rename(tmp_path / "gone")
 
-    watcher = meanwhile(delete, solver.folder)
+    # A folder that is not there yet when a stage is begun is made anew.
+    watcher = meanwhile(delete, tmp_path / "out", ".first.*.writing")
     result = cli("run", "recipes", *ORDER, "--jobs", 1)
     watcher.join()
     assert result.exit_code == 1, result.output
