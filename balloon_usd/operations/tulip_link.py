@@ -65,7 +65,9 @@ steps:
   - rest: wax
     balloon: main
 """
-    sources: ClassVar[tuple[str, ...]] = ("balloonotherapy.blogspot.com 2013-03: the flame of the candle",)
+    sources: ClassVar[tuple[str, ...]] = (
+        "balloonotherapy.blogspot.com 2013-03: the candle, of two balloons",
+    )
 
     tulip_link: LinkingTulip
     """Press the end of another balloon in with the knot, and twist a tulip over it."""
