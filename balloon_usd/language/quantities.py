@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from decimal import Decimal
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, SupportsFloat
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
 from pydantic.json_schema import JsonSchemaValue
@@ -126,8 +126,16 @@ def length_entry(length: float, units: str | None) -> int | float | str:
 
 
 def written_length(length: LengthLike, units: str | None) -> int | float | str:
-    """Write a length (m) as it stands in a recipe with these `units`; a text stays as it is."""
-    return length if isinstance(length, str) else length_entry(float(length), units)
+    """Write a length (m) as it stands in a recipe with these `units`; a text stays as it is.
+
+    Raises:
+        TypeError: it is neither a number nor a text.
+    """
+    if isinstance(length, str):
+        return length
+    if not isinstance(length, SupportsFloat):
+        raise TypeError(f'{length!r} is no length, expected a number of metres, or a text such as "5 cm"')
+    return length_entry(float(length), units)
 
 
 def angle_entry(angle: float) -> int | float | str:

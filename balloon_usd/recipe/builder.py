@@ -10,7 +10,7 @@ from balloon_usd.operations.operation import Operation
 from balloon_usd.operations.table import BY_WORD, WORDS
 
 from .kosaka import kosaka_entries
-from .operation_methods import with_operations
+from .operation_methods import require_arguments, with_operations
 from .recipe import Recipe
 from .writer import Entries, recipe_text, step_entries
 
@@ -105,6 +105,7 @@ class RecipeBuilder:
 
         Raises:
             ValueError: no operation has this word, with the nearest that one has.
+            TypeError: the operation has no such arguments, with those that it has.
         """
         if isinstance(step, Operation):
             if what or keys:
@@ -114,6 +115,7 @@ class RecipeBuilder:
         if step not in BY_WORD:
             raise ValueError(unknown("operation", step, WORDS))
         operation = BY_WORD[step]
+        require_arguments(operation, *what, **keys)
         beside = {key: keys.pop(key) for key in operation.modifiers() if key in keys}
         self._steps.append({step: operation.value_of(self._units, *what, **keys)} | _given(beside))
         return self

@@ -32,6 +32,17 @@ def signature_of(operation: type[Operation]) -> Signature:
     return Signature([itself, *first, *beside, *last], return_annotation="Self")
 
 
+def require_arguments(operation: type[Operation], /, *what: object, **keys: object) -> None:
+    """Raise a `TypeError` with what the method of an operation takes where it does not take these."""
+    takes = signature_of(operation)
+    try:
+        takes.bind(None, *what, **keys)
+    except TypeError as wrong:
+        plain = [each.replace(annotation=Parameter.empty) for each in takes.parameters.values()]
+        shown = Signature([each for each in plain if each.name != "self"])
+        raise TypeError(f"{operation.word}: {wrong}, expected {operation.word}{shown}") from None
+
+
 def _method(operation: type[Operation]) -> Callable[..., Any]:
     def method(self: Any, /, *what: Any, **keys: Any) -> Any:
         return self.add(operation.word, *what, **keys)

@@ -357,6 +357,40 @@ def test_an_unknown_word_and_unknown_arguments_are_refused_at_once() -> None:
         builder.add(dog().build().steps[0], turns=2)
 
 
+@pytest.mark.parametrize(
+    ("word", "what", "keys", "told"),
+    [
+        (
+            "tuck",
+            (),
+            {"between": ["a", "b"]},
+            r"tuck: missing a required argument: 'bubble', expected tuck\(bubble, ",
+        ),
+        (
+            "tuck",
+            ("c",),
+            {"between": ["a"]},
+            r"tuck: got an unexpected keyword argument 'between', expected tuck",
+        ),
+        (
+            "press",
+            ("a", "b"),
+            {},
+            r"press: too many positional arguments, expected press\(bubble, \*, at=None",
+        ),
+        (
+            "tulip_link",
+            ("a", None, "b"),
+            {},
+            'None is no length, expected a number of metres, or a text such as "5 cm"',
+        ),
+    ],
+)
+def test_wrong_arguments_are_told_with_the_word_and_those_that_it_takes(word, what, keys, told) -> None:
+    with pytest.raises(TypeError, match=told):
+        RecipeBuilder("f").add(word, *what, **keys)
+
+
 def test_numbers_and_arrays_of_numpy_are_written_as_plain_ones():
     number = np.float32
     figure = (
