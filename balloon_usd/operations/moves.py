@@ -397,33 +397,29 @@ class Invert(Move):
 
 
 @dataclass(frozen=True)
-class FaceKnot(Move):
-    """Turn a balloon that was led in, with all that hangs on it, and bring it before the knot of another, so
-    that both lie in one line, knot to knot.
-    """
+class Link(Move):
+    """Move two balloons by their knots."""
 
     knot: int = 0
-    """Ring of the knot of the balloon whose wall will be turned inside."""
+    """Ring of the knot of the balloon whose wall is turned inside."""
     neck: int = 0
     """Ring at the other end of its first bubble."""
     other: int = 0
     """Ring of the other balloon's knot."""
     moved: int = 0
-    """Which of both knots was led in."""
+    """Which of both knots was led in: its balloon is moved, and the other one held."""
 
 
 @dataclass(frozen=True)
-class PressIn(Move):
-    """Press the end of a balloon into the first bubble of another, behind its knot."""
+class FaceKnot(Link):
+    """Turn one balloon, with all that hangs on it, and bring it before the knot of the other, so that both
+    lie in one line, knot to knot.
+    """
 
-    knot: int = 0
-    """Ring of the knot that is pressed through its bubble, whose wall is turned inside."""
-    neck: int = 0
-    """Ring at the other end of that."""
-    other: int = 0
-    """Ring of the other balloon's knot."""
-    moved: int = 0
-    """Which of both knots was led in: its balloon is moved, and the other one held."""
+
+@dataclass(frozen=True)
+class PressIn(Link):
+    """Press the end of one balloon into the first bubble of the other, behind its knot."""
 
 
 @dataclass(frozen=True)

@@ -111,8 +111,8 @@ class Room:
 
 def kinds_of_moves():
     kinds = {kind for kind in vars(moves).values() if isinstance(kind, type) and issubclass(kind, moves.Move)}
-    # What bends and curls share is no move by itself.
-    return kinds - {moves.Curve}
+    # What bends and curls share, and what links do, is no move by itself.
+    return kinds - {moves.Curve, moves.Link}
 
 
 @pytest.mark.parametrize("motions", [LATEX_MOTIONS, KOSAKA_MOTIONS], ids=["latex", "kosaka"])
