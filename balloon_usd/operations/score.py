@@ -155,6 +155,9 @@ class Layout(Protocol):
     def ends(self, bubble: str) -> tuple[int, int | None]:
         """Return the rings of a bubble's start and end."""
 
+    def length(self, balloon: str) -> float:
+        """Return how long a balloon is when it is blown up and twisted, and straight, m."""
+
     def pump_seconds(self, balloon: str) -> float:
         """Return how long a maker takes to blow a balloon up, s."""
 
@@ -298,6 +301,12 @@ class Score:
         ring, to = self.lead_in(first, last, index)
         seconds = max(BRING_SECONDS, far / HAND_SPEED) / self.pace.leading
         self.add(Bring(self.now, seconds, index, text, ring=ring, to=to))
+
+    def longest_with(self, balloon: str) -> float:
+        """Return how long the longest balloon is of those that are joined to one so far, and itself, m."""
+        blown = {move.balloon for move in self.moves if isinstance(move, Inflate)}
+        piece = self.pieces.root(balloon)
+        return max(self.layout.length(each) for each in blown if self.pieces.root(each) == piece)
 
     def lead_in(self, first: int, last: int, index: int) -> tuple[int, int]:
         """Lead in what lies aside with one of two rings of different balloons, unless they hang together;

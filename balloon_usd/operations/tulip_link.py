@@ -29,7 +29,7 @@ WIDE = 1.4
 6 to 15 degrees, a 646 in a 350 by 29, a 260 in a 260 and a ball of 4 cm of a 350 in a 260 by 3 at most.
 """
 SECONDS_PER_METRE = 8.0
-"""Time that it takes for each metre of it, s/m: its end stays below 1.3 m/s."""
+"""Time that it takes for each metre of the longest balloon that is turned, s/m: its end stays below 1.3 m/s."""
 
 
 class LinkingTulip(Entries):
@@ -148,9 +148,10 @@ steps:
         knot, neck = layout.ends(link.bubble)
         assert neck is not None, "what is left of a balloon is no tulip"
         other, _ = layout.ends(link.over)
+        balloons = {ring: layout.ring(ring).balloon for ring in (knot, other)}
+        longest = {ring: score.longest_with(balloon) for ring, balloon in balloons.items()}
         moved, _ = score.lead_in(knot, other, index)
-        length = sum(layout.bubble(name).length for name in layout.onward(layout.ring(moved).bubble))
-        face = max(FACE_SECONDS, SECONDS_PER_METRE * length) / lead
+        face = max(FACE_SECONDS, SECONDS_PER_METRE * longest[moved]) / lead
         rings = {"knot": knot, "neck": neck, "other": other, "moved": moved}
         score.add(FaceKnot(score.now, face, index, self.label, **rings))
         score.add(PressIn(score.now, INVERT_SECONDS / lead, index, self.label, **rings))

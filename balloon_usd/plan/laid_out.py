@@ -106,12 +106,15 @@ class LaidOut:
         """Return the rings of a bubble's start and end."""
         return self._table.ends(bubble)
 
+    def length(self, balloon: str) -> float:
+        """Return how long a balloon is when it is blown up and twisted, and straight, m."""
+        bubbles = self._strips[balloon].bubbles
+        return bubbles[-1].end - bubbles[0].start
+
     def pump_seconds(self, balloon: str) -> float:
         """Return how long a maker takes to blow a balloon up, s."""
-        strip = self._strips[balloon]
-        if strip.shape is not None:
-            return strip.shape.seconds
-        return max(INFLATE_LEAST, (strip.bubbles[-1].end - strip.bubbles[0].start) / INFLATE_SPEED)
+        shape = self._strips[balloon].shape
+        return max(INFLATE_LEAST, self.length(balloon) / INFLATE_SPEED) if shape is None else shape.seconds
 
     def bring_seconds(self, balloon: str) -> float:
         """Return how long hands bring what lies in a balloon to its place, s; 0 where nothing does."""
