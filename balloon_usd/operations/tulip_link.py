@@ -29,7 +29,7 @@ WIDE = 1.4
 6 to 15 degrees, a 646 in a 350 by 29, a 260 in a 260 and a ball of 4 cm of a 350 in a 260 by 3 at most.
 """
 SECONDS_PER_METRE = 8.0
-"""Time that it takes for each metre of the longest balloon that is turned, s/m: its end stays below 1.3 m/s."""
+"""Time for each metre of the longest balloon that is turned, s/m: its end stays below 1.3 m/s."""
 
 
 class LinkingTulip(Entries):
