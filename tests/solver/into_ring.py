@@ -26,7 +26,7 @@ class IntoRing:
         (meshes,) = simulation.meshes
         self.mesh = meshes[0]
         passed = PassedBubbles(self.plan, meshes)
-        counter = CrossingCounter(walls_of(self.plan, meshes), 1)
+        counter = CrossingCounter(walls_of(self.plan, meshes), 100)
         self.crossings, self.gas, self.middles, self.times = [], [], [], []
         for (frame,) in simulation.frames():
             passed.add(frame)

@@ -35,7 +35,7 @@ class Aimed:
         self.plan = plan(Recipe.parse(LOOP + aims + "physics: {hold: 2}\n"))
         simulation = simulate_many([self.plan], device="cpu")
         ((mesh,),) = simulation.meshes
-        counter = CrossingCounter(walls_of(self.plan, (mesh,)), 1)
+        counter = CrossingCounter(walls_of(self.plan, (mesh,)), 100)
         let_go = 1 + round(self.plan.choreography.let_go * self.plan.recipe.fps)
         for (frame,) in simulation.frames():
             if frame.time_code in (let_go, self.plan.frame_count):

@@ -119,7 +119,7 @@ def test_what_hangs_on_it_jumps_and_comes_to_rest(popped):
 
 
 def test_no_wall_goes_through_another_and_no_vertex_is_lost(popped):
-    counter = CrossingCounter(walls_of(popped.plan, popped.simulation.meshes[0]), 1)
+    counter = CrossingCounter(walls_of(popped.plan, popped.simulation.meshes[0]), 100)
     for points in popped.points[popped.shut :: 6]:
         assert counter.count((points,)).count == 0
     assert {len(points) for points in popped.points} == {len(popped.points[0])}

@@ -26,7 +26,7 @@ def test_it_is_pinched_off_and_no_wall_folds():
     assert 3.5 < end.rest_length / made.strips["main"].size.radius < 4.5
     simulation = simulate_many([made], device="cpu")
     (meshes,) = simulation.meshes
-    counter = CrossingCounter(walls_of(made, meshes), 1)
+    counter = CrossingCounter(walls_of(made, meshes), 100)
     for (frame,) in simulation.frames():
         assert max(stretch.max() for stretch in frame.stretch) < 8.0
         if frame.time_code % 6 == 0:

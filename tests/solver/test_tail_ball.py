@@ -63,7 +63,7 @@ def test_the_gas_of_the_ball_comes_out_of_the_tube_which_is_softer_then(tipped):
 
 
 def test_no_wall_goes_through_another_meanwhile(tipped):
-    counter = CrossingCounter(walls_of(tipped.plan, tipped.simulation.meshes[0]), 1)
+    counter = CrossingCounter(walls_of(tipped.plan, tipped.simulation.meshes[0]), 100)
     assert all(counter.count(points).count == 0 for points in tipped.points[tipped.began :: 4])
 
 

@@ -66,5 +66,5 @@ def test_its_tip_is_as_thin_as_a_flat_tail(tied):
 
 
 def test_no_wall_goes_through_another(tied):
-    counter = CrossingCounter(walls_of(tied.plan, tied.simulation.meshes[0]), 1)
+    counter = CrossingCounter(walls_of(tied.plan, tied.simulation.meshes[0]), 100)
     assert all(counter.count(frame.points).count == 0 for frame in tied.frames[::6])

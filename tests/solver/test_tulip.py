@@ -27,7 +27,7 @@ class Inverted:
         (meshes,) = simulation.meshes
         self.mesh = meshes[0]
         self.walls = walls_of(self.plan, meshes)
-        counter = CrossingCounter(self.walls, 1)
+        counter = CrossingCounter(self.walls, 100)
         self.points, self.gas, self.pressure, self.crossings = [], [], [], []
         fps = round(self.plan.recipe.fps)
         self.welded = round(weld.start * fps) + 1

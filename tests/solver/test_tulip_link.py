@@ -31,7 +31,7 @@ class Linked:
         simulation = simulate_many([self.plan], device="cpu")
         (meshes,) = simulation.meshes
         self._meshes = dict(zip(self.plan.strips, meshes, strict=True))
-        counter = CrossingCounter(walls_of(self.plan, meshes), 1)
+        counter = CrossingCounter(walls_of(self.plan, meshes), 100)
         self.crossings = 0
         for (frame,) in simulation.frames():
             if frame.time_code % EVERY == 0:

@@ -33,7 +33,7 @@ class Pair:
         self.scene.touching.assign(np.ones(len(self.scene.bodies), dtype=np.int32))
         self.scene.leading.fill_(LEADING_SPEED)
         self.scene.floating.zero_()
-        self._counter = CrossingCounter(walls_of(planned, simulation.meshes[0]), 1)
+        self._counter = CrossingCounter(walls_of(planned, simulation.meshes[0]), 100)
         self.made = self.scene.x.numpy().copy()
 
     def start(self) -> None:
