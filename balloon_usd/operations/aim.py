@@ -108,8 +108,8 @@ steps:
             if (limb := bench.piece.limb(name)) is None:
                 what = f"no joint is there about which {name} could be turned against its figure"
                 bench.complain(path, f"{what}, expected a bubble that hangs on one joint")
-            elif taken := [each for each in bench.piece.holding() if each.is_left_by(limb.bubbles)]:
-                bench.complain(path, f"{name} {taken[0].would_leave}: expected this step before that one")
+            elif parted := bench.piece.left_by(limb.bubbles):
+                bench.complain(path, f"{name} {parted.would_leave}: expected this step before that one")
 
     def perform(self, score: Score, index: int) -> None:
         """Turn one limb after another."""

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from balloon_usd.language.problem import Path
     from balloon_usd.operations.score import Layout
     from balloon_usd.operations.workbench import Place, Workbench
+    from balloon_usd.operations.workpiece import Workpiece
 
 LONGEST = 1.5
 """Length of the longest tulip, in diameters of its tube: in simulations of a 260 the wall that is turned
@@ -38,15 +39,11 @@ class InvertsBubble(Turned, MakesBubbles):
     def check_first(cls, name: str, path: Path, place: Place, bench: Workbench) -> None:
         """Complain of a bubble that was made just now and is not the first one of its balloon."""
         made = bench.piece.bubbles.get(name)
-        if made is None or made.step != place.index or bench.piece.row(made.balloon)[0] == name:
+        if made is None or made.step != place.index:
             return
-        first = bench.piece.row(made.balloon)[0]
-        if first in bench.piece.popped:
-            what = f"{quoted(made.balloon)} has no knot any more, {quoted(first)} is popped"
-            bench.complain(path, f"{what}: expected this step before that one")
-            return
-        what = f"{quoted(name)} is not the first bubble of {quoted(made.balloon)}, {quoted(first)} is"
-        bench.complain(path, f"{what}: expected the bubble at the knot, which is pressed through it")
+        gone, other = "this step before that one", "the bubble at the knot, which is pressed through it"
+        if fault := fault_at_knot(bench.piece, name, if_gone=gone, if_other=other):
+            bench.complain(path, fault)
 
     def refusals(self, layout: Layout) -> Iterator[tuple[tuple[str, ...], str]]:
         """Yield bubbles that are too short for the knot, or too long to be held taut by what is inside."""
@@ -61,3 +58,17 @@ class InvertsBubble(Turned, MakesBubbles):
                 fault += f", expected {at_most(most)} or less"
             if fault is not None:
                 yield self.path_of(name), fault
+
+
+def fault_at_knot(piece: Workpiece, name: str, *, if_gone: str, if_other: str) -> str:
+    """Say that a bubble is not the first one of its balloon, and what is expected instead, where the knot is
+    gone and where another bubble is there; nothing where it is the first one.
+    """
+    balloon = piece.bubbles[name].balloon
+    first = piece.row(balloon)[0]
+    if first == name:
+        return ""
+    if first in piece.popped:
+        return f"{quoted(balloon)} has no knot any more, {quoted(first)} is popped: expected {if_gone}"
+    what = f"{quoted(name)} is not the first bubble of {quoted(balloon)}, {quoted(first)} is"
+    return f"{what}: expected {if_other}"

@@ -184,8 +184,8 @@ def _faults_of_limb(piece: Workpiece, name: str, between: Sequence[str]) -> Iter
     """Yield why no part of a figure with a bubble, and without some others, hangs on one joint."""
     limb = piece.limb(name, between)
     if limb is not None:
-        if taken := [each for each in piece.holding() if each.is_left_by(limb.bubbles)]:
-            yield "bubble", f"{name} {taken[0].would_leave}: expected this step before that one"
+        if parted := piece.left_by(limb.bubbles):
+            yield "bubble", f"{name} {parted.would_leave}: expected this step before that one"
         return
     limb = piece.limb(name)
     moved = [] if limb is None else [each for each in between if each in limb.bubbles]

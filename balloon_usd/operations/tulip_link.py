@@ -10,7 +10,7 @@ from balloon_usd.language.names import Name
 from balloon_usd.language.problem import quoted
 from balloon_usd.language.quantities import Length, length_entry, written_length
 from balloon_usd.operations.caution import Caution
-from balloon_usd.operations.inverting import INVERT_SECONDS, InvertsBubble
+from balloon_usd.operations.inverting import INVERT_SECONDS, InvertsBubble, fault_at_knot
 from balloon_usd.operations.modifiers import Entries
 from balloon_usd.operations.moves import FaceKnot, PressIn
 
@@ -122,7 +122,7 @@ steps:
             made and over and all(found) and bench.knows((*made, *over))
         ):
             return
-        if fault := next(_faults(bench.piece, made[0], over[0]), ""):
+        if fault := _fault(bench.piece, made[0], over[0]):
             bench.complain((*path, "over"), fault)
         else:
             bench.join(path, [Joint(made[0], "start"), Joint(over[0], "start")], (*made, *over))
@@ -164,18 +164,15 @@ def _names_in(value: object, key: str) -> tuple[str, ...]:
     return (name,) if isinstance(name, str) else ()
 
 
-def _faults(piece: Workpiece, tulip: str, over: str) -> Iterator[str]:
-    """Yield why a bubble cannot be pressed into a tulip."""
-    balloon = piece.bubbles[over].balloon
-    first = piece.row(balloon)[0]
+def _fault(piece: Workpiece, tulip: str, over: str) -> str:
+    """Say why a bubble cannot be pressed into a tulip; nothing where it can."""
+    balloon, knot = piece.bubbles[over].balloon, Joint(over, "start")
     if balloon == piece.bubbles[tulip].balloon:
-        yield f"{quoted(over)} is of {quoted(balloon)} itself, expected the first bubble of another balloon"
-    elif first in piece.popped:
-        yield f"{quoted(balloon)} has no knot any more, {quoted(first)} is popped: expected another balloon"
-    elif over != first:
-        what = f"{quoted(over)} is not the first bubble of {quoted(balloon)}, {quoted(first)} is"
-        yield f"{what}: expected the one at the knot, which goes ahead"
-    elif others := [str(end) for end in piece.joint(Joint(over, "start")) if end != Joint(over, "start")]:
-        yield f"the knot of {quoted(balloon)} is twisted to {others[0]} by now, expected one that is free"
-    elif over in piece.gripped():
-        yield f"{over} is held by others already, expected each bubble once"
+        return f"{quoted(over)} is of {quoted(balloon)} itself, expected the first bubble of another balloon"
+    if fault := fault_at_knot(
+        piece, over, if_gone="another balloon", if_other="the one at the knot, which goes ahead"
+    ):
+        return fault
+    if others := [str(end) for end in piece.joint(knot) if end != knot]:
+        return f"the knot of {quoted(balloon)} is twisted to {others[0]} by now, expected one that is free"
+    return f"{over} is held by others already, expected each bubble once" if over in piece.gripped() else ""

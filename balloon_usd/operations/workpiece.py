@@ -84,8 +84,12 @@ class Contact:
     @property
     def would_leave(self) -> str:
         """What would happen if just one of both were moved, in words."""
-        hold = "holds" if len(self.others) == 1 else "hold"
-        return f"would take {self.bubble} away from {all_of(self.others)}, which {hold} it"
+        return f"would take {self.bubble} away from {all_of(self.others)}, {self.which_hold}"
+
+    @property
+    def which_hold(self) -> str:
+        """That the others hold it, in words that follow their names."""
+        return f"which {'holds' if len(self.others) == 1 else 'hold'} it"
 
     @property
     def text(self) -> str:
@@ -444,6 +448,12 @@ class Workpiece:
         """Return the contacts in which a bubble is held: their ring closed, and no other popped."""
         firm = (each for each in self.contacts if self._popped.isdisjoint(each.others))
         return [each for each in firm if self.is_closed(each.others) or not each.ring]
+
+    def left_by(self, bubbles: Container[str]) -> Contact | None:
+        """Return a contact in which a bubble is held that would be parted from what holds it if some bubbles
+        were moved alone.
+        """
+        return next((each for each in self.holding() if each.is_left_by(bubbles)), None)
 
     def _in_rows(self) -> frozenset[str]:
         """Return the bubbles of rows that lead from a ring back into it, or from others to what they hold."""

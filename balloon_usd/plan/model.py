@@ -16,6 +16,7 @@ from balloon_usd.plan.laid_out import LaidOut
 if TYPE_CHECKING:
     from balloon_usd.operations.caution import Caution
     from balloon_usd.operations.moves import Choreography
+    from balloon_usd.operations.workpiece import Workpiece
     from balloon_usd.plan.budget import Budget
     from balloon_usd.plan.graph import SculptureGraph
     from balloon_usd.plan.holding import LooseJoint
@@ -53,6 +54,11 @@ class Plan:
     def slipping(self) -> frozenset[int]:
         """Indices of the steps of which nothing holds what they joined when the hands let go."""
         return slipping_steps(self.recipe)
+
+    @cached_property
+    def piece_let_go(self) -> Workpiece:
+        """The workpiece when the hands have let go: without what nothing holds."""
+        return self.recipe.piece.after(len(self.recipe.steps), without=self.slipping)
 
     @cached_property
     def budgets(self) -> dict[str, Budget]:

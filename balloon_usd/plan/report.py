@@ -140,12 +140,10 @@ def _graph_lines(plan: Plan) -> Iterator[str]:
     strokes = "one balloon" if graph.one_stroke else f"{graph.fewest_balloons} balloons"
     yield f"{ring_line(graph)}; {strokes} could make it"
     led_in = _led_in(plan)
-    piece = plan.recipe.piece
-    firm = piece.after(len(plan.recipe.steps), without=plan.slipping).holding()
-    for event in piece.history:
+    firm = plan.piece_let_go.holding()
+    for event in plan.recipe.piece.history:
         if isinstance(event, Contact):
-            hold = "holds" if len(event.others) == 1 else "hold"
-            yield f"  step {event.step + 1} {event.text}" + f", which {hold} it" * (event in firm)
+            yield f"  step {event.step + 1} {event.text}" + f", {event.which_hold}" * (event in firm)
         if isinstance(event, Popped):
             does = f"{plan.recipe.steps[event.step].does} {event.bubble}"
             yield f"  step {event.step + 1} {does}{_apart(plan, event)}"

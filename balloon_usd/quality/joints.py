@@ -47,7 +47,7 @@ class PlannedJoint(NamedTuple):
 
 def joints_of(plan: Plan) -> list[PlannedJoint]:
     """Return all joints of a plan, without those that are meant to slip; tips have none."""
-    return _joints(plan, plan.recipe.piece.after(len(plan.recipe.steps), without=plan.slipping))
+    return _joints(plan, plan.piece_let_go)
 
 
 def made_joints(plan: Plan) -> list[PlannedJoint]:

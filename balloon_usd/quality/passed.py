@@ -55,9 +55,9 @@ class PassedBubbles:
     def __init__(self, plan: Plan, meshes: Sequence[BalloonMesh]) -> None:
         """Find out what to look at; one mesh a balloon, in the order of `Plan.strips`."""
         self._fps = plan.recipe.fps
-        piece = plan.recipe.piece
-        holding = piece.after(len(plan.recipe.steps), without=plan.slipping).holding()
-        rings = {(each.step, each.bubble): each.others for each in holding if each.bubble not in piece.popped}
+        popped = plan.recipe.piece.popped
+        holding = (each for each in plan.piece_let_go.holding() if each.bubble not in popped)
+        rings = {(each.step, each.bubble): each.others for each in holding}
         self._followed: list[_Followed] = []
         for move in plan.choreography.moves:
             if not isinstance(move, (PassThrough, Tuck, Wrap)):

@@ -9,6 +9,8 @@ from balloon_usd.balloon.air import ATMOSPHERE
 from balloon_usd.operations.tulip_link import TulipLink
 from balloon_usd.plan import plan
 from balloon_usd.quality.crossing_counter import CrossingCounter
+from balloon_usd.quality.ring_corners import RingCorners
+from balloon_usd.quality.wall_rings import WallRings
 from balloon_usd.quality.walls import walls_of
 from balloon_usd.recipe import Recipe
 from balloon_usd.solver.simulation import simulate_many
@@ -30,13 +32,13 @@ class Linked:
         self.plan = plan(Recipe.parse(text))
         simulation = simulate_many([self.plan], device="cpu")
         (meshes,) = simulation.meshes
-        self._meshes = dict(zip(self.plan.strips, meshes, strict=True))
+        self._meshes = meshes
         counter = CrossingCounter(walls_of(self.plan, meshes), 100)
         self.crossings = 0
         for (frame,) in simulation.frames():
             if frame.time_code % EVERY == 0:
                 self.crossings += counter.count(frame.points).count
-        self.points = dict(zip(self.plan.strips, frame.points, strict=True))
+        self._frame = frame
         names = [bubble.name for bubble in self.plan.bubbles]
         self.pressure = dict(zip(names, frame.pressure.astype(float), strict=True))
         gas = (ATMOSPHERE + frame.pressure.astype(float)) * frame.volume
@@ -45,20 +47,15 @@ class Linked:
     def walls(self, bubble):
         """Vertices of the rings between the ends of a bubble, (N, 3), m."""
         one = next(each for each in self.plan.bubbles if each.name == bubble)
-        mesh = self._meshes[one.balloon]
-        rings = mesh.rings_between(one.rest_start, one.rest_end)
-        first = int(mesh.ring_start[rings[0]])
-        return self.points[one.balloon][first : int(mesh.ring_start[rings[-1]]) + mesh.around].astype(float)
+        return WallRings.of(self.plan, self._meshes, one).corners(self._frame).reshape(-1, 3)
 
     def middle(self, bubble):
         return self.walls(bubble).mean(axis=0)
 
     def joint(self, ring):
         """Middle of a ring of the plan, by its name, (3,), m."""
-        ring = next(each for each in self.plan.table.rings if each.name == ring)
-        mesh = self._meshes[ring.balloon]
-        first = int(mesh.ring_start[mesh.ring_at(ring.along)])
-        return self.points[ring.balloon][first : first + mesh.around].mean(axis=0, dtype=float)
+        at = next(k for k, each in enumerate(self.plan.table.rings) if each.name == ring)
+        return RingCorners.of(self.plan, self._meshes, at).places(self._frame).mean(axis=0)
 
     @property
     def onward(self):
