@@ -8,7 +8,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from balloon_usd.operations.disjoint_sets import DisjointSets, roots_of
-from balloon_usd.operations.moves import Bring, Gather, LeadIn, Move, Pinch, SetNet, Weld
+from balloon_usd.operations.moves import Bring, Gather, Halve, LeadIn, Move, Pinch, SetNet, Weld
 from balloon_usd.operations.score import SETTLE_SECONDS
 
 if TYPE_CHECKING:
@@ -144,6 +144,9 @@ class _Made:
         """Take note of what a move makes."""
         if isinstance(move, Pinch):
             self._closed.append(move.ring)
+        elif isinstance(move, Halve):
+            # What is left of the balloon stays beyond the ring that was closed last.
+            self._closed.insert(-1, move.ring)
         elif isinstance(move, Weld):
             self._welded.update(move.rings)
             self._welds.append(move.rings)

@@ -9,7 +9,7 @@ import networkx as nx
 import numpy as np
 import pytest
 
-from balloon_usd.operations.moves import Bring, Gather, LetGo, Loosen, SetNet, Weld
+from balloon_usd.operations.moves import Bring, Gather, LetGo, Loosen, Move, SetNet, Weld
 from balloon_usd.plan import plan
 from balloon_usd.plan.nets import embed, nets_of
 from balloon_usd.plan.setting_nets import SETTING_SPEED
@@ -147,6 +147,13 @@ def test_what_is_brought_to_a_net_is_carried_as_a_whole():
     assert [move.carried for move in made if isinstance(move, Bring)] == [True, True]
     alone = planned("book/scissors_bt.yaml").choreography.moves
     assert [move.carried for move in alone if isinstance(move, Bring)] == [False]
+
+
+def test_a_split_ear_is_brought_to_a_net_by_the_joint_between_its_halves():
+    split = "  - split: {g: 4, h: 4}\n    balloon: red\n  - lock: {joints: [e.end, g.end]}\n"
+    made = plan(Recipe.parse(RING + split))
+    locked = [move for move in made.choreography.moves if move.step == len(made.recipe.steps) - 1]
+    assert [type(move) for move in locked] == [SetNet, Weld, Move, LetGo]
 
 
 def test_a_wide_net_is_set_in_more_time_and_what_follows_waits():
