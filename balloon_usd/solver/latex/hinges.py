@@ -15,15 +15,13 @@ from balloon_usd.solver.latex.spins import VertexSet
 from balloon_usd.solver.rotations import NO_ANGLE, cross, rotation, rotation_vector
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
 
     from balloon_usd.solver.latex.controls import LatexControls
     from balloon_usd.solver.latex.scene import LatexScene
 
 Floats = NDArray[np.float64]
 
-CLEAR = 1e-6
-"""What lies farther than this beyond a joint turns with what lies beyond it, m."""
 DIRECTIONS = np.array([way for way in product((-1.0, 0.0, 1.0), repeat=3) if any(way)])
 """In which the vertices of a part are looked for that may be the fastest, (26, 3): others are faster by 8 %
 at most.
@@ -191,29 +189,23 @@ class HingedFigure:
     def __init__(
         self,
         scene: LatexScene,
-        beyond: Sequence[Mapping[int, float]],
+        vertices: NDArray[np.int64],
+        beyond: NDArray[np.bool_],
         joints: Sequence[int],
         segments: NDArray[np.int32],
     ) -> None:
-        """Part some bodies.
+        """Part some vertices.
 
         Args:
             scene: where they are.
-            beyond: for every hinge the place along each body, unstressed distance from the knot, beyond which
-                it turns with what lies beyond (m); infinite where all of it lies on one side.
+            vertices: of the scene, (V,).
+            beyond: whether every one of them turns with what lies beyond each hinge, (H, V).
             joints: of the hinges, in the scene.
             segments: before and beyond each hinge, (H, 2).
         """
         self._joints, self._segments = joints, segments
-        self._vertices = np.r_[tuple(map(scene.vertices_of, beyond[0]))]
+        self._vertices, self._beyond = vertices, beyond
         mass = scene.mass.numpy()[self._vertices].astype(float)
-        self._beyond = np.stack(
-            [
-                np.concatenate([scene.bodies[b].along > places[b] + CLEAR for b in beyond[0]])
-                for places in beyond
-            ]
-        )
-        """Whether every vertex lies beyond each hinge, (H, V)."""
         self._segment = scene.vertex_segment.numpy()[self._vertices]
         inside = np.unique(self._segment[self._segment >= 0])
         gas = AIR_DENSITY * float(scene.volume.numpy()[inside].sum())

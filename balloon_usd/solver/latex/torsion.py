@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from balloon_usd.operations.moves import Weld
+from balloon_usd.solver.latex.turning_with import turning_with
 from balloon_usd.solver.latex.unwinding import LooseNeck, Unwinding
 from balloon_usd.solver.latex.wound_joint import CLOSED_ANGLE, WoundJoint
 
@@ -93,21 +94,25 @@ class Torsion:
 
     def _loosened(self, figure: frozenset[str], joints: Sequence[LooseJoint]) -> Unwinding:
         """Return what unwinds of a figure, all bubbles that hang together."""
-        loose, beyond = [], []
+        loose = []
         for joint in joints:
             ring = self.plan.table.joint(joint.end)
             assert ring is not None, "two bubbles meet in a loose joint"
             self.joints[ring].held = False
-            own, along = self.plan.table.rings[ring].balloon, self.plan.table.rings[ring].along
             loose.append(LooseNeck(str(joint.end), self._ring[ring], self.joints[ring]))
-            # Every other balloon lies wholly on one side.
-            sides = {
-                name: -math.inf if strip.bubbles[0].name in joint.beyond else math.inf
-                for name, strip in self.plan.strips.items()
-                if strip.bubbles[0].name in figure
-            }
-            beyond.append({self._body[name]: at for name, at in (sides | {own: along}).items()})
-        return Unwinding(self.scene, self.hands, loose, beyond)
+        vertices, bubble = self._turning(figure)
+        beyond = np.stack([np.isin(bubble, sorted(joint.beyond)) for joint in joints])
+        return Unwinding(self.scene, self.hands, loose, vertices, beyond)
+
+    def _turning(self, figure: frozenset[str]) -> tuple[NDArray[np.int64], NDArray[np.str_]]:
+        """Return the vertices of the scene that turn with any bubble of a figure, and with which, (V,)."""
+        vertices, bubbles = [], []
+        for name, body in self._body.items():
+            bubble = turning_with(self.plan, name, self.scene.bodies[body].along)
+            own = np.flatnonzero(np.isin(bubble, sorted(figure)))
+            vertices.append(own + self.scene.vertices_of(body).start)
+            bubbles.append(bubble[own])
+        return np.concatenate(vertices), np.concatenate(bubbles)
 
     def unwind(self, seconds: float, middle: Floats) -> None:
         """Let all loose joints unwind in the coming frame; `middle`: of all joints, (J, 3), m."""

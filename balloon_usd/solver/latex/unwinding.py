@@ -18,7 +18,7 @@ from balloon_usd.solver.latex.hinges import HingedFigure, Limits
 from balloon_usd.solver.latex.wound_joint import CLOSED_ANGLE
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
 
     from balloon_usd.solver.latex.controls import LatexControls
     from balloon_usd.solver.latex.hinges import HingedParts
@@ -73,16 +73,17 @@ class Unwinding:
         scene: LatexScene,
         hands: LatexControls,
         necks: Sequence[LooseNeck],
-        beyond: Sequence[Mapping[int, float]],
+        vertices: NDArray[np.int64],
+        beyond: NDArray[np.bool_],
     ) -> None:
-        """Begin at rest; `beyond`: of every neck, as of `HingedFigure`."""
+        """Begin at rest; `vertices`, `beyond`: of every neck, as of `HingedFigure`."""
         self._hands = hands
         self._drag = scene.settings.drag
         self._all = tuple(necks)
         self._opened: dict[LooseNeck, float] = {}
         """Necks that have opened, and how long ago, s."""
         joints = [neck.joint for neck in necks]
-        self._figure = HingedFigure(scene, beyond, joints, hands.beside[joints])
+        self._figure = HingedFigure(scene, vertices, beyond, joints, hands.beside[joints])
 
     @property
     def necks(self) -> list[LooseNeck]:
