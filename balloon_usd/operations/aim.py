@@ -16,6 +16,7 @@ from balloon_usd.operations import moves
 from balloon_usd.operations.modifiers import OnBalloon, Timed
 from balloon_usd.operations.moves import FRONTS, Front
 from balloon_usd.operations.operation import WorksByBubble
+from balloon_usd.operations.reach import SECONDS_PER_METRE, limb_reach
 from balloon_usd.operations.score import SETTLE_SECONDS
 
 if TYPE_CHECKING:
@@ -27,8 +28,6 @@ if TYPE_CHECKING:
 
 AIM_SECONDS = 1.2
 """Shortest time in which a limb is turned, s."""
-SECONDS_PER_METRE = 3.0
-"""Time that it takes for each metre of its length, s/m: its end stays below 1.6 m/s in half a turn."""
 
 SIDES: tuple[Front, ...] = get_args(Front)
 
@@ -113,8 +112,9 @@ steps:
 
     def perform(self, score: Score, index: int) -> None:
         """Turn one limb after another."""
-        lengths = {name: score.layout.bubble(name).length for name in self.aim}
-        calm = {name: max(AIM_SECONDS, SECONDS_PER_METRE * length) for name, length in lengths.items()}
+        calm = {
+            name: max(AIM_SECONDS, SECONDS_PER_METRE * limb_reach(score, name, index)) for name in self.aim
+        }
         waits = SETTLE_SECONDS * len(calm)
         score.refuse_haste(index, self.seconds, sum(calm.values()) + waits, f"turn {all_of(self.names)}")
         for bubble, way in self.aim.items():

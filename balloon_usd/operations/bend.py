@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from pydantic import Field
 
+from balloon_usd.language.choices import all_of
 from balloon_usd.language.lengths import at_least, cm
 from balloon_usd.language.names import Name
 from balloon_usd.language.quantities import Angle, angle_entry
@@ -15,6 +16,7 @@ from balloon_usd.operations.closing import LENIENCE, ROUND
 from balloon_usd.operations.curving import Curves
 from balloon_usd.operations.loop import SHORTEST
 from balloon_usd.operations.moves import Bend as BendMove
+from balloon_usd.operations.reach import SECONDS_PER_METRE, swung_reach
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -92,13 +94,20 @@ must_hold: planned
     def perform(self, score: Score, index: int) -> None:
         """Lead each bubble onto an arc."""
         point = score.towards(self.point or "up")
+        calm = {bubble: self._calm_seconds(bubble, score, index) for bubble in self.bend}
+        score.refuse_haste(index, self.seconds, sum(calm.values()), f"bend {all_of(self.names)}")
         for bubble, angle in self.bend.items():
             rings, flat = self.rings_along(score.layout, bubble)
-            seconds = BEND_SECONDS / score.pace.leading
+            seconds = calm[bubble] / score.pace.leading
             again = any(isinstance(move, BendMove) and move.rings == rings for move in score.moves)
             move = BendMove(score.now, seconds, index, f"bend: {bubble}", rings, point, flat, again, angle)
             score.add(move)
             score.let_go(index)
+
+    def _calm_seconds(self, bubble: str, score: Score, index: int) -> float:
+        """Return how long a calm maker takes to bend a bubble, with what hangs on it, s."""
+        half_turns = self.bend[bubble] / math.pi
+        return max(BEND_SECONDS, half_turns * SECONDS_PER_METRE * swung_reach(score, bubble, index))
 
 
 def _degrees(angle: float) -> str:

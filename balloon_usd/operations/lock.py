@@ -106,7 +106,8 @@ steps:
 
     def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:
         """Warn of a pair of unequal length, and of a direction that nothing can take."""
-        if self.point is not None and len({layout.bubble(end.bubble).balloon for end in self.ends}) > 1:
+        balloons = [layout.bubble(end.bubble).balloon for end in self.ends]
+        if self.point is not None and 1 < len(balloons) == len(set(balloons)):
             yield Caution(
                 index,
                 f"point: {self.point} changes nothing",

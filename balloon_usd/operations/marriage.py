@@ -98,6 +98,8 @@ steps:
             bench.complain(path, f"{', '.join(others)} are no row, expected bubbles that follow each other")
         elif names[0] in row:
             bench.complain(path, f"{others[0]} is of the same balloon, expected bubbles of another")
+        elif gone := [name for name in others if name in bench.piece.popped]:
+            bench.complain(path, f"{gone[0]} is popped, expected bubbles that have their gas")
         elif closing := [name for name in others if bench.piece.is_closed([name])]:
             bench.complain(path, f"{closing[0]} closes on itself, expected bubbles with two ends apart")
         elif len(others) != len(names):

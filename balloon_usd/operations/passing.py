@@ -105,10 +105,10 @@ class Passing(OnBalloon, Pointed, Timed, Operation):
         if len(names) < 2 or not all(found) or not set(names) <= piece.bubbles.keys():
             return
         fault = next(cls._faults(piece, names[0], names[1:]), None)
-        if fault is None and cls.fits(names[0], (*path, "bubble"), bench):
-            bench.piece.touch(place.index, cls.word, names[0], names[1:])
-        elif fault is not None:
+        if fault is not None:
             bench.complain(path, fault)
+        elif bench.is_open(names[1:], path) and cls.fits(names[0], (*path, "bubble"), bench):
+            bench.piece.touch(place.index, cls.word, names[0], names[1:])
 
     @classmethod
     def piece_with(cls, name: str, place: Place, bench: Workbench) -> Workpiece:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
-from itertools import chain, product
+from itertools import chain, pairwise, product
 from typing import TYPE_CHECKING, NoReturn, Protocol
 
 from balloon_usd.language.problem import RecipeError
 from balloon_usd.operations.disjoint_sets import DisjointSets
+from balloon_usd.operations.distances import distances
 from balloon_usd.operations.moves import (
     ACROSS,
     POINTS,
@@ -36,6 +37,7 @@ if TYPE_CHECKING:
     from balloon_usd.language.joint import Joint
     from balloon_usd.language.problem import Path, Problem
     from balloon_usd.operations.modifiers import Point
+    from balloon_usd.operations.workpiece import Workpiece
 
 STROKE_SECONDS = 0.7
 """A stroke of a hand pump, there and back, s."""
@@ -59,6 +61,8 @@ LEAST_TURNED = 0.8
 """Length of the shortest bubble of a fold that hands turn, in widths of its tube; of a fold of one, twice."""
 BRING_SECONDS = 1.5
 """Bringing a joint to one of another balloon, s."""
+BRING_SPEED = 0.5
+"""Mean speed of a hand that does so from far off, m/s: 0.9 at most."""
 HASTE = 0.5
 """Share of the time that a maker takes below which walls would be torn past others."""
 LEADING_IN_SPEED = 0.3
@@ -158,6 +162,9 @@ class Layout(Protocol):
     def length(self, balloon: str) -> float:
         """Return how long a balloon is when it is blown up and twisted, and straight, m."""
 
+    def joints_of(self, balloon: str) -> Sequence[int]:
+        """Return the rings of a balloon that can be closed, from its knot on."""
+
     def pump_seconds(self, balloon: str) -> float:
         """Return how long a maker takes to blow a balloon up, s."""
 
@@ -181,6 +188,8 @@ class Score:
     layout: Layout
     problem: Callable[[Path, str], Problem]
     """Makes a problem at its place in the recipe."""
+    piece: Workpiece
+    """What the recipe makes, and how it comes about."""
     blown_up: bool
     """Whether balloons start blown up and joints freeze instead of being wound, as in model kosaka."""
     pace: Pace = PACES["calm"]
@@ -299,14 +308,35 @@ class Score:
             self.gather(*self._nearest(first, last), point, text, index)
             return
         ring, to = self.lead_in(first, last, index)
-        seconds = max(BRING_SECONDS, far / HAND_SPEED) / self.pace.leading
+        seconds = max(BRING_SECONDS, far / HAND_SPEED, self._way(ring, to) / BRING_SPEED) / self.pace.leading
         self.add(Bring(self.now, seconds, index, text, ring=ring, to=to))
 
     def longest_with(self, balloon: str) -> float:
         """Return how long the longest balloon is of those that are joined to one so far, and itself, m."""
-        blown = {move.balloon for move in self.moves if isinstance(move, Inflate)}
+        return max(map(self.layout.length, self._with(balloon)))
+
+    def _with(self, balloon: str) -> list[str]:
+        """Return the balloons that are joined to one so far, and itself."""
+        blown = dict.fromkeys(move.balloon for move in self.moves if isinstance(move, Inflate))
         piece = self.pieces.root(balloon)
-        return max(self.layout.length(each) for each in blown if self.pieces.root(each) == piece)
+        return [each for each in blown if self.pieces.root(each) == piece]
+
+    def _way(self, ring: int, to: int) -> float:
+        """Return how far two joints of a figure lie from each other along its bubbles, m; 0 where they have
+        just been led to each other.
+        """
+        if any(isinstance(move, LeadIn) and {move.ring, move.to} == {ring, to} for move in self.moves[-1:]):
+            return 0.0
+        sides = [
+            (
+                self.joints.root(one),
+                self.joints.root(other),
+                self.layout.place(other)[0] - self.layout.place(one)[0],
+            )
+            for balloon in self._with(self.layout.ring(ring).balloon)
+            for one, other in pairwise(self.layout.joints_of(balloon))
+        ]
+        return distances(sides, self.joints.root(ring)).get(self.joints.root(to), 0.0)
 
     def lead_in(self, first: int, last: int, index: int) -> tuple[int, int]:
         """Lead in what lies aside with one of two rings of different balloons, unless they hang together;

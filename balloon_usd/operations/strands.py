@@ -62,8 +62,11 @@ class OfStrands(Timed, Operation):
             return
         if len(set(names)) < len(names):
             bench.complain(path, "names a bubble twice, expected each once")
-        else:
-            cls.take(names, path, bench)
+            return
+        known = len(bench.complaints)
+        cls.take(names, path, bench)
+        if len(bench.complaints) == known:
+            bench.wind(names, path)
 
     @classmethod
     def take(cls, names: Sequence[str], path: Path, bench: Workbench) -> None:

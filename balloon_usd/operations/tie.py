@@ -120,7 +120,9 @@ def _is_end(end: Joint, path: Path, bench: Workbench) -> bool:
         return bench.close_tip(end.bubble, path)
     if end.end == "start" and bench.piece.row(made.balloon)[0] == end.bubble:
         return True
-    ends = f"{bench.piece.row(made.balloon)[0]}.start, or the end of what a step rest names"
+    first = bench.piece.row(made.balloon)[0]
+    start = "" if first in bench.piece.popped else f"{first}.start, or "
+    ends = f"{start}the end of what a step rest names"
     what = f"{end} is no end of balloon {made.balloon}, expected {ends}; other joints are locked"
     bench.complain(path, f"{what}: lock: {{joints: [...]}}")
     return False

@@ -14,6 +14,7 @@ from balloon_usd.operations.caution import Caution
 from balloon_usd.operations.modifiers import Entries, Pointed, Timed
 from balloon_usd.operations.operation import Operation
 from balloon_usd.operations.passing import names_in, without_hole
+from balloon_usd.operations.reach import SECONDS_PER_METRE, limb_reach
 from balloon_usd.operations.score import HAND_SPEED, SETTLE_SECONDS
 from balloon_usd.operations.workpiece import ContactKind
 
@@ -116,7 +117,7 @@ steps:
         at, fault = next(_faults(bench.piece, names[0], names[1:]), ("", ""))
         if fault:
             bench.complain((*path, at), fault)
-        else:
+        elif bench.is_open(names[1:], (*path, "between")):
             bench.piece.touch(place.index, cls.word, names[0], names[1:])
 
     def refusals(self, layout: Layout) -> Iterator[tuple[tuple[str, ...], str]]:
@@ -140,7 +141,8 @@ steps:
     def perform(self, score: Score, index: int) -> None:
         """Spread the others, bring it over them and in, and let them close on it."""
         bubble, *between = (score.layout.bubble(name) for name in self.names)
-        calm = max(LEAST_SECONDS, WAY * bubble.length / HAND_SPEED)
+        turned = 2.0 * SECONDS_PER_METRE * limb_reach(score, self.tuck.bubble, index, self.tuck.between)
+        calm = max(LEAST_SECONDS, WAY * bubble.length / HAND_SPEED, turned)
         doing = f"set {self.tuck.bubble} between {all_of(self.tuck.between)}"
         score.refuse_haste(index, self.seconds, calm + SETTLE_SECONDS, doing)
         move = moves.Tuck(

@@ -68,6 +68,8 @@ class Workbench:
         self._cut_at: dict[str, Path] = {}
         self._tipped_at: dict[str, Path] = {}
         self._curved_at: dict[str, tuple[str, Path]] = {}
+        self._wound_at: dict[str, Path] = {}
+        """Where bubbles were wound or plaited."""
         self._ended: dict[str, Path] = {}
         self._tied_at: dict[str, Path] = {}
         """Where the tip behind a rest was tied."""
@@ -253,6 +255,23 @@ class Workbench:
             self.complain(path, f"bubble {quoted(name)} was curved at {path_text(at)}, expected {expected}")
         self._curved_at.setdefault(name, (word, path))
 
+    def wind(self, names: Sequence[str], path: Path) -> None:
+        """Lead bubbles about each other, which hold none and are held by none."""
+        for contact in self.piece.holding():
+            if contact.kind != "wrap" and not {contact.bubble, *contact.others}.isdisjoint(names):
+                what = f"step {contact.step + 1} {contact.text}, {contact.which_hold}"
+                self.complain(path, f"{what}: expected bubbles between which nothing lies")
+                return
+        self._wound_at |= dict.fromkeys(names, path)
+
+    def is_open(self, ring: Iterable[str], path: Path) -> bool:
+        """Say whether anything goes between some bubbles; complain if they are wound about each other."""
+        wound = next((name for name in ring if name in self._wound_at), None)
+        if wound is not None:
+            what = f"{wound} is wound or plaited at {path_text(self._wound_at[wound])}"
+            self.complain(path, f"{what}, expected bubbles with room between them")
+        return wound is None
+
     def close_tip(self, name: str, path: Path) -> bool:
         """Let what is left of a balloon end in a joint, once; say whether it can."""
         if name in self._tipped_at:
@@ -261,6 +280,9 @@ class Workbench:
         elif name in self._tied_at:
             at = path_text(self._tied_at[name])
             self.complain(path, f"the tip of {quoted(name)} was tied at {at}, expected each tip once")
+        elif self.piece.is_merged([Joint(name, "end")]):
+            what = f"{name}.end is joined to others before its tip is closed"
+            self.complain(path, f"{what}, expected this step before that one")
         elif any((each.kind, each.bubble) == ("thread", name) for each in self.piece.contacts):
             what = f"bubble {quoted(name)} is threaded through a ring, of which it would be pulled out"
             self.complain(path, f"{what}, expected thread or tie alone")

@@ -73,13 +73,10 @@ class Contact:
     """Whether these formed one closed ring then, without which nothing holds it."""
 
     def is_left_by(self, bubbles: Container[str]) -> bool:
-        """Whether what was set between others or into a tulip, or one of these, comes along with some bubbles
-        alone.
+        """Whether what others hold, or one of these, comes along with some bubbles alone: what is wrapped
+        round a neck comes along with it.
         """
-        return (
-            self.kind in ("tuck", "tulip_link")
-            and len({each in bubbles for each in (self.bubble, *self.others)}) > 1
-        )
+        return self.kind != "wrap" and len({each in bubbles for each in (self.bubble, *self.others)}) > 1
 
     @property
     def would_leave(self) -> str:

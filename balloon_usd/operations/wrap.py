@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, ClassVar, Literal
 
-from balloon_usd.language.joint import JointEntry, ends_of, joint
+from balloon_usd.language.joint import Joint, JointEntry, ends_of, joint
 from balloon_usd.language.lengths import at_least, cm
 from balloon_usd.language.names import Name
 from balloon_usd.operations import moves
@@ -118,6 +118,9 @@ steps:
             bench.complain((*path, "bubble"), f"{bubble} is closed already, expected push")
         elif behind in bench.piece.gripped():
             bench.complain(path, f"{behind} is held by others already, expected each bubble once")
+        elif more := _hangs_besides(bench.piece, bubble, behind):
+            what = f"{more} hangs on {bubble}.end, too, expected nothing but a row there"
+            bench.complain((*path, "bubble"), what)
         elif joint(value["neck"]).end != "start" or not _row_between(bench.piece, bubble, behind):
             what = f"{value['neck']} does not hang on {bubble}.end by a row of bubbles alone"
             bench.complain((*path, "neck"), f"{what}, expected the start of a bubble farther behind it")
@@ -201,6 +204,13 @@ steps:
         )
         score.add(move)
         score.weld((start, end), self.turns, text, index)
+
+
+def _hangs_besides(piece: Workpiece, bubble: str, behind: str) -> str | None:
+    """Return what hangs on the end of a bubble besides the row to the start of another, if anything does."""
+    row = piece.row(piece.bubbles[bubble].balloon)
+    own = row[row.index(bubble) : row.index(behind)] if behind in row else row
+    return next((end.bubble for end in piece.joint(Joint(bubble, "end")) if end.bubble not in own), None)
 
 
 def _row_between(piece: Workpiece, bubble: str, behind: str) -> tuple[str, ...]:

@@ -58,7 +58,9 @@ def choreograph(recipe: Recipe, strips: Mapping[str, Strip], table: RingTable) -
     """
     blown_up = recipe.physics.traits.starts_blown_up
     mirrored = _points_right(recipe)
-    score = Score(LaidOut(strips, table), recipe.problem, blown_up, PACES[recipe.tempo], mirrored)
+    score = Score(
+        LaidOut(strips, table), recipe.problem, recipe.piece, blown_up, PACES[recipe.tempo], mirrored
+    )
     if score.blown_up:
         score.add(Move(0.0, SPREAD_SECONDS, -1, "air spreads"))
     elif balloons := _of_the_beginning(recipe):

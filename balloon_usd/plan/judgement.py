@@ -17,7 +17,7 @@ from balloon_usd.plan.bent_chains import bends_onto_others
 from balloon_usd.plan.holding import too_slippery
 from balloon_usd.plan.long_sides import long_sides
 from balloon_usd.plan.open_tube import MILLIMETRE, roomy_share, shortened, softened, tail_range
-from balloon_usd.plan.released import released
+from balloon_usd.plan.released import divided, leaking, released
 from balloon_usd.plan.room import room_cautions
 from balloon_usd.plan.wall_load import wall_loads
 from balloon_usd.recipe.held_words import EVERY, MUST_HOLD, PLANNED
@@ -57,6 +57,8 @@ def cautions_of(
         long_sides(strips, graph),
         bends_onto_others(recipe, strips, graph),
         released(recipe.piece),
+        divided(recipe.piece),
+        leaking(recipe),
         _loose_pieces(recipe, strips),
         _bulging(strips),
     )

@@ -11,7 +11,7 @@ from balloon_usd.plan.nesting import BRINGING_SPEED, hosts_of
 from balloon_usd.plan.parking import parked
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from balloon_usd.language.joint import Joint
     from balloon_usd.plan.rings import PlannedRing, RingTable
@@ -37,7 +37,8 @@ class _Placed:
 
     @property
     def hollow(self) -> bool:
-        return self.planned.kind in BY_KIND and BY_KIND[self.planned.kind].hollow
+        maker = BY_KIND.get(self.planned.kind)
+        return maker is None or maker.hollow or not maker.closes
 
     @property
     def length(self) -> float:
@@ -78,6 +79,10 @@ class LaidOut:
     def __init__(self, strips: Mapping[str, Strip], table: RingTable) -> None:
         self._table, self._strips = table, strips
         self._parked = parked(strips)
+        self._joints: dict[str, list[int]] = {name: [] for name in strips}
+        for number, ring in enumerate(table.rings):
+            if ring.joint:
+                self._joints[ring.balloon].append(number)
         self._bubbles = {b.name: _Placed(strip, b) for strip in strips.values() for b in strip.bubbles}
 
     def ring(self, index: int) -> PlannedRing:
@@ -110,6 +115,10 @@ class LaidOut:
         """Return how long a balloon is when it is blown up and twisted, and straight, m."""
         bubbles = self._strips[balloon].bubbles
         return bubbles[-1].end - bubbles[0].start
+
+    def joints_of(self, balloon: str) -> Sequence[int]:
+        """Return the rings of a balloon that can be closed, from its knot on."""
+        return self._joints[balloon]
 
     def pump_seconds(self, balloon: str) -> float:
         """Return how long a maker takes to blow a balloon up, s."""

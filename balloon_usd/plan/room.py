@@ -24,9 +24,13 @@ if TYPE_CHECKING:
 
     from balloon_usd.language.joint import Joint
     from balloon_usd.language.problem import Problem
+    from balloon_usd.operations.workpiece import Workpiece
     from balloon_usd.plan.graph import SculptureGraph
     from balloon_usd.plan.strip import PlannedBubble, Strip
     from balloon_usd.recipe import Recipe
+
+    OnStrips = Mapping[str, tuple[PlannedBubble, Strip]]
+    """Bubbles and their balloons, by name."""
 
 MOST_DRAWN = 1.7
 """Reach to which bubbles can be drawn out, in their own: a wall that is 4.1 times as long as it was flat
@@ -77,25 +81,30 @@ def _crowds(recipe: Recipe, strips: Mapping[str, Strip], drawn: float) -> Iterat
     finished = sculpture_graph(recipe.piece)
     joined = sorted({event.step for event in recipe.piece.history if isinstance(event, Joined)})
     for joint in finished.joints:
-        if _crowd(joint.ends[0], finished, bubbles, drawn) is None:
+        if _crowd(joint.ends[0], finished, _with_gas(bubbles, recipe.piece), drawn) is None:
             continue
         for step in joined:
-            graph = sculpture_graph(recipe.piece.after(step))
+            piece = recipe.piece.after(step)
+            graph = sculpture_graph(piece)
             made = [end for end in joint.ends if any(edge.bubble == end.bubble for edge in graph.edges)]
-            crowd = _crowd(made[0], graph, bubbles, drawn) if made else None
+            crowd = _crowd(made[0], graph, _with_gas(bubbles, piece), drawn) if made else None
             if crowd is not None:
                 yield step, crowd
                 break
 
 
-def _crowd(
-    at: Joint, graph: SculptureGraph, bubbles: Mapping[str, tuple[PlannedBubble, Strip]], drawn: float
-) -> Crowd | None:
+def _with_gas(bubbles: OnStrips, piece: Workpiece) -> OnStrips:
+    """Return the bubbles that have not been popped."""
+    return {name: each for name, each in bubbles.items() if name not in piece.popped}
+
+
+def _crowd(at: Joint, graph: SculptureGraph, bubbles: OnStrips, drawn: float) -> Crowd | None:
     """Return what is too much about the joint with this bubble end; None where all has room."""
     joint = graph.joint_of(at)
     met = [
         (_reach(*bubbles[edge.bubble], closed=edge.start == edge.end), bubbles[edge.bubble][0])
         for edge in graph.edges_at(joint.index)
+        if edge.bubble in bubbles
     ]
     met.sort(key=lambda each: each[0])
     room = [4.0 / 3.0 * math.pi * (drawn * reach) ** 3 for reach, _ in met]

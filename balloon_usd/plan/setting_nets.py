@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from balloon_usd.operations.disjoint_sets import DisjointSets, roots_of
 from balloon_usd.operations.moves import Bring, Gather, Halve, LeadIn, Move, Pinch, SetNet, Weld
-from balloon_usd.operations.score import SETTLE_SECONDS
+from balloon_usd.operations.score import BRING_SECONDS, SETTLE_SECONDS
 
 if TYPE_CHECKING:
     from collections.abc import Container, Iterable, Sequence
@@ -40,7 +40,7 @@ def set_nets(
     if not nets:
         return
     moves = _in_place_of_closing(score.moves, nets, table)
-    score.moves[:] = _with_time(moves, SETTING_SPEED * score.pace.leading, timed)
+    score.moves[:] = _with_time(score.moves, moves, score.pace.leading, timed)
     score.now += score.moves[-1].start - moves[-1].start
     for net in nets:
         setting = _setting(net, tuple(sorted(net.places)), Move(score.now, 0.0, step, "set the net"))
@@ -48,19 +48,23 @@ def set_nets(
         score.add(Move(score.now, SETTLE_SECONDS, step, "set the net"))
 
 
-def _with_time(moves: Iterable[Move], speed: float, timed: Container[int]) -> list[Move]:
-    """Return the moves with the time that setting wide nets takes; what follows begins later.
+def _with_time(
+    written: Iterable[Move], moves: Iterable[Move], leading: float, timed: Container[int]
+) -> list[Move]:
+    """Return the moves with the time that setting nets takes; what follows begins later, or sooner.
 
-    `speed`: reach of a net over the least time in which it is set, m/s.
+    `written`: the same moves as they were; `leading`: how many times as fast as a calm maker hands lead.
     """
     found: list[Move] = []
     later = 0.0
-    for move in moves:
-        longer = 0.0
+    for before, move in zip(written, moves, strict=True):
+        seconds = move.seconds
         if isinstance(move, SetNet) and move.step not in timed:
-            longer = max(_reach(move) / speed - move.seconds, 0.0)
-        found.append(replace(move, start=move.start + later, seconds=move.seconds + longer))
-        later += longer
+            # Joints of a net are nearer to each other than along its bubbles.
+            least = min(seconds, BRING_SECONDS / leading) if isinstance(before, Bring) else seconds
+            seconds = max(least, _reach(move) / (SETTING_SPEED * leading))
+        found.append(replace(move, start=move.start + later, seconds=seconds))
+        later += seconds - move.seconds
     return found
 
 

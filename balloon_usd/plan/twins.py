@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections import defaultdict
+from typing import TYPE_CHECKING, TypeAlias
 
+from balloon_usd.operations.aim import Aim
+from balloon_usd.operations.curving import Curves
 from balloon_usd.operations.moves import OTHER_SIDE
+from balloon_usd.operations.reach import swung_with
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from balloon_usd.plan.strip import PlannedBubble, Strip
     from balloon_usd.recipe import Recipe
 
 LEFT, RIGHT = "left_", "right_"
+OPPOSITE = (("left", "right"), ("up", "down"), ("forward", "back"))
+"""Sides that are exchanged by mirrors."""
+Said: TypeAlias = tuple[str, frozenset[str]]
+"""What is done with a bubble, and to which sides."""
 SAME_LENGTH = 1e-6
 """Largest difference of planned lengths of twins, m."""
 
@@ -25,6 +33,7 @@ def twins_of(recipe: Recipe, strips: Mapping[str, Strip]) -> list[tuple[PlannedB
     pressed = {contact.bubble for contact in recipe.piece.contacts if contact.kind == "tulip_link"}
     tubes = [strip for strip in strips.values() if strip.shape is None]
     by_name = {bubble.name: bubble for strip in tubes for bubble in strip.bubbles}
+    later = _said_later(recipe)
     twins = [
         (bubble, by_name.get(RIGHT + name.removeprefix(LEFT)))
         for name, bubble in by_name.items()
@@ -37,6 +46,7 @@ def twins_of(recipe: Recipe, strips: Mapping[str, Strip]) -> list[tuple[PlannedB
         and not any({left.name, right.name} <= limb for limb in tucked)
         and pressed.isdisjoint((left.name, right.name))
         and _said_equal(recipe, strips, left, right)
+        and _are_mirrored(later[left.name], later[right.name])
     ]
 
 
@@ -45,6 +55,40 @@ def _tucked(recipe: Recipe) -> list[frozenset[str]]:
     tucks = (contact for contact in recipe.piece.contacts if contact.kind == "tuck")
     limbs = (recipe.piece.after(each.step).limb(each.bubble, each.others) for each in tucks)
     return [limb.bubbles for limb in limbs if limb is not None]
+
+
+def _said_later(recipe: Recipe) -> defaultdict[str, list[Said]]:
+    """Return what steps do with each bubble once it is made, so that it lies or looks otherwise, and to which
+    sides: it is popped, turned or curved, by itself or with what it hangs on, or brought to others.
+    """
+    found: defaultdict[str, list[Said]] = defaultdict(list)
+    for name in recipe.piece.popped:
+        found[name].append(("popped", frozenset()))
+    for contact in recipe.piece.contacts:
+        found[contact.bubble].append((contact.kind, frozenset()))
+    for index, step in enumerate(recipe.steps):
+        if isinstance(step, Aim):
+            for name, sides in step.aim.items():
+                limb = recipe.piece.after(index).limb(name)
+                for each in (name,) if limb is None else limb.bubbles:
+                    found[each].append((step.word, frozenset(sides)))
+        elif isinstance(step, Curves):
+            for name in step.names:
+                for each in (name, *swung_with(recipe.piece.after(index), name)):
+                    found[each].append((step.word, frozenset([step.point or "up"])))
+    return found
+
+
+def _are_mirrored(left: Sequence[Said], right: Sequence[Said]) -> bool:
+    """Tell whether the same is done with both of a pair but for sides that one mirror exchanges: which one it
+    is depends on how the figure lies in the hands.
+    """
+    for pair in OPPOSITE:
+        mirror = dict(zip(pair, reversed(pair), strict=True))
+        image = [(word, frozenset(mirror.get(each, each) for each in sides)) for word, sides in left]
+        if image == list(right):
+            return True
+    return False
 
 
 def _said_equal(

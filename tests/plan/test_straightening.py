@@ -78,3 +78,29 @@ def test_creep_is_measured_until_hands_take_the_figure_up_again():
     assert made.taken_up == move.start
     left = plan(Recipe.parse(CAT.replace("EAR", "5") + "symmetric: false")).choreography
     assert left.taken_up == left.seconds
+
+
+@pytest.mark.parametrize(
+    ("later", "count"),
+    [
+        ("aim: {left_arm: up}", 0),
+        ("aim: {left_arm: up, right_arm: up}", 1),
+        ("aim: {left_arm: [left, up], right_arm: [up, right]}", 1),
+        ("bend: {left_arm: 90}", 0),
+        ("bend: {left_arm: 90, right_arm: 90}", 1),
+        ("pop: right_arm", 0),
+        ("push: {bubble: nose, through: [left_arm]}", 1),
+    ],
+)
+def test_what_is_done_later_with_one_of_both_alone_makes_them_no_twins(later, count):
+    steps = f"""
+  - bubbles: {{nose: 4}}
+  - loop: {{left_arm: 30}}
+    point: left
+  - loop: {{right_arm: 30}}
+    point: right
+  - rest: tail
+  - {later}
+"""
+    text = CAT[: CAT.index("steps:")] + "steps:" + steps
+    assert sum(len(move.twins) for move in straightens(text=text)) == count
