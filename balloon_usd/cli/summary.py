@@ -94,6 +94,10 @@ def _warnings(records: Sequence[Record]) -> Iterator[str]:
             slipped = any(SLIPPED in each for each in undone)
             remedy = "more turns, or more friction" if slipped else "lock them, with 2 turns or more"
             yield f"{record.name}: came undone: {', '.join(undone)}: {remedy}"
+        if stale := told.get("stale"):
+            details = ", ".join(stale)
+            why = "it showed another recipe, or other frames"
+            yield f"{record.name}: detail {details} is gone: {why}: run it again"
         if (lean := _measured(told, "lean")).get("verdict") == Verdict.OFF:
             remedy = "put its feet farther apart, or pose: hold"
             yield f"{record.name}: fell over, leaning {lean['value']:.0f} degrees: {remedy}"

@@ -54,8 +54,18 @@ def _integers(values: Any) -> Any:
 ON_MESH: tuple[Animated[MeshPose], ...] = (
     Animated("points", Sdf.ValueTypeNames.Point3fArray, lambda pose: _vectors(pose.points)),
     Animated("extent", Sdf.ValueTypeNames.Float3Array, lambda pose: _vectors(pose.extent)),
-    Animated("primvars:stretch", Sdf.ValueTypeNames.FloatArray, lambda pose: _floats(pose.stretch)),
-    Animated("primvars:pressure", Sdf.ValueTypeNames.FloatArray, lambda pose: _floats(pose.pressure)),
+    Animated(
+        "primvars:stretch",
+        Sdf.ValueTypeNames.FloatArray,
+        lambda pose: _floats(pose.stretch),
+        "Largest principal stretch of the rubber at each vertex, 1 where it is flat.",
+    ),
+    Animated(
+        "primvars:pressure",
+        Sdf.ValueTypeNames.FloatArray,
+        lambda pose: _floats(pose.pressure),
+        "Gauge pressure at each vertex, Pa: that of its bubble.",
+    ),
 )
 
 ON_AIR: tuple[Animated[AirPose], ...] = (

@@ -21,7 +21,7 @@ from balloon_usd.stage.printed import author_print_variant
 from balloon_usd.stage.provenance import provenance_of
 from balloon_usd.stage.samples import Layers
 from balloon_usd.stage.stretch_color import ramp_legend
-from balloon_usd.stage.variant_sets import DETAIL, LOOK, MADE, STATE
+from balloon_usd.stage.variant_sets import DETAIL, LOOK, MADE, STATE, add_variant
 from balloon_usd.stage.wire_texture import wire_png
 
 if TYPE_CHECKING:
@@ -109,5 +109,8 @@ def _interface_layer(description: StageDescription, take: Take, wanted: Wanted, 
     written = Extents(take.extent, take.final.extent)
     for name, extents in sorted({**earlier.kept, wanted.detail: written}.items()):
         add_detail(root, name, extents)
+    # What the payload has of them is known to those, too, who do not load it.
+    for look in looks_of(description):
+        add_variant(root, LOOK, look)
     root.variantSelections.update({DETAIL: wanted.detail, STATE: MADE, LOOK: wanted.look})
     return layer

@@ -192,6 +192,8 @@ class StageDescription:
     """Air of the balloons, in the order of `StageFrame.air`; empty for models without particles."""
     highest_stretch: float = 7.0
     """Stretch at which the colours of the look `stress` end: that at which latex bursts."""
+    lands: bool = False
+    """Whether the figure stands or falls on the ground, the plane z = 0, in the end."""
 
     def __post_init__(self) -> None:
         require_identifier(self.name)

@@ -18,6 +18,8 @@ Color = tuple[float, float, float]
 REFRACTION = 1.52
 """Index of refraction of natural rubber [1]."""
 COAT_ROUGHNESS = 0.05
+SUBSURFACE_RADIUS = 1.0e-3
+"""How far light goes in cloudy latex [m]; where nothing is said OpenPBR takes a metre."""
 CLEAR_OPACITY = 0.35
 """What one wall of clear latex hides of what is behind it [1]."""
 
@@ -41,6 +43,7 @@ FINISHES = {
             "specular_ior": REFRACTION,
             "specular_roughness": 0.18,
             "subsurface_weight": 0.35,
+            "subsurface_radius": SUBSURFACE_RADIUS,
             "coat_weight": 0.5,
             "coat_roughness": COAT_ROUGHNESS,
         },
@@ -69,7 +72,11 @@ def author_material(stage: Any, path: Any, color: Color, finish: Finish) -> Any:
 
     open_pbr = UsdShade.Shader.Define(stage, path.AppendChild("openpbr"))
     open_pbr.CreateIdAttr("ND_open_pbr_surface_surfaceshader")
-    open_pbr.CreateInput("base_color", Sdf.ValueTypeNames.Color3f).Set(Gf.Vec3f(*color))
+    colored = (
+        ("base_color", "subsurface_color") if "subsurface_weight" in finish.open_pbr else ("base_color",)
+    )
+    for name in colored:
+        open_pbr.CreateInput(name, Sdf.ValueTypeNames.Color3f).Set(Gf.Vec3f(*color))
     _inputs(open_pbr, finish.open_pbr, Sdf.ValueTypeNames.Float)
     _inputs(open_pbr, finish.flags, Sdf.ValueTypeNames.Bool)
     out = open_pbr.CreateOutput("out", Sdf.ValueTypeNames.Token)

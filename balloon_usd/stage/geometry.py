@@ -39,6 +39,7 @@ def author_geometry(stage: Any, description: StageDescription, final: Pose) -> N
     for air, air_pose in zip(description.airs, final.airs, strict=True):
         author_air(stage, part_path(description.name, air.name), air, air_pose)
     names = root.CreateAttribute(BUBBLES, Sdf.ValueTypeNames.TokenArray, custom=True)
+    names.SetDocumentation("Names of all bubbles, of all balloons, along each from its knot on.")
     names.Set(Vt.TokenArray(description.bubble_names))
     for moving in ON_ROOT:
         attribute = root.CreateAttribute(moving.name, moving.type_name, custom=True)
@@ -58,6 +59,8 @@ def _author_topology(usd_mesh: Any, mesh: MeshDescription) -> None:
 def _author_pose(prim: Any, pose: MeshPose) -> None:
     for moving in ON_MESH:
         attribute = prim.CreateAttribute(moving.name, moving.type_name, custom=False)
+        if moving.documentation:
+            attribute.SetDocumentation(moving.documentation)
         attribute.Set(moving.read(pose))
         if UsdGeom.Primvar.IsPrimvar(attribute):
             UsdGeom.Primvar(attribute).SetInterpolation(UsdGeom.Tokens.vertex)
@@ -75,7 +78,10 @@ def _author_primvars(prim: Any, mesh: MeshDescription, bubbles: NDArray[np.int32
             Vt.Vec2fArray.FromNumpy(corners),
         ),
     ):
-        primvars.CreatePrimvar(name, type_name, interpolation).Set(value)
+        primvar = primvars.CreatePrimvar(name, type_name, interpolation)
+        primvar.Set(value)
+        if name == "bubble":
+            primvar.GetAttr().SetDocumentation(f"Bubble of each face, counted in {BUBBLES}.")
 
 
 def _author_subsets(usd_mesh: Any, names: tuple[str, ...], bubbles: NDArray[np.int32]) -> None:

@@ -76,7 +76,9 @@ def author_outcome(layer: Any, root: Any, take: Take, wanted: Wanted) -> None:
 
 def set_extents_hint(prim: Any, extent: NDArray[np.float32]) -> None:
     """Say how much room the sculpture takes over all time codes, for readers that leave the payload out."""
-    hint = Sdf.AttributeSpec(prim, EXTENTS_HINT, Sdf.ValueTypeNames.Float3Array)
+    hint = prim.attributes.get(EXTENTS_HINT)
+    if hint is None:
+        hint = Sdf.AttributeSpec(prim, EXTENTS_HINT, Sdf.ValueTypeNames.Float3Array)
     hint.default = Vt.Vec3fArray.FromNumpy(np.ascontiguousarray(extent))
 
 

@@ -33,6 +33,10 @@ Saving costs about 6 kB of file each time, so small sculptures are saved once. A
 """
 
 
+BELOW = 2.0e-3
+"""Depth below z = 0 from which on a figure is not on the ground yet [m]."""
+
+
 @dataclass(frozen=True)
 class Layers:
     """Where the samples go."""
@@ -70,6 +74,8 @@ class Take:
     """Pose at the last time code."""
     extent: NDArray[np.float32]
     """Smallest and largest corner over all time codes (2, 3) [m]."""
+    below: int = 0
+    """Last time code at which anything is below z = 0 by more than `BELOW`; 0 if nothing ever is."""
 
     @property
     def frames(self) -> int:
@@ -134,9 +140,11 @@ class SampleStream:
 
 def _longer(take: Take | None, time_code: int, pose: Pose) -> Take:
     """The take with one more frame."""
+    below = time_code if float(pose.extent[0, 2]) < -BELOW else 0
     if take is None:
-        return Take(time_code, time_code, pose, pose.extent)
-    return Take(take.first, time_code, pose, union(take.extent, pose.extent))
+        return Take(time_code, time_code, pose, pose.extent, below)
+    extent = union(take.extent, pose.extent)
+    return Take(take.first, time_code, pose, extent, below or take.below)
 
 
 def _write_steps(layer: Any, description: StageDescription, take: Take) -> None:

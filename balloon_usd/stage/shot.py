@@ -5,14 +5,17 @@ Asset and shot are two files, so that a sculpture that is used elsewhere brings 
 
 from __future__ import annotations
 
+import math
 from pathlib import PurePosixPath
 from typing import TYPE_CHECKING, Any
 
-from balloon_usd.openusd import Kind, Sdf, Usd
+import numpy as np
+
+from balloon_usd.openusd import Gf, Kind, Sdf, Usd, UsdGeom
 from balloon_usd.stage.error import writing
 from balloon_usd.stage.layer_metadata import set_time_range, set_units
 from balloon_usd.stage.shot_camera import frame_box
-from balloon_usd.stage.studio import author_camera, author_ground, author_lights
+from balloon_usd.stage.studio import DECIMALS, author_camera, author_ground, author_lights
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -26,6 +29,10 @@ CAMERA = "camera"
 """Camera that sees the sculpture all the time: the flat tube is much longer than what is made of it."""
 CLOSE = "camera_finished"
 """Camera that sees the finished sculpture from near by."""
+
+
+LOWERING_SECONDS = 1.0
+"""Time in which a sculpture is set down that was held above the ground while it was made, s."""
 
 
 def shot_name(stem: str) -> str:
@@ -43,7 +50,7 @@ def write_shot(description: StageDescription, take: Take, work: Workspace, opene
     set_units(layer, ROOT.name)
     set_time_range(layer, description.fps, take.first, take.last)
     layer.documentation = f"{description.title}, in a studio"
-    _author_studio(Usd.Stage.Open(layer), take)
+    _author_studio(Usd.Stage.Open(layer), take, description.fps, lands=description.lands)
     # A stage that is open would look for the asset beside the layer, which has no place yet.
     sculpture = layer.GetPrimAtPath(ROOT.AppendChild("sculpture"))
     asset = PurePosixPath(work.built.name, opened)
@@ -54,11 +61,28 @@ def write_shot(description: StageDescription, take: Take, work: Workspace, opene
     return built
 
 
-def _author_studio(stage: Any, take: Take) -> None:
+def _author_studio(stage: Any, take: Take, fps: float, *, lands: bool) -> None:
     Usd.ModelAPI(stage.DefinePrim(ROOT, "Xform")).SetKind(Kind.Tokens.assembly)
-    stage.DefinePrim(ROOT.AppendChild("sculpture"), "Xform")
-    view = frame_box(take.extent)
+    sculpture = UsdGeom.Xform.Define(stage, ROOT.AppendChild("sculpture"))
+    room = take.extent
+    if lands:
+        lift = max(-float(take.extent[0, 2]), 0.0)
+        room = take.extent + np.array([[0.0, 0.0, lift]], np.float32)
+        room[0, 2] = 0.0
+        if take.below:
+            _lift(sculpture, lift, take, fps)
+    view = frame_box(room)
     author_camera(stage, ROOT.AppendChild(CAMERA), view)
     author_camera(stage, ROOT.AppendChild(CLOSE), frame_box(take.final.extent))
-    author_lights(stage, ROOT, take.extent, view.ahead)
-    author_ground(stage, ROOT, take.extent, view.ahead)
+    author_lights(stage, ROOT, room, view.ahead)
+    author_ground(stage, ROOT, room, view.ahead)
+
+
+def _lift(sculpture: Any, lift: float, take: Take, fps: float) -> None:
+    """Hold a sculpture so far above the ground (m) as long as anything would be below, and set it down."""
+    last = min(take.below + math.ceil(LOWERING_SECONDS * fps), take.last)
+    move = sculpture.AddTranslateOp()
+    for time_code in range(take.below, last + 1):
+        share = (time_code - take.below) / max(last - take.below, 1)
+        height = lift * 0.5 * (1.0 + math.cos(math.pi * share)) if last > take.below else lift
+        move.Set(Gf.Vec3d(0.0, 0.0, round(height, DECIMALS)), time_code)

@@ -8,13 +8,18 @@ import zipfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from balloon_usd.openusd import Sdf, UsdGeom, Vt
 from balloon_usd.stage.built import Built
 from balloon_usd.stage.error import writing
 from balloon_usd.stage.flat import author_rest, begin_single_layer
-from balloon_usd.stage.prim_paths import root_path
+from balloon_usd.stage.interface import set_extents_hint
+from balloon_usd.stage.prim_paths import parts_path, root_path
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from balloon_usd.stage.description import StageDescription
     from balloon_usd.stage.samples import Layers, Take
     from balloon_usd.stage.wanted import Wanted
@@ -56,6 +61,7 @@ def complete_usdz(
     """
     author_rest(layers.samples, take, description, (wanted.look,), wanted)
     _stand_upright(layers.samples, description.name)
+    set_extents_hint(layers.samples.GetPrimAtPath(root_path(description.name)), _upright(take.extent))
     with writing(work.final):
         layers.save()
         _pack(_crate(work), work.built)
@@ -85,13 +91,22 @@ def _pack(crate: Path, package: Path) -> None:
         shutil.copyfileobj(source, target, CHUNK)
 
 
+def _upright(extent: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Return a box (2, 3) [m] with y up, of one with z up."""
+    (x, y, z), (right, far, top) = extent
+    return np.array([[x, z, -far], [right, top, -y]], dtype=np.float32)
+
+
 def _stand_upright(layer: Any, name: str) -> None:
-    """Say that y is up, and turn the root: points and everything below keep their z."""
+    """Say that y is up, and turn what lies below the root: points keep their z, and who places the root anew
+    does not lay it on its side.
+    """
     layer.pseudoRoot.SetInfo("upAxis", UsdGeom.Tokens.y)
-    root = layer.GetPrimAtPath(root_path(name))
-    turn = Sdf.AttributeSpec(root, "xformOp:rotateX", Sdf.ValueTypeNames.Float)
+    parts = layer.GetPrimAtPath(parts_path(name).GetParentPath())
+    parts.typeName = "Xform"
+    turn = Sdf.AttributeSpec(parts, "xformOp:rotateX", Sdf.ValueTypeNames.Float)
     turn.default = UP_FROM_Z
     order = Sdf.AttributeSpec(
-        root, "xformOpOrder", Sdf.ValueTypeNames.TokenArray, variability=Sdf.VariabilityUniform
+        parts, "xformOpOrder", Sdf.ValueTypeNames.TokenArray, variability=Sdf.VariabilityUniform
     )
     order.default = Vt.TokenArray([turn.name])

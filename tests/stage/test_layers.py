@@ -71,11 +71,26 @@ def test_the_validators_of_usd_have_nothing_to_say(name: str, folder: Path) -> N
     assert complaints(opened(folder, name)) == []
 
 
+@pytest.mark.parametrize("name", NAMES)
+def test_a_layer_lasts_as_long_as_the_dogs_in_it(name: str, folder: Path) -> None:
+    dog = Sdf.Layer.FindOrOpen(str(EXAMPLES / "blue_dog.usda")).endTimeCode
+    stage, latest = opened(folder, name), 0.0
+    for mesh in (UsdGeom.Mesh(prim) for prim in Usd.PrimRange.Stage(stage, Usd.TraverseInstanceProxies())):
+        times = mesh.GetPointsAttr().GetTimeSamples() if mesh else []
+        if times:
+            scale = (times[-1] - times[0]) / (FRAMES - 1)
+            latest = max(latest, times[0] + scale * (dog - 1))
+    assert stage.GetEndTimeCode() == latest
+
+
 def test_a_stronger_layer_paints_the_sculpture(folder: Path) -> None:
     stage = opened(folder, "blue_dog.usda")
     assert color_of(stage, "/dog") == pytest.approx(BLUE)
     open_pbr = UsdShade.Shader.Get(stage, "/dog/mtl/latex_red/openpbr")
     assert tuple(open_pbr.GetInput("base_color").Get()) == pytest.approx(BLUE)
+    assert tuple(open_pbr.GetInput("subsurface_color").Get()) == pytest.approx(BLUE)
+    shown = UsdGeom.Mesh.Get(stage, "/dog/geo/render/main").GetDisplayColorAttr().Get()
+    assert np.allclose(shown, [BLUE])
     assert points_of(stage, "/dog").GetTimeSamples() == [*range(1, FRAMES + 1)]
     untouched = Usd.Stage.Open(str(folder / "dog" / "dog.usda"))
     assert color_of(untouched, "/dog") == pytest.approx((0.8, 0.05, 0.08))

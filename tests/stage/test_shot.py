@@ -157,6 +157,45 @@ def test_the_ground_lies_below_the_sculpture_and_has_a_material(shot: Usd.Stage)
     assert UsdShade.MaterialBindingAPI(shot.GetPrimAtPath("/shot/ground")).ComputeBoundMaterial()[0]
 
 
+def lowest(stage: Usd.Stage) -> NDArray[np.float64]:
+    """Height of the lowest point of the sculpture at every time code."""
+    meshes = ["/shot/sculpture/geo/render/main"]
+    heights = [[points_of(stage, mesh, time)[:, 2].min() for mesh in meshes] for time in range(1, 31)]
+    return np.array(heights).min(axis=1)
+
+
+def test_what_lands_is_held_above_the_ground_while_it_is_made_and_set_down_gently(tmp_path: Path) -> None:
+    fallen = [
+        replace(frame, points=tuple(_raised(each, frame) for each in frame.points)) for frame in frames(30)
+    ]
+    write_stage(replace(sculpture(), lands=True), fallen, tmp_path, shot=True)
+    shot = Usd.Stage.Open(str(tmp_path / "dog_shot.usda"))
+    heights, ground = lowest(shot), points_of(shot, "/shot/ground", 1)[:, 2].min()
+    assert ground == pytest.approx(0.0, abs=2e-4)
+    assert heights.min() > -1e-5
+    assert heights[0] == pytest.approx(0.0, abs=1e-5)
+    assert heights[-1] == pytest.approx(0.0, abs=1e-5)
+    assert np.abs(np.diff(heights)).max() < 0.01
+
+
+def test_what_does_not_land_is_not_moved(shot: Usd.Stage) -> None:
+    assert UsdGeom.Xformable.Get(shot, "/shot/sculpture").GetOrderedXformOps() == []
+
+
+def _raised(points: NDArray[np.float32], frame: Frame) -> NDArray[np.float32]:
+    """Points, (V, 3), of a figure that is made 3 cm deep in the ground, and lies on it from frame 18 on."""
+    moved = points.copy()
+    moved[:, 2] += -0.03 * min(max((18 - frame.time_code) / 8.0, 0.0), 1.0) - points[:, 2].min()
+    return moved
+
+
+def test_the_cameras_expose_half_a_frame_and_blur_nothing_else(shot: Usd.Stage) -> None:
+    for name in ("camera", "camera_finished"):
+        camera = UsdGeom.Camera.Get(shot, f"/shot/{name}")
+        assert (camera.GetShutterOpenAttr().Get(), camera.GetShutterCloseAttr().Get()) == (-0.25, 0.25)
+        assert camera.GetFStopAttr().Get() == 0.0
+
+
 def test_a_shot_may_refer_to_a_stage_in_one_file(tmp_path: Path) -> None:
     written = write_stage(sculpture(), frames(3), tmp_path, flat=True, shot=True)
     assert [file.name for file in written.files] == ["dog.usdc", "dog_shot.usda"]

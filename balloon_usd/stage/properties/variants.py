@@ -55,14 +55,21 @@ def _deeper(root: Any, chosen: Selection, own: Selection) -> Iterator[Selection]
     variants.ClearVariantSelection()
 
 
+def _shown(root: Any) -> set[str]:
+    """Return the looks that say how anything looks: the interface only names them."""
+    sets = (spec.variantSets[LOOK] for spec in root.GetPrimStack() if LOOK in spec.variantSets)
+    variants = (variant for each in sets for variant in each.variantList)
+    return {each.name for each in variants if each.primSpec.nameChildren or each.primSpec.hasReferences}
+
+
 def missing_variants(stage: Any) -> Iterator[Finding]:
     """Property 32: a stage in layers, which has details, has both states of each and all looks."""
     root = stage.GetDefaultPrim()
     if not root or not root.GetVariantSet(DETAIL).GetVariantNames():
         return
     looks = (*ON_EVERY_STAGE, THESIS) if clouds_of(stage) else ON_EVERY_STAGE
-    for name, expected in ((STATE, (MADE, FINISHED)), (LOOK, looks)):
-        found = root.GetVariantSet(name).GetVariantNames()
+    states = root.GetVariantSet(STATE).GetVariantNames()
+    for name, expected, found in ((STATE, (MADE, FINISHED), states), (LOOK, looks, _shown(root))):
         missing = [variant for variant in expected if variant not in found]
         if missing:
             yield Finding(32, f"variant set {name} lacks {', '.join(missing)}", str(root.GetPath()))

@@ -25,6 +25,10 @@ DEEP = 2.0e-4
 """Depth in the ground from which on hands lift what has crept into it since they set it down, m: what weighs
 a gram would leap from there.
 """
+SUNK = 5.0e-4
+"""Depth in the ground from which on a figure that lies is lifted out, m: its rubber creeps on while it falls
+as a rigid body, by some millimetres in five seconds; a rigid body lies 0.3 mm deep at most.
+"""
 
 
 class Fall(Motion):
@@ -34,7 +38,7 @@ class Fall(Motion):
 
     def __init__(self, move: moves.Fall, sculpture: LatexSculpture) -> None:
         """Let it go."""
-        self._sculpture = sculpture
+        self._sculpture, self._ground = sculpture, move.ground
         self._parts, walls = sculpture.parts, sculpture.walls()
         still = (Placement.by(np.eye(3), np.zeros(3)),) * len(self._parts)
         starts = sculpture.placed.placements if sculpture.placed else still
@@ -56,10 +60,17 @@ class Fall(Motion):
         for falling in self._falling:
             falling.advance(end - self._until)
         self._until = end
-        ways = zip(self._falling, self._starts, strict=True)
-        self._sculpture.placed = Placed(
-            self._parts, tuple(Placement.by(*falling.moved(*start)) for falling, start in ways)
-        )
+        self._sculpture.placed = Placed(self._parts, tuple(self._placements()))
+
+    def _placements(self) -> Iterator[Placement]:
+        """Yield where every part is by now, no deeper in the ground than it may be."""
+        walls = self._sculpture.walls()
+        for part, falling, start in zip(self._parts, self._falling, self._starts, strict=True):
+            turn, shift = falling.moved(*start)
+            if self._ground:
+                lowest = float((walls[part] @ turn[2]).min()) + float(shift[2])
+                shift = shift + np.array([0.0, 0.0, max(-SUNK - lowest, 0.0)])
+            yield Placement.by(turn, shift)
 
 
 def _let_go(move: moves.Fall, sculpture: LatexSculpture, points: Floats) -> Iterator[FallingFigure]:
