@@ -1,4 +1,4 @@
-"""Signals that end a process as exceptions do, so that it tidies up: Ctrl-C and SIGTERM."""
+"""Signals that end a process as exceptions do, so that it tidies up: Ctrl-C, SIGTERM and SIGHUP."""
 
 from __future__ import annotations
 
@@ -14,17 +14,22 @@ if TYPE_CHECKING:
 
 AGAIN = 0.02
 """Time after which what was dropped is raised once more (s)."""
-ENDINGS = frozenset(filter(None, (getattr(signal, name, None) for name in ("SIGINT", "SIGTERM"))))
+TERMINATING = tuple(
+    number for name in ("SIGTERM", "SIGHUP") if (number := getattr(signal, name, None)) is not None
+)
+"""Signals by which others end a process: on purpose, or by closing its terminal."""
+ENDINGS = frozenset((signal.SIGINT, *TERMINATING))
 """Signals that ask a process to end."""
 
 
 class Terminated(BaseException):
-    """Ends a process that is sent SIGTERM as Ctrl-C does, so that it tidies up."""
+    """Ends a process that is sent SIGTERM or SIGHUP as Ctrl-C does, so that it tidies up."""
 
 
 def terminate(*_: object) -> None:
-    """Handle SIGTERM: raise `Terminated`. A second one must not cut short what tidies up."""
-    signal.signal(signal.SIGTERM, signal.SIG_IGN)
+    """Handle such a signal: raise `Terminated`. A second one must not cut short what tidies up."""
+    for number in TERMINATING:
+        signal.signal(number, signal.SIG_IGN)
     raise Terminated
 
 

@@ -1,4 +1,4 @@
-"""Child processes that heed Ctrl-C, also where the tests themselves run in the background."""
+"""Child processes that heed Ctrl-C and a closed terminal, also where the tests run in the background."""
 
 from __future__ import annotations
 
@@ -6,14 +6,16 @@ import signal
 import subprocess
 
 
-def start(words, **options):
-    """Start a process with its pipes open, interruptible as one that a user types."""
+def start(words, ignoring=(), **options):
+    """Start a process with its pipes open, interruptible as one that a user types.
+
+    `ignoring`: signals that it is started to ignore, as by nohup.
+    """
     pipe = subprocess.PIPE
-    # What ignores the signal hands that on to its children, unless they are told otherwise.
-    return subprocess.Popen(
-        words, stdout=pipe, stderr=pipe, text=True, preexec_fn=_heed_interrupts, **options
-    )
 
+    def heed():
+        # What ignores a signal hands that on to its children, unless they are told otherwise.
+        for number in (signal.SIGINT, signal.SIGHUP):
+            signal.signal(number, signal.SIG_IGN if number in ignoring else signal.SIG_DFL)
 
-def _heed_interrupts():
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    return subprocess.Popen(words, stdout=pipe, stderr=pipe, text=True, preexec_fn=heed, **options)

@@ -48,8 +48,10 @@ def _worker(connection: Connection[Any, Any], start: Start) -> Simulator | Write
 
 def main(_role: str, descriptor: str, parent: str) -> None:
     """Work at the other end of an inherited connection, for the process of a number; the role is for eyes."""
-    # Ctrl-C reaches the whole group of processes: the scheduler decides what it means.
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    # Ctrl-C and SIGHUP reach the whole group of processes: the scheduler decides what they mean.
+    for name in ("SIGINT", "SIGHUP"):
+        if (number := getattr(signal, name, None)) is not None:
+            signal.signal(number, signal.SIG_IGN)
     expect_modules()
     if hasattr(signal, "pthread_sigmask"):
         signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})

@@ -36,8 +36,9 @@ NO_FOLDER = os.devnull
 def serve(descriptor: int, parent: int) -> None:
     """Do what comes over a connection for the process of a number, until the other end is closed."""
     signal.signal(signal.SIGTERM, terminate)
-    # Ctrl-C reaches the whole group of processes: the parent decides what it means.
+    # Ctrl-C and SIGHUP reach the whole group of processes: the parent decides what they mean.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGHUP, signal.SIG_IGN)
     signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
     # What hangs in a library heeds no other signal.
     end_with(parent, signal.SIGKILL)

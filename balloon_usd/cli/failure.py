@@ -25,7 +25,7 @@ Exit codes:
   2    bad input: recipe, stage, option, device or output folder
   3    the simulation failed; `run` leaves the frames before that as NAME.failed
   130  interrupted
-  143  terminated (SIGTERM)
+  143  terminated (SIGTERM, or SIGHUP as its terminal was closed)
 """
 
 

@@ -13,7 +13,7 @@ from balloon_usd.cli.failure import EXIT_CODES_HELP, ExitCode, Failure
 from balloon_usd.cli.form import require_form
 from balloon_usd.cli.output import require_readable_name
 from balloon_usd.cli.run import run
-from balloon_usd.cli.sources import is_folder, plans_of, recipe_files
+from balloon_usd.cli.sources import is_folder, is_same, plans_of, recipe_files
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -73,6 +73,8 @@ def farm_template(
     _require_text(plans)
     require_readable_name(output)
     beside = _template_folder(template)
+    if template is not None and any(is_same(template, Path(plan.recipe.file)) for plan in plans):
+        raise Failure(f"{template} is a recipe of the job, expected another name", ExitCode.BAD_INPUT)
     folders = {"Recipes": _recipe_folder(plans), "Output": _absolute(output)}
     defaults = {name: default_below(folder, beside) for name, folder in folders.items()}
     job = JobTemplate(

@@ -25,8 +25,9 @@ from balloon_usd.cli.plan import plan
 from balloon_usd.cli.preview import preview
 from balloon_usd.cli.run import run
 from balloon_usd.cli.schema import schema
+from balloon_usd.cli.streams import complete_streams
 from balloon_usd.cli.vary import vary
-from balloon_usd.endings import Terminated, never_dropped, terminate
+from balloon_usd.endings import TERMINATING, Terminated, never_dropped, terminate
 from balloon_usd.loading import expect_modules
 from balloon_usd.version import __version__
 
@@ -36,6 +37,11 @@ if TYPE_CHECKING:
 
 class Commands(click.Group):
     """A group whose commands end without a traceback when interrupted, or when nobody hears them."""
+
+    def main(self, *args: Any, **kwargs: Any) -> Any:
+        """Run the program, whatever its standard streams are."""
+        complete_streams()
+        return super().main(*args, **kwargs)
 
     def make_context(self, *args: Any, **kwargs: Any) -> click.Context:
         """Read the words of the command line; some, as `--help`, are answered at once."""
@@ -55,15 +61,18 @@ class Commands(click.Group):
 
 @contextmanager
 def _terminable() -> Iterator[None]:
-    """Let SIGTERM end the block as an exception does, so that nothing half-written is left."""
+    """Let SIGTERM and SIGHUP end the block as an exception does, so that nothing half-written is left."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return
-    before = signal.signal(signal.SIGTERM, terminate)
+    # A command that is started by nohup outlives its terminal.
+    heeded = [number for number in TERMINATING if signal.getsignal(number) != signal.SIG_IGN]
+    before = {number: signal.signal(number, terminate) for number in heeded}
     try:
         yield
     finally:
-        signal.signal(signal.SIGTERM, before)
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
 @contextmanager
@@ -73,7 +82,7 @@ def _heard() -> Iterator[None]:
         yield
     except OSError as error:
         # What is said goes to a stream without a name; a closed pipe is no mistake, and click knows it.
-        if error.errno != errno.ENOSPC or error.filename is not None:
+        if error.errno not in (errno.ENOSPC, errno.EFBIG) or error.filename is not None:
             raise
         # What waits in the buffer goes nowhere: Python would try once more as it ends.
         nowhere = os.open(os.devnull, os.O_WRONLY)

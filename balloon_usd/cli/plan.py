@@ -10,6 +10,7 @@ import click
 
 from balloon_usd.cli.failure import EXIT_CODES_HELP, ExitCode, Failure
 from balloon_usd.cli.sources import plans_of, recipe_files
+from balloon_usd.files.whole_file import write_whole
 
 if TYPE_CHECKING:
     from balloon_usd.plan import AfterStep, Plan
@@ -39,8 +40,10 @@ def plan(recipes: tuple[Path, ...], as_json: bool, svg: Path | None, step: int |
     if svg is not None:
         if len(plans) != 1:
             raise Failure(f"--svg draws one recipe, not {len(plans)}", ExitCode.BAD_INPUT)
+        if svg.suffix.lower() != ".svg":
+            raise Failure(f"{svg}: expected a name that ends in .svg", ExitCode.BAD_INPUT)
         try:
-            svg.write_text(plan_svg(plans[0], stages[0]), encoding="utf-8")
+            write_whole({svg: plan_svg(plans[0], stages[0]).encode()})
         except OSError as error:
             raise Failure(f"{svg} cannot be written: {error.strerror}", ExitCode.NOT_WRITTEN) from error
     for planned, after in zip(plans, stages, strict=True):

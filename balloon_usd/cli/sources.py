@@ -43,6 +43,14 @@ def is_folder(path: Path) -> bool:
         return False
 
 
+def is_same(path: Path, other: Path) -> bool:
+    """Whether two paths lead to one file; one that leads nowhere leads to none."""
+    try:
+        return path.samefile(other)
+    except OSError:
+        return False
+
+
 def _files_in(folder: Path) -> list[Path]:
     try:
         entries = sorted(folder.iterdir())

@@ -39,6 +39,8 @@ def read_shape(file: str | Path, scale: float) -> ClosedShape:
 
 def _read(file: Path) -> tuple[Floats, list[Ints]]:
     """Return points (V, 3) and faces as they stand in a file."""
+    if file.exists() and not file.is_file():
+        raise MeshFileError("is no file but a folder, a pipe or a device, expected a mesh file")
     mesh = _meshio_mesh(file)
     points = np.asarray(mesh.points, dtype=np.float64)
     if points.ndim != 2 or points.shape[1] < 3:

@@ -116,6 +116,7 @@ def fork(work: Callable[[], object], descriptor: int, said: int | None = None) -
     code = 1
     try:
         signal.signal(signal.SIGTERM, signal.SIG_DFL)
+        signal.signal(signal.SIGHUP, signal.SIG_DFL)
         if said is not None:
             _print_to(said)
         _close_all_but(descriptor)

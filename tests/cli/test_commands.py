@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 
 import pytest
 
@@ -138,3 +139,36 @@ def test_a_step_beyond_the_last_is_refused_before_anything_is_told(cli, write_re
     assert result.exit_code == 2
     assert "has no step 99, expected 1 to " in result.stderr
     assert result.stdout == ""
+
+
+@pytest.mark.parametrize("words", [("plan", "--svg"), ("farm-template", "-o")])
+def test_no_recipe_is_replaced_by_what_is_made_of_it(cli, write_recipe, words):
+    recipe = write_recipe()
+    before = Path(recipe).read_text(encoding="utf-8")
+    command, option = words
+    result = cli(command, recipe, option, recipe)
+    assert result.exit_code == 2
+    assert "expected" in result.stderr
+    assert Path(recipe).read_text(encoding="utf-8") == before
+
+
+def test_a_drawing_that_cannot_be_written_whole_leaves_the_one_before(
+    cli, write_recipe, tmp_path, monkeypatch
+):
+    (tmp_path / "snake.svg").write_text("before")
+
+    def fails(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(Path, "replace", fails)
+    result = cli("plan", write_recipe(), "--svg", "snake.svg")
+    assert result.exit_code == 1
+    assert (tmp_path / "snake.svg").read_text() == "before"
+    assert sorted(file.name for file in tmp_path.glob(".snake*")) == []
+
+
+@pytest.mark.parametrize("name", ["stage.usda", "sheet.jpg"])
+def test_a_contact_sheet_is_called_as_what_it_is(cli, name):
+    result = cli("preview", "stage.usda", "-o", name)
+    assert result.exit_code == 2
+    assert result.stderr == f"{name}: expected a name that ends in .png\n"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+
 from tests.mesh_file.shapes import cube, write_obj
 
 RECIPE = (
@@ -33,6 +35,12 @@ def test_a_mesh_that_is_missing_ends_in_one_line_with_its_place(cli, write_recip
         f"box.yaml:5:15: balloons.box.mesh: {tmp_path}/box.obj: cannot be read (No such file or directory)"
     )
     assert left() == []
+
+
+def test_a_mesh_that_is_a_pipe_is_not_waited_for(cli, write_recipe, left, tmp_path):
+    os.mkfifo(tmp_path / "box.obj")
+    line = refused(cli("plan", write_recipe(file="box.yaml", text=RECIPE)))
+    assert line.endswith("is no file but a folder, a pipe or a device, expected a mesh file")
 
 
 def test_a_mesh_with_a_hole_ends_in_one_line_with_its_remedy(cli, write_recipe, tmp_path):
