@@ -81,7 +81,7 @@ def test_it_has_a_page_that_shows_its_picture_and_what_its_code_knows(operation:
     page = (DOCS / "reference" / "operations" / f"{operation.word}.md").read_text(encoding="utf-8")
     assert page.startswith(f"# {operation.word}: ")
     assert f"](../../pictures/operations/{operation.word}.webp)" in page
-    assert f"```{{operation}} {operation.word}\n```" in page
+    assert f"<!-- generated: operation {operation.word} -->\n\n## Keys\n" in page
     assert "\n## What is checked\n\n- " in page
 
 

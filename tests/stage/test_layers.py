@@ -33,7 +33,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
         second = tube_mesh("second", ("stem", "petal"), rings, (0.1, 0.3, 0.7))
         write_stage(sculpture(meshes=(main, second)), frames(FRAMES, rings), folder, detail=detail)
     text = GUIDE.read_text(encoding="utf-8")
-    for name in re.findall(r"^```{literalinclude} \.\./examples/(\S+)$", text, re.MULTILINE):
+    for name in re.findall(r"^<!-- generated: example (\S+) -->$", text, re.MULTILINE):
         shutil.copy(EXAMPLES / name, folder)
     return folder
 

@@ -53,11 +53,6 @@ In Python, with lengths in metres: `{_call(operation.word)}`
 """
 
 
-def link(word: str) -> str:
-    """Return a link to the page of an operation, from any page."""
-    return f"[`{word}`](/reference/operations/{word}.md)"
-
-
 def says(operation: type[Operation]) -> str:
     """Return what an operation does, in a sentence."""
     return (operation.__doc__ or "").splitlines()[0]
