@@ -72,7 +72,7 @@ def preview(
     """
     from balloon_usd.cli.child_process import read_in_child  # noqa: PLC0415
 
-    if output is not None and output.suffix.lower() != ".png" and not output.is_dir():
+    if output is not None and output.suffix.lower() != ".png" and (output.is_file() or not output.exists()):
         raise Failure(f"{output}: expected a name that ends in .png", ExitCode.BAD_INPUT)
     unfinished = (output.parent, output.stem) if output else stage_home(stage)
     sheet = read_in_child(

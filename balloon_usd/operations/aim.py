@@ -58,6 +58,7 @@ class Aim(OnBalloon, Timed, WorksByBubble):
     """Turn bubbles, with all that hangs on them, about the joints at which they hang on the figure."""
 
     word: ClassVar[str] = "aim"
+    called: ClassVar[tuple[str, ...]] = ("turn", "point_to")
     example: ClassVar[str] = """\
 format: 1
 name: clover

@@ -57,6 +57,7 @@ class Braid(Turned, OfStrands):
     """Plait three bubbles that hang on one joint, and twist their free ends together."""
 
     word: ClassVar[str] = "braid"
+    called: ClassVar[tuple[str, ...]] = ("plait",)
     most: ClassVar[int] = STRANDS
     value_model: ClassVar[type[Entries] | None] = BraidedBubbles
     example: ClassVar[str] = """\

@@ -15,6 +15,7 @@ class Bubbles(Turned, TwistsOff):
     """Twist off bubbles of these lengths, one after another."""
 
     word: ClassVar[str] = "bubbles"
+    called: ClassVar[tuple[str, ...]] = ("twist", "bubble", "sausage", "basic_twist")
     bubble_kind: ClassVar[BubbleKind | None] = "bubble"
     example: ClassVar[str] = """\
 format: 1

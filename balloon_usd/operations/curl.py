@@ -52,6 +52,7 @@ class Curl(Curves):
     """Roll bubbles up into coils, from their free ends."""
 
     word: ClassVar[str] = "curl"
+    called: ClassVar[tuple[str, ...]] = ("coil",)
     once: ClassVar[bool] = True
     example: ClassVar[str] = """\
 format: 1

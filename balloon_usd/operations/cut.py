@@ -20,6 +20,7 @@ class Cut(Operation):
     """Let the gas out of an end of a balloon and cut it off, at an ear or a lock that stays shut."""
 
     word: ClassVar[str] = "cut"
+    called: ClassVar[tuple[str, ...]] = ("deflate", "snip")
     keeps_time: ClassVar[bool] = True
     example: ClassVar[str] = """\
 format: 1

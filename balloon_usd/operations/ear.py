@@ -12,6 +12,7 @@ class Ear(TwistsClosed):
     """Pinch a short soft bubble and twist its two ends together."""
 
     word: ClassVar[str] = "ear"
+    called: ClassVar[tuple[str, ...]] = ("pinch", "pinch_twist", "ear_twist", "bean", "petal")
     bubble_kind: ClassVar[BubbleKind | None] = "ear"
     pulled: ClassVar[float] = 0.9
     of_balls: ClassVar[bool] = True

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from balloon_usd.language.choices import one_of
 from balloon_usd.language.names import name_of_end
 from balloon_usd.operations.inflate import Inflate
+from balloon_usd.operations.modifiers import MODIFIERS
 from balloon_usd.operations.rest import Rest
 from balloon_usd.operations.table import BY_WORD, WORDS, words_in
 from balloon_usd.operations.workbench import Place, UnnamedRest, Workbench
@@ -73,7 +74,8 @@ class StepEntry:
 
     def check(self, bench: Workbench) -> None:
         """Complain of what makes no sense, and do the rest to the workpiece."""
-        if not self.words:
+        # Of keys that are none is told where they stand.
+        if not self.words and set(self.entries) <= set(MODIFIERS):
             bench.complain(self.path, f"no operation, expected {one_of(WORDS)}")
         unnamed = "balloon" not in self.entries
         makes = any(BY_WORD[word].bubble_kind is not None for word in self.words) and unnamed

@@ -12,6 +12,7 @@ class Fold(TwistsClosed):
     """As loop, but bent sharply in its middle so that both halves lie side by side."""
 
     word: ClassVar[str] = "fold"
+    called: ClassVar[tuple[str, ...]] = ("fold_twist",)
     bubble_kind: ClassVar[BubbleKind | None] = "fold"
     hollow: ClassVar[bool] = True
     folds: ClassVar[bool] = True

@@ -37,6 +37,7 @@ class Inflate(Timed, Operation):
     """Blow balloons up now, and not at the beginning: until then they lie there flat."""
 
     word: ClassVar[str] = "inflate"
+    called: ClassVar[tuple[str, ...]] = ("pump", "blow_up")
     whole: ClassVar[bool] = True
     keeps_time: ClassVar[bool] = True
     example: ClassVar[str] = """\

@@ -26,6 +26,7 @@ class Insert(Operation):
     """Put flat balloons into others that are still flat: each lies in one bubble of those from then on."""
 
     word: ClassVar[str] = "insert"
+    called: ClassVar[tuple[str, ...]] = ("stuff",)
     whole: ClassVar[bool] = True
     example: ClassVar[str] = """\
 format: 1

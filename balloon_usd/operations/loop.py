@@ -22,6 +22,7 @@ class Loop(TwistsClosed):
     """Make a long bubble and twist its two ends together."""
 
     word: ClassVar[str] = "loop"
+    called: ClassVar[tuple[str, ...]] = ("hoop", "loop_twist")
     bubble_kind: ClassVar[BubbleKind | None] = "loop"
     hollow: ClassVar[bool] = True
     guides: ClassVar[tuple[float, ...]] = tuple(k / 8 for k in range(1, 8))

@@ -32,6 +32,8 @@ class Operation(Entries):
     """A whole short recipe with it."""
     sources: ClassVar[tuple[str, ...]]
     """Books and pages that describe it."""
+    called: ClassVar[tuple[str, ...]] = ()
+    """What makers call it, too, as somebody may write it who does not know its word."""
     bubble_kind: ClassVar[BubbleKind | None] = None
     """Of the bubbles that it makes."""
     closes: ClassVar[bool] = False

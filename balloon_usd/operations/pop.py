@@ -24,6 +24,7 @@ class Pop(Operation):
     """Burst a bubble: it tears, and its rubber snaps back to its joints, which ears or locks keep shut."""
 
     word: ClassVar[str] = "pop"
+    called: ClassVar[tuple[str, ...]] = ("burst", "prick", "pop_twist")
     keeps_time: ClassVar[bool] = True
     example: ClassVar[str] = """\
 format: 1

@@ -42,6 +42,7 @@ class Press(Pressing):
     """Press a finger into a bubble, hold it there, and take it away."""
 
     word: ClassVar[str] = "press"
+    called: ClassVar[tuple[str, ...]] = ("dent", "poke")
     value_model: ClassVar[type[Entries] | None] = PressedBubble
     example: ClassVar[str] = """\
 format: 1

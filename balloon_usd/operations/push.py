@@ -37,6 +37,7 @@ class Push(Passing):
     """Push a bubble at the end of a balloon through a closed ring of others, which holds it."""
 
     word: ClassVar[ContactKind] = "push"
+    called: ClassVar[tuple[str, ...]] = ("push_through", "pop_through")
     value_model: ClassVar[type[Entries] | None] = PushedBubble
     ring_key: ClassVar[str] = "through"
     beyond: ClassVar[float] = math.radians(40.0)

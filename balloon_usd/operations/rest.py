@@ -17,6 +17,7 @@ class Rest(OnBalloon, Timed, Operation):
     """Name what is left of the balloon: nothing more is made of it."""
 
     word: ClassVar[str] = "rest"
+    called: ClassVar[tuple[str, ...]] = ("remainder", "tail")
     bubble_kind: ClassVar[BubbleKind | None] = "rest"
     example: ClassVar[str] = """\
 format: 1

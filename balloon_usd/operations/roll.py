@@ -25,6 +25,7 @@ class Roll(Passing):
     """Roll a bubble between the two of a lock: the three-bubble body of birds."""
 
     word: ClassVar[ContactKind] = "roll"
+    called: ClassVar[tuple[str, ...]] = ("bird_body",)
     value_model: ClassVar[type[Entries] | None] = RolledBubble
     ring_key: ClassVar[str] = "between"
     beyond: ClassVar[float] = 0.0

@@ -60,6 +60,7 @@ class Spiral(OfStrands):
     """Wind bubbles that lie side by side round each other."""
 
     word: ClassVar[str] = "spiral"
+    called: ClassVar[tuple[str, ...]] = ("rope", "wind")
     most: ClassVar[int] = MOST_STRANDS
     value_model: ClassVar[type[Entries] | None] = WoundBubbles
     example: ClassVar[str] = """\

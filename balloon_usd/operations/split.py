@@ -21,6 +21,7 @@ class Split(ClosesOnItself):
     """Make an ear of both lengths and twist its two cheeks against each other: two balls on one joint."""
 
     word: ClassVar[str] = "split"
+    called: ClassVar[tuple[str, ...]] = ("split_ear", "toes", "yo_yo")
     bubble_kind: ClassVar[BubbleKind | None] = "half"
     of_balls: ClassVar[bool] = True
     gas: ClassVar[float] = Ear.gas

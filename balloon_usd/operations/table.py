@@ -82,6 +82,8 @@ OPERATIONS: tuple[type[Operation], ...] = (
 
 BY_WORD: dict[str, type[Operation]] = {operation.word: operation for operation in OPERATIONS}
 WORDS: tuple[str, ...] = tuple(BY_WORD)
+CALLED: dict[str, str] = {name: each.word for each in OPERATIONS for name in each.called}
+"""Words of operations by what makers call them, too."""
 BY_KIND = {each.bubble_kind: each for each in reversed(OPERATIONS) if each.bubble_kind is not None}
 """Operations that make bubbles, by the kind of these: the first of the table, where several do."""
 

@@ -30,6 +30,7 @@ class TailBall(OnBalloon, WorksByBubble, LengthsByBubble):
     """Stretch the end of the flat tail, until it gives way to the gas and becomes a ball."""
 
     word: ClassVar[str] = "tail_ball"
+    called: ClassVar[tuple[str, ...]] = ("poodle_tail",)
     example: ClassVar[str] = """\
 format: 1
 name: pompom

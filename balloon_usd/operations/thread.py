@@ -48,6 +48,7 @@ class Thread(Passing):
     """Pull what is left of a balloon through a closed ring of bubbles."""
 
     word: ClassVar[ContactKind] = "thread"
+    called: ClassVar[tuple[str, ...]] = ("pull_through",)
     value_model: ClassVar[type[Entries] | None] = ThreadedBubble
     ring_key: ClassVar[str] = "through"
     beyond: ClassVar[float] = math.radians(35.0)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from pydantic import Field
 
 from balloon_usd.language.choices import all_of
-from balloon_usd.language.lengths import cm
+from balloon_usd.language.lengths import at_most, cm
 from balloon_usd.language.names import Name
 from balloon_usd.operations import moves
 from balloon_usd.operations.caution import Caution
@@ -33,6 +34,10 @@ WAY = 4.0
 OPEN = 3.6
 """Length of a loop below which nothing stays in its hole, in its widths: in simulations of a 260 an ear of
 4 cm slips out of one of 17 cm and stays in one of 18; of a 160 and a 350 it is 9 to 12 and 24 to 30.
+"""
+FITS = 0.9
+"""Width of the hole of a loop beyond which a limb slips out of it, in widths of its tube: an ear of 3 cm of a
+260 stays in a loop of 30 cm and slips out of one of 32.
 """
 MOST = 2
 """Largest number of bubbles between which one is set."""
@@ -127,8 +132,16 @@ steps:
             yield (self.word, "between"), f"{fault}, expected a loop or a fold, or two bubbles"
 
     def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:
-        """Warn of a loop whose hole its own wall closes."""
+        """Warn of a loop whose hole its own wall closes, and of one whose hole is too wide."""
         bubble, *between = (layout.bubble(name) for name in self.names)
+        if len(between) == 1 and hole_of(between[0].length, between[0].width) > FITS * bubble.width:
+            loop, most = self.tuck.between[0], math.pi * (FITS * bubble.width + between[0].width)
+            yield Caution(
+                index,
+                f"{self.tuck.bubble} may slip out of {loop} ({cm(between[0].length)})",
+                f"its hole is about as wide as a {bubble.size}, or wider",
+                f"make {loop} {at_most(most)} long, or less",
+            )
         if len(between) == 1 and between[0].length < OPEN * between[0].width:
             loop, least = self.tuck.between[0], OPEN * between[0].width
             yield Caution(
@@ -157,6 +170,11 @@ steps:
             point=None if self.point is None else score.towards(self.point),
         )
         score.settle(move)
+
+
+def hole_of(length: float, width: float) -> float:
+    """Return how wide the hole of a loop is about whose middle line is so long (m), of a tube so wide (m)."""
+    return length / math.pi - width
 
 
 def _across(bubble: PlacedBubble) -> float:

@@ -17,6 +17,7 @@ class Tulip(InvertsBubble, TwistsOff):
     """Press the knot through the first bubble and twist it into its other end."""
 
     word: ClassVar[str] = "tulip"
+    called: ClassVar[tuple[str, ...]] = ("apple", "apple_twist", "tulip_twist")
     gas: ClassVar[float] = 0.8
     example: ClassVar[str] = """\
 format: 1

@@ -17,6 +17,7 @@ class Wait(Operation):
     """Do nothing for some seconds."""
 
     word: ClassVar[str] = "wait"
+    called: ClassVar[tuple[str, ...]] = ("hold", "pause")
     whole: ClassVar[bool] = True
     keeps_time: ClassVar[bool] = True
     example: ClassVar[str] = """\

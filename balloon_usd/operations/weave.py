@@ -28,6 +28,7 @@ class Weave(WeavesRow):
     """Twist a row of bubbles off, and each, as soon as it is made, to a joint of others."""
 
     word: ClassVar[str] = "weave"
+    called: ClassVar[tuple[str, ...]] = ("ladder", "net")
     value_model: ClassVar[type[Entries] | None] = WovenRow
     example: ClassVar[str] = """\
 format: 1

@@ -200,7 +200,7 @@ def joint_lines(graph: SculptureGraph, margins: Mapping[int, float]) -> Iterator
     """
     for place in graph.joints:
         margin = margins.get(place.index)
-        held = "" if margin is None else f" ({margin:.1f} times the friction that holds it)"
+        held = "" if margin is None else f" (held by {margin:.1f} times the friction that it needs)"
         yield f"  joint {place.index}, {_count(graph.degree(place.index), 'bubble end')}: {place}{held}"
 
 

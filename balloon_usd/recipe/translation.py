@@ -10,7 +10,7 @@ from balloon_usd.language.choices import one_of, unknown
 from balloon_usd.language.problem import PROBLEMS_SHOWN, Complaint, Path, quoted
 from balloon_usd.language.quantities import UnitMissingError
 from balloon_usd.operations.modifiers import MODIFIERS
-from balloon_usd.operations.table import BY_WORD, WORDS, words_in
+from balloon_usd.operations.table import BY_WORD, CALLED, WORDS, words_in
 
 from .balloons import Balloon
 from .held_words import MUST_HOLD
@@ -133,9 +133,20 @@ def _unfit_key(path: Path, data: object) -> str | None:
 
 def _unknown_key(path: Path, root: type[BaseModel]) -> str:
     if path[0] == "steps" and len(path) == 3:
-        return unknown("key", path[-1], [*WORDS, *MODIFIERS, REPEAT])
+        return _unknown_in_step(str(path[-1]), root)
     model = _model_at(path[:-1], root)
     return unknown("key", path[-1], [*model.model_fields, *([] if path[:-1] else [LET])])
+
+
+def _unknown_in_step(key: str, root: type[BaseModel]) -> str:
+    """Say what is meant by a key of a step that is none, or where it stands."""
+    if key in CALLED:
+        return f"unknown key {quoted(key)}, did you mean {quoted(CALLED[key])}?"
+    if key in root.model_fields:
+        return f"{quoted(key)} is said of the whole figure, expected it at the top of the recipe"
+    if key in Balloon.model_fields:
+        return f"{quoted(key)} is said of a balloon, expected it beside that below balloons"
+    return unknown("key", key, [*WORDS, *MODIFIERS, REPEAT])
 
 
 def _unknown_choice(path: Path, value: object, expected: str) -> str:

@@ -55,7 +55,9 @@ def test_the_plan_says_how_many_times_the_friction_that_it_needs_a_lock_has(plan
         "c.end": None,
         "a_rest.end": None,
     }
-    assert f"d.end = a_rest.start ({0.4 / needed:.1f} times the friction that holds it)" in plan_text(figure)
+    assert f"d.end = a_rest.start (held by {0.4 / needed:.1f} times the friction that it needs)" in plan_text(
+        figure
+    )
     before = after_step_json(after_step(figure, 0))["graph"]["joints"]
     assert {joint["margin"] for joint in before} == {None}
 

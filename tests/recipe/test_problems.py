@@ -367,6 +367,27 @@ def test_lengths_without_a_unit_are_reported_once_with_the_remedy() -> None:
     ]
 
 
+@pytest.mark.parametrize(
+    ("step", "told"),
+    [
+        ("twist: {nose: 5}", 'steps[0].twist: unknown key "twist", did you mean "bubbles"?'),
+        ("pinch_twist: {nose: 5}", 'steps[0].pinch_twist: unknown key "pinch_twist", did you mean "ear"?'),
+        ("apple: {nose: 5}", 'steps[0].apple: unknown key "apple", did you mean "tulip"?'),
+        (
+            "mirror: true",
+            'steps[0].mirror: "mirror" is said of the whole figure, expected it at the top of the recipe',
+        ),
+        (
+            "color: blue",
+            'steps[0].color: "color" is said of a balloon, expected it beside that below balloons',
+        ),
+    ],
+)
+def test_words_of_makers_and_keys_of_other_places_are_told_where_they_belong(step: str, told: str) -> None:
+    (message,) = messages(f"{HEAD}  - {step}\n")
+    assert message.endswith(told)
+
+
 def test_all_problems_are_reported_at_once_in_the_order_of_the_file() -> None:
     text = (
         "format: 2\nname: my-dog\nunits: cm\nphysics: {rubber: gum}\nballoons:\n  main: {size: 26,"
@@ -381,7 +402,6 @@ def test_all_problems_are_reported_at_once_in_the_order_of_the_file() -> None:
         (4, 19, "physics.rubber"),
         (6, 16, "balloons.main.size"),
         (8, 5, "steps[0].bubbels"),
-        (8, 5, "steps[0]"),
         (9, 18, "steps[1].bubbles.b"),
         (10, 12, "steps[1].turns"),
         (11, 5, "steps[2].lock"),

@@ -110,7 +110,7 @@ def test_what_is_cut_off_is_no_end_of_a_balloon_any_more() -> None:
 
 
 def test_a_hoop_whose_ends_are_tied_has_a_hole() -> None:
-    steps = "  - bubbles: {ring: 40}\n  - lock: {joints: [ring.start, ring.end]}\n  - ear: {nose: 4}\n"
+    steps = "  - bubbles: {ring: 25}\n  - lock: {joints: [ring.start, ring.end]}\n  - ear: {nose: 4}\n"
     assert cautions(steps, "  - rest: tail\n  - tuck: {bubble: nose, between: [ring]}\n") == []
 
 

@@ -78,13 +78,14 @@ def test_a_ball_that_closes_on_itself_has_no_hole_for_a_limb() -> None:
     assert problem.text.startswith("knob (3 cm) has no hole, expected a loop or a fold, or two bubbles")
 
 
-def test_the_plan_warns_of_a_loop_whose_wall_closes_its_hole() -> None:
-    told = {}
-    for n in (15, 20):
+def test_the_plan_warns_of_a_loop_whose_wall_closes_its_hole_and_of_one_whose_hole_is_too_wide() -> None:
+    told, bird = {}, BIRD.replace("length: 24", "length: 30")
+    for n in (15, 20, 30, 32):
         loop = f"  - loop: {{wheel: {n}}}\n    balloon: main\n  - tuck: {{bubble: knob, between: [wheel]}}\n"
-        told[n] = [each.what for each in plan(Recipe.parse(BIRD + loop)).cautions]
+        told[n] = [each.what for each in plan(Recipe.parse(bird + loop)).cautions]
     assert "knob (3 cm) may slip out of wheel (15 cm)" in told[15]
-    assert not any("slip out" in each for each in told[20])
+    assert not any("slip out" in each for each in (*told[20], *told[30]))
+    assert "knob may slip out of wheel (32 cm)" in told[32]
 
 
 def test_the_twist_by_which_it_hangs_holds_and_what_hangs_on_it_may_turn() -> None:

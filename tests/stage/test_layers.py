@@ -19,7 +19,7 @@ EXAMPLES = Path(__file__).parents[2] / "docs/examples"
 GUIDE = Path(__file__).parents[2] / "docs/howto/studios.md"
 FRAMES = 12
 BLUE = (0.02, 0.1, 0.6)
-NAMES = ("blue_dog.usda", "shelf.usda", "every_dog.usda", "crowd.usda")
+NAMES = ("blue_dog.usda", "shelf.usda", "waxed_nose.usda", "every_dog.usda", "crowd.usda")
 
 
 @pytest.fixture(scope="module")
@@ -94,6 +94,18 @@ def test_a_stronger_layer_paints_the_sculpture(folder: Path) -> None:
     assert points_of(stage, "/dog").GetTimeSamples() == [*range(1, FRAMES + 1)]
     untouched = Usd.Stage.Open(str(folder / "dog" / "dog.usda"))
     assert color_of(untouched, "/dog") == pytest.approx((0.8, 0.05, 0.08))
+
+
+def test_one_bubble_gets_a_material_of_its_own(folder: Path) -> None:
+    stage = opened(folder, "waxed_nose.usda")
+    mesh = UsdShade.MaterialBindingAPI(stage.GetPrimAtPath("/dog/geo/render/main"))
+    (subset,) = mesh.GetMaterialBindSubsets()
+    nose = UsdGeom.Subset.Get(stage, "/dog/geo/render/main/nose").GetIndicesAttr().Get()
+    assert len(nose) > 10
+    assert (subset.GetPrim().GetName(), subset.GetIndicesAttr().Get()) == ("waxed", nose)
+    bound = UsdShade.MaterialBindingAPI(subset.GetPrim()).ComputeBoundMaterial()[0]
+    assert bound.GetPath() == "/dog/mtl/wax"
+    assert material_of(stage, "/dog").GetPath() == "/dog/mtl/latex_red"
 
 
 def test_a_reference_moves_a_copy_and_shifts_its_time(folder: Path) -> None:
