@@ -118,12 +118,12 @@ steps:
             bench.complain((*path, "bubble"), f"{bubble} is closed already, expected push")
         elif behind in bench.piece.gripped():
             bench.complain(path, f"{behind} is held by others already, expected each bubble once")
-        elif more := _hangs_besides(bench.piece, bubble, behind):
-            what = f"{more} hangs on {bubble}.end, too, expected nothing but a row there"
-            bench.complain((*path, "bubble"), what)
         elif joint(value["neck"]).end != "start" or not _row_between(bench.piece, bubble, behind):
             what = f"{value['neck']} does not hang on {bubble}.end by a row of bubbles alone"
             bench.complain((*path, "neck"), f"{what}, expected the start of a bubble farther behind it")
+        elif more := _hangs_besides(bench.piece, bubble, behind):
+            what = f"{more} hangs on {bubble}.end, too, expected nothing but a row there"
+            bench.complain((*path, "bubble"), what)
         else:
             bench.join(path, ends, [bubble])
             bench.piece.touch(place.index, cls.word, behind, [bubble])

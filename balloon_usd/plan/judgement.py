@@ -7,6 +7,7 @@ from itertools import chain
 from typing import TYPE_CHECKING
 
 from balloon_usd.balloon.bubble_shape import smallest_ball, softest_ball
+from balloon_usd.balloon.sizes import size_named
 from balloon_usd.balloon.wound_neck import PACKING_TURNS, holding_friction
 from balloon_usd.language.lengths import at_least, at_most, cm
 from balloon_usd.language.turns import turns_text
@@ -37,6 +38,8 @@ SURELY_BORNE = 0.93
 """Load of a wall up to which it surely bears it: plans and runs agree to some per cent near bursting."""
 EVEN = 2.4
 """Growth of volume up to which a long shape stays even: measured on a ring of round cross-section."""
+LONGER = 1.4
+"""Length of a flat tube, in that of its size, from which on none is sold: brands differ by a third."""
 LONG = (0.1, 0.68)
 """Volumes of a shape, in that of a ball of its wall, between which it is long: no ball, no flat sheets."""
 
@@ -60,6 +63,7 @@ def cautions_of(
         divided(recipe.piece),
         leaking(recipe),
         _loose_pieces(recipe, strips),
+        _long(recipe, strips),
         _bulging(strips),
     )
     return tuple(
@@ -138,6 +142,21 @@ def _short_bubbles(strips: Mapping[str, Strip]) -> Iterator[Caution]:
                     f"{(bubble.pressure or 0.0) / 1e3:.1f} kPa",
                     f"make it {at_least(softest)} or longer",
                 )
+
+
+def _long(recipe: Recipe, strips: Mapping[str, Strip]) -> Iterator[Caution]:
+    """Warn of tubes far longer than any that is sold: the length of a blown-up one was written, mostly."""
+    for name, strip in strips.items():
+        if strip.shape is not None or strip.capsule or recipe.balloons[name].length is None:
+            continue
+        usual = size_named(strip.size.name).length
+        if strip.size.length > LONGER * usual:
+            yield Caution(
+                None,
+                f"no {strip.size.name} is as long as {name}, {cm(strip.size.length)} flat",
+                f"one is {cm(usual)} long as it comes; this one is {cm(strip.full_length)} when it is full",
+                f"length: {cm(usual)}, or inflated: if the length of the blown-up balloon is meant",
+            )
 
 
 def _tail(recipe: Recipe, strip: Strip, budget: Budget) -> Iterator[Caution]:

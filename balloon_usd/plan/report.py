@@ -30,7 +30,9 @@ PLAN_FORMAT = 1
 
 def plan_text(plan: Plan) -> str:
     """Return the plan as readable text: strips, tail, joints, locks and cautions with their reasons."""
-    lines, popped = list(head_lines(plan)), plan.recipe.piece.popped
+    made = f"{round(plan.choreography.seconds)} s: {plan.frame_count} frames"
+    shown = f"made in {made}, {plan.recipe.fps:g} a second"
+    lines, popped = [*head_lines(plan), shown], plan.recipe.piece.popped
     for name, strip in plan.strips.items():
         if strip.shape is not None:
             lines += ["", *_shape_lines(strip, strip.shape), *_stroke_lines(plan, name)]

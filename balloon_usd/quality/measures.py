@@ -86,7 +86,13 @@ MEASURES = _table(
         "how far from its joint rubber of a neck goes through itself, in R0; farther out gas draws it in",
     ),
     Measure("symmetric_volume", "1", 0.05, 4, "largest difference of volume in a pair, as a share of it"),
-    Measure("symmetric_length", "1", 0.05, 4, "largest difference of length in a pair, as a share of it"),
+    Measure(
+        "symmetric_length",
+        "1",
+        0.05,
+        4,
+        "largest difference of length in a pair, ears apart, as a share of it",
+    ),
     Measure("symmetric_place", "m", 0.02, 5, "largest distance of a bubble from its twin's mirror image"),
 )
 """By key, in the order in which they are told."""

@@ -131,3 +131,13 @@ def test_locks_of_slippery_rubber_are_named_with_the_friction_that_they_need(pla
     (both,) = planned(text.format(0.05)).cautions
     assert both.what.startswith("2 of 2 locks")
     assert whats(planned(text.format(0.29))) == []
+
+
+@pytest.mark.parametrize(("length", "told"), [(36, False), (50, False), (55, True)])
+def test_a_tube_longer_than_any_that_is_sold_is_named(planned, length, told):
+    figure = planned(
+        f"balloons: {{a: {{size: 260, length: {length}, tail: 10}}}}\nsteps: [{{loop: {{b: 20}}}}]"
+    )
+    named = [caution for caution in figure.cautions if "no 260 is as long" in caution.what]
+    assert bool(named) is told
+    assert all("length: 36.7 cm, or inflated" in caution.remedy for caution in named)

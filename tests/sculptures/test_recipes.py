@@ -125,7 +125,7 @@ def test_the_dog_stands_on_its_legs_with_ears_above_and_nose_before(dog):
 def test_nothing_is_wrong_with_the_layers_that_the_examples_put_over_the_dog(dog):
     # One refers to another.
     files = [Path(shutil.copy(layer, dog.stage.parents[1])) for layer in EXAMPLES.glob("*.usda")]
-    assert len(files) == 4
+    assert len(files) == 5
     for file in files:
         report = check_file(str(file))
         assert not report.unreadable
