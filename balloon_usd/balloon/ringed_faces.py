@@ -55,6 +55,10 @@ def cap_points(around: int, radius: float) -> Reals:
     return np.asarray((ruled - corners).reshape(-1, 2))
 
 
+TILE = np.array([1.0, 0.0])
+"""From a tile of a texture to the next."""
+
+
 def ringed_quads(around: int, rings: int) -> Ints:
     """Return the faces, (F, 4) int32: start cap, rows from start to end, end cap.
 
@@ -71,7 +75,11 @@ def ringed_quads(around: int, rings: int) -> Ints:
 
 
 def ringed_texture(around: int, ring_t: Reals) -> NDArray[np.float32]:
-    """Return texture coordinates per face corner, (F, 4, 2) float32: s round it, t from `ring_t` (R,)."""
+    """Return texture coordinates per face corner, (F, 4, 2) float32: s round it, t from `ring_t` (R,).
+
+    The tube fills the first tile, the caps at its start and end the next two (UDIM 1002, 1003): no face lies
+    on another.
+    """
     row, k = np.meshgrid(np.arange(len(ring_t) - 1), np.arange(around), indexing="ij")
     s_low, s_high = k / around, (k + 1) / around
     corners = [
@@ -82,8 +90,16 @@ def ringed_texture(around: int, ring_t: Reals) -> NDArray[np.float32]:
     ]
     tube = np.stack([np.stack(corner, axis=-1) for corner in corners], axis=2).reshape(-1, 4, 2)
     m = around // 4
-    cap = np.tile(np.array([[0, 0], [1, 0], [1, 1], [0, 1]], dtype=np.float32) / m, (m * m, 1, 1))
-    return np.concatenate([cap, tube, 1 - cap]).astype(np.float32)
+    at, beside = np.meshgrid(np.arange(m), np.arange(m), indexing="ij")
+    corners_of_cap = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
+    cap = (np.stack([at, beside], axis=-1).reshape(-1, 1, 2) + corners_of_cap) / m
+    return np.concatenate([cap + TILE, tube, cap + 2 * TILE]).astype(np.float32)
+
+
+def mirrored_texture(st: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Return texture coordinates, (F, 4, 2), that run the other way round, each face within its tile."""
+    first = np.floor(st[..., 0].min(axis=1, keepdims=True))
+    return np.stack([2.0 * first + 1.0 - st[..., 0], st[..., 1]], axis=-1).astype(np.float32)
 
 
 def ringed_bubbles(around: int, ring_along: Reals, bubble_ends: Sequence[float]) -> Ints:

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from balloon_usd.balloon.ringed_faces import (
     Ints,
     cap_points,
+    mirrored_texture,
     ring_starts,
     ringed_bubbles,
     ringed_quads,
@@ -79,7 +80,7 @@ class BalloonMesh:
         """
         st = self.st[:, MIRRORED_FACE]
         if self.around:
-            st = st * np.array([-1.0, 1.0], dtype=np.float32) + np.array([1.0, 0.0], dtype=np.float32)
+            st = mirrored_texture(st)
         points = self.points * np.array([1.0, -1.0, 1.0], dtype=np.float32)
         return replace(self, points=points, quads=self.quads[:, MIRRORED_FACE], st=st)
 

@@ -29,8 +29,10 @@ DASH = 0.08
 def printed(st: NDArray[np.float32]) -> NDArray[np.bool_]:
     """Return which quads are printed on, (Q,); `st`: texture coordinates of their corners, (Q, 4, 2)."""
     around, along = st.mean(axis=1).T
-    dashed: NDArray[np.bool_] = ((around * ROWS) % 1.0 < WIDE * ROWS) & (along % DASH < 0.5 * DASH)
-    return dashed
+    in_row: NDArray[np.bool_] = (around * ROWS) % 1.0 < WIDE * ROWS
+    # Caps lie in tiles of their own.
+    printed_on: NDArray[np.bool_] = in_row & (around < 1.0) & (along % DASH < 0.5 * DASH)
+    return printed_on
 
 
 def author_print(stage: Any, description: StageDescription) -> None:

@@ -64,11 +64,21 @@ def test_bubbles_take_the_faces_between_their_joints():
         assert inside.max() < high
 
 
-def test_texture_runs_once_round_the_tube_and_once_along_it():
-    st = dog_tube().st
-    assert st.shape == (len(dog_tube().quads), 4, 2)
-    assert st.min() >= 0.0
-    assert st.max() <= 1.0
+@pytest.mark.parametrize("mesh", [dog_tube(), dog_tube().mirrored()], ids=["as made", "mirrored"])
+def test_texture_runs_once_round_the_tube_and_once_along_it_and_no_face_lies_on_another(mesh):
+    st = mesh.st.astype(np.float64)
+    assert st.shape == (len(mesh.quads), 4, 2)
+    sides = st.max(axis=1) - st.min(axis=1)
+    cap = (mesh.around // 4) ** 2
+    tiles = np.floor(st[..., 0].min(axis=1))
+    assert np.array_equal(tiles, np.repeat([1.0, 0.0, 2.0], [cap, len(st) - 2 * cap, cap]))
+    for tile in range(3):
+        assert np.prod(sides[tiles == tile], axis=1).sum() == pytest.approx(1.0, rel=1e-5)
+        assert st[tiles == tile, :, 0].max() == pytest.approx(tile + 1.0)
+    middles = np.round(st.mean(axis=1), 6)
+    assert len(np.unique(middles, axis=0)) == len(st)
+    one, other = st[:, 1] - st[:, 0], st[:, 3] - st[:, 0]
+    assert len(np.unique(np.sign(one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]))) == 1
 
 
 def test_a_joint_beyond_the_tube_is_refused():
