@@ -63,7 +63,9 @@ class Sculpture:
 
     def start(self) -> None:
         """Make the hidden files of the stage; raises `StageError` when the folder cannot be written."""
-        self._open.enter_context(self._writer)
+        # Between a folder and the note that it is to be removed no signal may come.
+        with endings_wait():
+            self._open.enter_context(self._writer)
         self._begun = time.perf_counter()
 
     def stop(self) -> None:

@@ -15,6 +15,7 @@ class ExitCode(IntEnum):
     BAD_INPUT = 2
     SIMULATION_FAILED = 3
     INTERRUPTED = 130
+    UNHEARD = 141
     TERMINATED = 143
 
 
@@ -25,6 +26,7 @@ Exit codes:
   2    bad input: recipe, stage, option, device or output folder
   3    the simulation failed; `run` leaves the frames before that as NAME.failed
   130  interrupted
+  141  nobody read the output any more (a closed pipe)
   143  terminated (SIGTERM, or SIGHUP as its terminal was closed)
 """
 

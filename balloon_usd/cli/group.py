@@ -77,17 +77,19 @@ def _terminable() -> Iterator[None]:
 
 @contextmanager
 def _heard() -> Iterator[None]:
-    """Tell in one line when the disk behind the output is full."""
+    """Tell in one line when the disk behind the output is full; end when nobody reads it any more."""
     try:
         yield
     except OSError as error:
-        # What is said goes to a stream without a name; a closed pipe is no mistake, and click knows it.
-        if error.errno not in (errno.ENOSPC, errno.EFBIG) or error.filename is not None:
+        # What is said goes to a stream without a name.
+        if error.errno not in (errno.ENOSPC, errno.EFBIG, errno.EPIPE) or error.filename is not None:
             raise
         # What waits in the buffer goes nowhere: Python would try once more as it ends.
         nowhere = os.open(os.devnull, os.O_WRONLY)
         os.dup2(nowhere, sys.stdout.fileno())
         os.close(nowhere)
+        if error.errno == errno.EPIPE:
+            raise click.exceptions.Exit(ExitCode.UNHEARD) from error
         raise Failure(f"nothing more can be said: {error.strerror}", ExitCode.BAD_INPUT) from error
 
 

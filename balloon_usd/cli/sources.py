@@ -64,8 +64,8 @@ def _place(file: Path) -> Path:
     try:
         return file.resolve()
     except (OSError, RuntimeError, ValueError):
-        # Links that lead in a circle, no name of a file: reading it will tell.
-        return file.absolute()
+        # Links that lead in a circle, no name of a file, a folder that is gone: reading it will tell.
+        return file
 
 
 def plans_of(files: Sequence[Path]) -> list[Plan]:

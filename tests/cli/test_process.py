@@ -14,8 +14,12 @@ from tests import interruptible
 ROOT = Path(balloon_usd.__file__).parents[1]
 
 
-def start(*words, **options):
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([*sys.path[:1], str(ROOT)])}
+def start(*words, env_extra=None, **options):
+    environment = {
+        **os.environ,
+        "PYTHONPATH": os.pathsep.join([*sys.path[:1], str(ROOT)]),
+        **(env_extra or {}),
+    }
     return interruptible.start([sys.executable, *map(str, words)], env=environment, **options)
 
 
@@ -120,3 +124,19 @@ def test_what_a_full_disk_does_not_take_is_not_lost_without_a_word(tmp_path, unb
     _, err = process.communicate(timeout=60)
     assert process.returncode == 2
     assert err == "nothing more can be said: File too large\n"
+
+
+@pytest.mark.parametrize("words", [["schema"], ["--help"]])
+def test_a_closed_pipe_has_its_own_exit_code(words):
+    process = start("-m", "balloon_usd", *words, env_extra={"PYTHONUNBUFFERED": "1"})
+    process.stdout.close()
+    assert process.wait(timeout=60) == 141
+    assert process.stderr.read() == ""
+
+
+def test_a_recipe_is_planned_from_a_folder_that_is_gone(write_recipe, tmp_path):
+    recipe, gone = write_recipe(), tmp_path / "gone"
+    code = f"import os; os.mkdir('{gone}'); os.chdir('{gone}'); os.rmdir('{gone}')\nfrom balloon_usd.cli import main; main(['plan', '{recipe}'])"
+    process = start("-c", code)
+    _, err = process.communicate(timeout=60)
+    assert process.returncode == 0, err
