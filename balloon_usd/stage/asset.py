@@ -106,11 +106,12 @@ def _interface_layer(description: StageDescription, take: Take, wanted: Wanted, 
     )
     set_asset_info(root, f"{description.name}.usda")
     author_outcome(layer, root, take, wanted)
+    # The first set is the strongest, and so is what a layer over the asset says of a look. And those who do not
+    # load the payload know the looks.
+    for look in looks_of(description):
+        add_variant(root, LOOK, look)
     written = Extents(take.extent, take.final.extent)
     for name, extents in sorted({**earlier.kept, wanted.detail: written}.items()):
         add_detail(root, name, extents)
-    # What the payload has of them is known to those, too, who do not load it.
-    for look in looks_of(description):
-        add_variant(root, LOOK, look)
     root.variantSelections.update({DETAIL: wanted.detail, STATE: MADE, LOOK: wanted.look})
     return layer

@@ -145,6 +145,8 @@ def bind_subset(family: str) -> Damage:
         )
         material = UsdShade.Material.Get(stage, "/dog/mtl/latex_main")
         UsdShade.MaterialBindingAPI.Apply(subset.GetPrim()).Bind(material)
+        # Else faces of no subset show the material of the mesh.
+        UsdShade.MaterialBindingAPI(mesh(stage)).UnbindDirectBinding()
 
     return damage
 

@@ -26,7 +26,9 @@ if TYPE_CHECKING:
 
 
 def bubbles_partition(stage: Any) -> Iterator[Finding]:
-    """Property 21: bubble subsets partition the faces; bound subsets cover the mesh, family materialBind."""
+    """Property 21: bubble subsets partition the faces; bound ones, of family materialBind, cover a mesh
+    without a material.
+    """
     for mesh in sculpted(stage, meshes_of(stage)):
         path = str(mesh.GetPath())
         if not UsdGeom.Subset.GetGeomSubsets(mesh, UsdGeom.Tokens.face, FAMILY):
@@ -129,7 +131,9 @@ def _bound_subset_faults(mesh: Any) -> Iterator[Finding]:
     for subset in bound:
         if subset.GetFamilyNameAttr().Get() != UsdShade.Tokens.materialBind:
             yield Finding(21, "a bound subset outside family materialBind", str(subset.GetPath()))
-    if bound and not _covered_by_subsets(mesh):
+    # Faces of no subset show the material of the mesh.
+    own, _ = UsdShade.MaterialBindingAPI(mesh).ComputeBoundMaterial()
+    if bound and not own and not _covered_by_subsets(mesh):
         yield Finding(21, "bound subsets do not cover the mesh", str(mesh.GetPath()))
 
 

@@ -156,7 +156,7 @@ PROPERTIES: dict[int, Property] = {
         of_values=(primvars.lengths_fit,),
     ),
     21: Property(
-        "Bubble subsets partition the faces; bound subsets cover the mesh, family materialBind.",
+        "Bubble subsets partition the faces; bound ones, family materialBind, cover a mesh without material.",
         "put every face into one subset of the family",
         of_stage=(looks.bubbles_partition,),
     ),
