@@ -106,8 +106,8 @@ def _interface_layer(description: StageDescription, take: Take, wanted: Wanted, 
     )
     set_asset_info(root, f"{description.name}.usda")
     author_outcome(layer, root, take, wanted)
-    # The first set is the strongest, and so is what a layer over the asset says of a look. And those who do not
-    # load the payload know the looks.
+    # The first set is the strongest, and so is what a layer over the asset says of a look; and those who do
+    # not load the payload know the looks.
     for look in looks_of(description):
         add_variant(root, LOOK, look)
     written = Extents(take.extent, take.final.extent)
