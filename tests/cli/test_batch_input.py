@@ -170,8 +170,8 @@ def test_an_output_folder_that_is_deleted_during_the_run_is_told(cli, solver, wr
     def delete():
         (tmp_path / "out").rename(tmp_path / "gone")
 
-    # A folder that is not there yet when a stage is begun is made anew.
-    watcher = meanwhile(delete, tmp_path / "out", ".first.*.writing")
+    # A folder that is not there yet when the file of a stage is begun is made anew.
+    watcher = meanwhile(delete, tmp_path / "out", ".first.*.writing/*.usdc")
     result = cli("run", "recipes", *ORDER, "--jobs", 1)
     watcher.join()
     assert result.exit_code == 1, result.output
