@@ -6,7 +6,6 @@ import re
 from typing import TYPE_CHECKING
 
 from balloon_usd.balloon.detail import detail_named
-from balloon_usd.operations.moves import LET_GO
 from balloon_usd.origin import origin_of
 from balloon_usd.plan.meshing import meshes_of
 from balloon_usd.plan.particles import experiment_spacing, start_particles
@@ -89,7 +88,7 @@ def describe_stage(plan: Plan, meshes: Sequence[BalloonMesh]) -> StageDescriptio
         twists=moves_in_time(plan),
         airs=_describe_airs(plan),
         highest_stretch=recipe.physics.traits.highest_stretch,
-        lands=recipe.pose in ("stand", *LET_GO),
+        lands=recipe.lands,
     )
 
 

@@ -134,7 +134,7 @@ steps:
     def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:
         """Warn of a loop whose hole its own wall closes, and of one whose hole is too wide."""
         bubble, *between = (layout.bubble(name) for name in self.names)
-        if len(between) == 1 and hole_of(between[0].length, between[0].width) > FITS * bubble.width:
+        if len(between) == 1 and is_too_wide(between[0].length, between[0].width, bubble.width):
             loop, most = self.tuck.between[0], math.pi * (FITS * bubble.width + between[0].width)
             yield Caution(
                 index,
@@ -172,9 +172,9 @@ steps:
         score.settle(move)
 
 
-def hole_of(length: float, width: float) -> float:
-    """Return how wide the hole of a loop is about whose middle line is so long (m), of a tube so wide (m)."""
-    return length / math.pi - width
+def is_too_wide(length: float, width: float, limb: float) -> bool:
+    """Whether a limb so wide slips out of the hole of a loop so long, of a tube so wide, m."""
+    return length / math.pi - width > FITS * limb
 
 
 def _across(bubble: PlacedBubble) -> float:

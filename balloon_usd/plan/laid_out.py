@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from balloon_usd.balloon.tube_theory import bulges_once_stretched
-from balloon_usd.operations.table import BY_KIND
 from balloon_usd.plan.nesting import BRINGING_SPEED, hosts_of
 from balloon_usd.plan.parking import parked
 
@@ -37,8 +36,7 @@ class _Placed:
 
     @property
     def hollow(self) -> bool:
-        maker = BY_KIND.get(self.planned.kind)
-        return maker is None or maker.hollow or not maker.closes
+        return self.planned.hollow
 
     @property
     def length(self) -> float:

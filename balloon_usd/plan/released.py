@@ -20,7 +20,9 @@ if TYPE_CHECKING:
 def divided(piece: Workpiece) -> Iterator[Caution]:
     """Warn of bubbles whose ring a later step divides by joining joints of it."""
     joined = sorted({event.step for event in piece.history if isinstance(event, Joined)})
-    for contact in (contact for contact in piece.contacts if contact.ring):
+    # What is divided stays so: of a ring that is whole in the end no step has to be looked at.
+    parted = (each for each in piece.contacts if each.ring and not piece.is_closed(each.others))
+    for contact in parted:
         later = (step for step in joined if step > contact.step)
         step = next((step for step in later if not piece.after(step).is_closed(contact.others)), None)
         if step is not None:

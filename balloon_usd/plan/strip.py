@@ -91,6 +91,12 @@ class PlannedBubble:
         return Twisted(self.length, self.gas, self.drawn[1], self.slack)
 
     @property
+    def hollow(self) -> bool:
+        """Whether it has a hole once its two ends are one, if it is long enough: no ear and no tulip has."""
+        maker = BY_KIND.get(self.kind)
+        return maker is None or maker.hollow or not maker.closes
+
+    @property
     def rest_length(self) -> float:
         """Length of its rubber, m: unstressed, or in a capsule before it is twisted."""
         return self.rest_end - self.rest_start

@@ -29,21 +29,21 @@ def twins_of(recipe: Recipe, strips: Mapping[str, Strip]) -> list[tuple[PlannedB
     """Return the pairs of bubbles of which a recipe says the same, the left one first; none that was set
     between others as a whole, for it goes in edgewise, and none with one that sits in a tulip.
     """
-    tucked = _tucked(recipe)
-    pressed = {contact.bubble for contact in recipe.piece.contacts if contact.kind == "tulip_link"}
     tubes = [strip for strip in strips.values() if strip.shape is None]
     by_name = {bubble.name: bubble for strip in tubes for bubble in strip.bubbles}
-    later = _said_later(recipe)
     twins = [
-        (bubble, by_name.get(RIGHT + name.removeprefix(LEFT)))
+        (bubble, right)
         for name, bubble in by_name.items()
-        if name.startswith(LEFT)
+        if name.startswith(LEFT) and (right := by_name.get(RIGHT + name.removeprefix(LEFT))) is not None
     ]
+    if not twins:
+        return []
+    tucked, later = _tucked(recipe), _said_later(recipe)
+    pressed = {contact.bubble for contact in recipe.piece.contacts if contact.kind == "tulip_link"}
     return [
         (left, right)
         for left, right in twins
-        if right is not None
-        and not any({left.name, right.name} <= limb for limb in tucked)
+        if not any({left.name, right.name} <= limb for limb in tucked)
         and pressed.isdisjoint((left.name, right.name))
         and _said_equal(recipe, strips, left, right)
         and _are_mirrored(later[left.name], later[right.name])
@@ -68,13 +68,15 @@ def _said_later(recipe: Recipe) -> defaultdict[str, list[Said]]:
         found[contact.bubble].append((contact.kind, frozenset()))
     for index, step in enumerate(recipe.steps):
         if isinstance(step, Aim):
+            piece = recipe.piece.after(index)
             for name, sides in step.aim.items():
-                limb = recipe.piece.after(index).limb(name)
+                limb = piece.limb(name)
                 for each in (name,) if limb is None else limb.bubbles:
                     found[each].append((step.word, frozenset(sides)))
         elif isinstance(step, Curves):
+            piece = recipe.piece.after(index)
             for name in step.names:
-                for each in (name, *swung_with(recipe.piece.after(index), name)):
+                for each in (name, *swung_with(piece, name)):
                     found[each].append((step.word, frozenset([step.point or "up"])))
     return found
 

@@ -12,7 +12,7 @@ import numpy as np
 from balloon_usd.language.choices import all_of
 from balloon_usd.language.joint import ends_of
 from balloon_usd.operations.moves import PassThrough, Tuck, Wrap
-from balloon_usd.operations.tuck import FITS, hole_of
+from balloon_usd.operations.tuck import is_too_wide
 from balloon_usd.quality.astride import ASTRIDE, Tube, share_between, share_in_hole
 from balloon_usd.quality.joints import SLIPPED
 from balloon_usd.quality.measures import MEASURES
@@ -249,7 +249,7 @@ class _Tucked(_Followed):
             loop, limb = bubbles[move.between[0]], bubbles[move.bubble]
             wide, width = (2.0 * plan.strips[each.balloon].inflated_radius for each in (loop, limb))
             self.if_stuck = self.if_slipped = "make the loop longer or the bubble shorter"
-            if hole_of(loop.length, wide) > FITS * width:
+            if is_too_wide(loop.length, wide, width):
                 self.if_slipped = "make the loop shorter, its hole is as wide as the bubble"
         else:
             self.into, self.out_of = f"between {between}", f"from between {between}"

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from balloon_usd.operations.table import BY_KIND
 from balloon_usd.plan.twins import LEFT, twins_of
 from balloon_usd.quality.measures import MEASURES
 from balloon_usd.quality.wall_rings import WallRings
@@ -47,19 +46,14 @@ def symmetry_of(plan: Plan, meshes: Sequence[BalloonMesh], frame: Frame) -> dict
         name: (_twin(plan, meshes, frame, left), _twin(plan, meshes, frame, right))
         for name, (left, right) in twins.items()
     }
-    lines = {name: pairs[name] for name, (left, _) in twins.items() if not _is_ball(left)}
+    # The middle line of an ear goes where its wall is pressed.
+    lines = {name: pairs[name] for name, (left, _) in twins.items() if left.hollow}
     found = {
         "symmetric_volume": {name: _share(a.volume, b.volume) for name, (a, b) in pairs.items()},
         "symmetric_length": {name: _share(a.length, b.length) for name, (a, b) in lines.items()},
         "symmetric_place": mirrored({name: (a.middle, b.middle) for name, (a, b) in pairs.items()}),
     }
     return {key: MEASURES[key].largest(each) for key, each in found.items()}
-
-
-def _is_ball(bubble: PlannedBubble) -> bool:
-    """Whether a bubble has no length of its own: the middle line of an ear goes where its wall is pressed."""
-    maker = BY_KIND.get(bubble.kind)
-    return maker is not None and maker.closes and not maker.hollow
 
 
 def mirrored(pairs: Mapping[str, tuple[Floats, Floats]]) -> dict[str, float]:

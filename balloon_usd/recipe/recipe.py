@@ -171,14 +171,18 @@ class Recipe(Entries):
         return self._piece
 
     @property
+    def lands(self) -> bool:
+        """Whether the finished figure stands or falls on the ground."""
+        return self.pose in ("stand", *LET_GO)
+
+    @property
     def gravity(self) -> float:
         """Gravity that acts on the finished figure, m/s2: that of the earth where its pose is one on the
         ground, and none where hands or a thread hold it, if the recipe does not say.
         """
         given = self.physics.gravity
         if given is None:
-            grounded = self.physics.traits.has_weight and self.pose in ("stand", *LET_GO)
-            return EARTH if grounded else 0.0
+            return EARTH if self.physics.traits.has_weight and self.lands else 0.0
         return given
 
     @property
