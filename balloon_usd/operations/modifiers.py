@@ -16,7 +16,7 @@ TURNS = 3.0
 """Full turns of a twist: the common advice of makers."""
 HOLDING_TURNS = 2.0
 """Turns below which a twist unwinds: makers advise 2 to 4, three as a rule."""
-MODIFIERS = ("balloon", "point", "turns", "burp", "spin", "strokes", "seconds", "note")
+MODIFIERS = ("balloon", "point", "turns", "burp", "spin", "disc", "strokes", "seconds", "note")
 """All modifiers, in the order in which they are written."""
 
 

@@ -263,6 +263,8 @@ class Curl(Curve):
     """How many shall stay when hands let go."""
     rise: float = 0.0
     """How far it goes on along its axis with each turn, m."""
+    growth: float = 0.0
+    """How much farther from its axis each turn lies than the one within, m; 0 of a coil that goes on."""
 
 
 @dataclass(frozen=True)

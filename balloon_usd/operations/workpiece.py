@@ -310,6 +310,10 @@ class Workpiece:
         root = self._joints.root(end)
         return next(ends for ends in self.joints if self._joints.root(ends[0]) == root)
 
+    def is_free(self, end: Joint) -> bool:
+        """Whether nothing hangs on an end by now, nor is left of its balloon there."""
+        return len(self.joint(end)) == 1 and end not in self.open_ends.values()
+
     def is_merged(self, ends: Iterable[Joint]) -> bool:
         """Whether a step brought several joints together in the one that has all these ends."""
         return not self._brought.isdisjoint(ends)

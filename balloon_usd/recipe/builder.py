@@ -30,8 +30,8 @@ class RecipeBuilder:
     """Collects balloons and steps; `build` checks them as a file is checked.
 
     Every operation of the recipe language is a method with the same word. Lengths are in metres, angles in
-    degrees, times in seconds. Modifiers (balloon, point, turns, burp, spin, strokes, seconds, note) are those
-    of the language.
+    degrees, times in seconds. Modifiers (balloon, point, turns, burp, spin, disc, strokes, seconds, note) are
+    those of the language.
     """
 
     def __init__(

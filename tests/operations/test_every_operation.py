@@ -29,6 +29,7 @@ VALUES = {
     "turns": 2.5,
     "burp": 20,
     "spin": 90,
+    "disc": True,
     "strokes": 4,
     "seconds": 1.5,
     "note": "gently",

@@ -100,6 +100,7 @@ VALUES = {
     "turns": "2.5",
     "burp": "20.0",
     "spin": "90.0",
+    "disc": "True",
     "strokes": "4",
     "seconds": "1.5",
     "note": "gently",

@@ -14,7 +14,7 @@ from balloon_usd.quality.ring_corners import RingCorners
 from balloon_usd.quality.watch import QualityWatch
 from balloon_usd.quality.wound import turns_of_coil
 from balloon_usd.recipe import Recipe, RecipeBuilder, RecipeError
-from balloon_usd.solver.latex.motions.curl import Coil
+from balloon_usd.solver.latex.motions.curl import Disc, Helix
 from balloon_usd.solver.motions.curve import Row
 from balloon_usd.solver.simulation import simulate_many
 
@@ -28,6 +28,20 @@ steps:
   - ear: {knob: 2}
 """
 SPRING = TUBE + "  - rest: body\n  - curl: {body: 1.5}\n    point: up\n"
+SWEET = """
+format: 1
+name: sweet
+units: cm
+balloons:
+  main: {size: 160, inflated: 36}
+steps:
+  - bubbles: {stick: 5}
+  - rest: sweet
+  - curl: {sweet: 1.15}
+    point: left
+    disc: true
+must_hold: planned
+"""
 CHAIN = TUBE + "  - bubbles: {feeler: 20}\n  - loop: {ring: 12}\n"
 
 
@@ -49,8 +63,15 @@ class Coiled:
                 middles = np.array([ring.places(frame).mean(axis=0) for ring in rings])
                 if frame.time_code == done:
                     self.rolled = middles
+                    self.tail_rolled = self._tail(meshes, frame)
         self.kept = middles
         self.quality = quality.data()
+
+    def _tail(self, meshes, frame):
+        """The last but one ring on its flat tail, and that at which it begins: their middles, m."""
+        rings = self.move.rings
+        ends = rings[-2], rings[len(rings) - self.move.flat - 1]
+        return [RingCorners.of(self.plan, meshes, ring).places(frame).mean(axis=0) for ring in ends]
 
 
 def sense(middles):
@@ -87,6 +108,30 @@ def test_the_tail_keeps_its_gas_and_its_flat_tip_while_it_is_rolled_up(spring):
     assert spring.quality["tail"]["verdict"] == "good"
 
 
+@pytest.fixture(scope="module")
+def sweet():
+    return Coiled(SWEET)
+
+
+def test_a_disc_lies_in_one_plane_and_grows_by_a_tube_with_each_turn(sweet):
+    middle = sweet.rolled - sweet.rolled.mean(axis=0)
+    assert np.abs(middle[:, 1]).max() < 0.002
+    assert turns_of_coil(sweet.rolled) == pytest.approx(sweet.move.turns, rel=0.04)
+    assert sweet.move.rise == 0.0
+    assert sweet.move.growth == pytest.approx(PITCH * 0.026, rel=0.1)
+
+
+def test_its_turns_touch_and_stay_and_no_wall_goes_through_another_without_any_fold(sweet):
+    assert turns_of_coil(sweet.kept) == pytest.approx(1.15, abs=0.15)
+    assert sweet.quality["crossings"]["most"] == 0
+
+
+def test_the_flat_tail_comes_out_of_a_disc_along_its_axis(sweet):
+    tip, inner = sweet.tail_rolled
+    way = (tip - inner) / np.linalg.norm(tip - inner)
+    assert way @ sweet.move.point > 0.9
+
+
 @pytest.mark.long
 def test_a_bubble_in_the_middle_takes_along_what_hangs_on_its_free_end_and_a_mirrored_one_is_left_handed():
     coiled = Coiled("mirror: true\n" + CHAIN + "  - curl: {feeler: 1}\n    point: left\n")
@@ -106,7 +151,7 @@ def test_turns_below_0_are_left_handed():
 @pytest.mark.parametrize("axis", [(0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, -1.0, 0.0)])
 def test_a_row_of_rings_is_rolled_up_without_being_stretched(axis, turns):
     row = np.stack([np.linspace(0.6, 0.0, 49), np.zeros(49), np.zeros(49)], axis=1)
-    coil = Coil(Row(row), turns, np.array(axis), 0.03)
+    coil = Helix(Row(row), turns, np.array(axis), 0.03)
     assert coil.places(0.0) == pytest.approx(row, abs=1e-9)
     for progress in (0.2, 0.5, 0.9, 1.0):
         places = coil.places(progress)
@@ -118,11 +163,31 @@ def test_a_row_of_rings_is_rolled_up_without_being_stretched(axis, turns):
     assert (places[0] - places[-1]) @ np.array(axis) == pytest.approx(0.03 * abs(turns))
 
 
+@pytest.mark.parametrize("turns", [-1.5, 2.0])
+@pytest.mark.parametrize("axis", [(0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, -1.0, 0.0)])
+def test_a_row_of_rings_is_rolled_up_into_a_disc_without_being_stretched(axis, turns):
+    row = np.stack([np.linspace(0.6, 0.0, 193), np.zeros(193), np.zeros(193)], axis=1)
+    disc = Disc(Row(row), turns, np.array(axis), 0.03)
+    assert disc.places(0.0) == pytest.approx(row, abs=1e-9)
+    for progress in (0.2, 0.5, 0.9, 1.0):
+        places, turned = disc.places(progress), disc.turned(progress)
+        assert places[-1] == pytest.approx(row[-1], abs=1e-12)
+        apart = np.linalg.norm(np.diff(places, axis=0), axis=1)
+        assert apart == pytest.approx(np.full(192, 0.6 / 192), rel=0.02)
+        outward = (places[0] - places[1]) / np.linalg.norm(places[0] - places[1])
+        assert turned @ (1.0, 0.0, 0.0) == pytest.approx(outward, abs=0.1)
+    assert turns_of_coil(places) == pytest.approx(abs(turns), rel=0.02)
+    assert np.ptp(places @ np.array(axis)) < 1e-9
+    apart = np.linalg.norm(places[:, None] - places[None, :], axis=2)
+    far_along = np.abs(np.subtract.outer(np.arange(193), np.arange(193))) > 20
+    assert apart[far_along].min() == pytest.approx(0.03, rel=0.05)
+
+
 @pytest.mark.parametrize("turns", [-2.0, 3.0])
 @pytest.mark.parametrize("axis", [(0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, -1.0, 0.0)])
 def test_what_hangs_on_the_end_that_is_rolled_in_turns_with_it(axis, turns):
     row = np.stack([np.linspace(0.6, 0.0, 961), np.zeros(961), np.zeros(961)], axis=1)
-    coil = Coil(Row(row), turns, np.array(axis), 0.03)
+    coil = Helix(Row(row), turns, np.array(axis), 0.03)
     assert coil.turned(0.0) == pytest.approx(np.eye(3), abs=1e-9)
     for progress in (0.2, 0.5, 0.9, 1.0):
         places, turned = coil.places(progress), coil.turned(progress)
@@ -135,7 +200,7 @@ def test_flat_rubber_is_wound_as_far_as_hands_hold_it_and_its_tip_goes_straight_
     sides = np.array([0.05, *[0.005] * 4, *[0.02] * 20])
     row = np.zeros((26, 3))
     row[:, 0] = sides.sum() - np.concatenate([[0.0], np.cumsum(sides)])
-    coil = Coil(Row(row, (5, 0)), 2.0, np.array([0.0, 0.0, 1.0]), 0.03)
+    coil = Helix(Row(row, (5, 0)), 2.0, np.array([0.0, 0.0, 1.0]), 0.03)
     row[:5, 0] += [0.04, 0.04, 0.03, 0.02, 0.01]
     coil.measure(row)
     places = coil.places(1.0)
@@ -164,6 +229,11 @@ def test_flat_rubber_is_wound_as_far_as_hands_hold_it_and_its_tip_goes_straight_
         (
             SPRING.replace("curl: {body: 1.5}", "bend: {body: 60}") + "  - curl: {body: 1}\n",
             "bend or curl alone",
+        ),
+        (SWEET.replace("1.15}", "3}"), "are too short for 3 turns, expected at most 1.4, or 111.3 cm"),
+        (
+            CHAIN + "  - curl: {feeler: 0.6}\n    disc: true\n",
+            "something hangs on both ends, expected a free end from which a disc is rolled up",
         ),
         (SPRING + "    seconds: 0.5\n", "0.5 s are too short a time to curl body"),
     ],
