@@ -18,12 +18,14 @@ from balloon_usd.version import __version__
 
 if TYPE_CHECKING:
     from balloon_usd.batch.engine import run_batch
+    from balloon_usd.batch.error import BatchError, NotKept
     from balloon_usd.batch.machine import Machine
-    from balloon_usd.batch.order import Order
-    from balloon_usd.batch.record import Record
-    from balloon_usd.batch.scheduler import BatchError
+    from balloon_usd.batch.order import FrameRange, Order
+    from balloon_usd.batch.record import Record, Status
+    from balloon_usd.batch.watch import Watch
     from balloon_usd.check import Report, check_file
     from balloon_usd.diff import Comparison, DiffError, compare_files
+    from balloon_usd.exchange.error import NotExportedError
     from balloon_usd.exchange.export import export_stage
     from balloon_usd.mesh_file.error import MeshFileError
     from balloon_usd.plan import (
@@ -37,7 +39,7 @@ if TYPE_CHECKING:
         plan_text,
     )
     from balloon_usd.plan import plan as plan_recipe
-    from balloon_usd.preview import PreviewError, draw_contact_sheet
+    from balloon_usd.preview import PictureNotWrittenError, PreviewError, draw_contact_sheet
     from balloon_usd.recipe import Recipe, RecipeBuilder, RecipeError, recipe_schema
     from balloon_usd.solver.errors import DeviceUnavailable, SimulationFailed
     from balloon_usd.solver.frame import Frame
@@ -45,7 +47,7 @@ if TYPE_CHECKING:
     from balloon_usd.solver.simulation import Simulation, simulate_many
     from balloon_usd.stage import StageError, WrittenStage
     from balloon_usd.staging import describe_stage, write_stage
-    from balloon_usd.variation import VariationError, Variations, vary_recipe
+    from balloon_usd.variation import VariationError, VariationNotWrittenError, Variations, vary_recipe
 
 
 __all__ = [
@@ -55,10 +57,14 @@ __all__ = [
     "DeviceUnavailable",
     "DiffError",
     "Frame",
+    "FrameRange",
     "Machine",
     "MeshFileError",
+    "NotExportedError",
+    "NotKept",
     "Order",
     "Performance",
+    "PictureNotWrittenError",
     "Plan",
     "PreviewError",
     "Recipe",
@@ -69,8 +75,11 @@ __all__ = [
     "Simulation",
     "SimulationFailed",
     "StageError",
+    "Status",
     "VariationError",
+    "VariationNotWrittenError",
     "Variations",
+    "Watch",
     "WrittenStage",
     "__version__",
     "after_step",
@@ -95,12 +104,14 @@ __all__ = [
 
 _EXPORTS = {
     "balloon_usd.batch.engine": ("run_batch",),
+    "balloon_usd.batch.error": ("BatchError", "NotKept"),
     "balloon_usd.batch.machine": ("Machine",),
-    "balloon_usd.batch.order": ("Order",),
-    "balloon_usd.batch.record": ("Record",),
-    "balloon_usd.batch.scheduler": ("BatchError",),
+    "balloon_usd.batch.order": ("FrameRange", "Order"),
+    "balloon_usd.batch.record": ("Record", "Status"),
+    "balloon_usd.batch.watch": ("Watch",),
     "balloon_usd.check": ("Report", "check_file"),
     "balloon_usd.diff": ("Comparison", "DiffError", "compare_files"),
+    "balloon_usd.exchange.error": ("NotExportedError",),
     "balloon_usd.exchange.export": ("export_stage",),
     "balloon_usd.mesh_file.error": ("MeshFileError",),
     "balloon_usd.plan": (
@@ -113,7 +124,7 @@ _EXPORTS = {
         "plan_svg",
         "plan_text",
     ),
-    "balloon_usd.preview": ("PreviewError", "draw_contact_sheet"),
+    "balloon_usd.preview": ("PictureNotWrittenError", "PreviewError", "draw_contact_sheet"),
     "balloon_usd.recipe": ("Recipe", "RecipeBuilder", "RecipeError", "recipe_schema"),
     "balloon_usd.solver.errors": ("DeviceUnavailable", "SimulationFailed"),
     "balloon_usd.solver.frame": ("Frame",),
@@ -121,7 +132,7 @@ _EXPORTS = {
     "balloon_usd.solver.simulation": ("Simulation", "simulate_many"),
     "balloon_usd.stage": ("StageError", "WrittenStage"),
     "balloon_usd.staging": ("describe_stage", "write_stage"),
-    "balloon_usd.variation": ("VariationError", "Variations", "vary_recipe"),
+    "balloon_usd.variation": ("VariationError", "VariationNotWrittenError", "Variations", "vary_recipe"),
 }
 _PLACES = {name: (room, name) for room, names in _EXPORTS.items() for name in names}
 # The function `plan` cannot have its own name here: `balloon_usd.plan` is its room.

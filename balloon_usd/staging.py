@@ -11,7 +11,7 @@ from balloon_usd.plan.meshing import meshes_of
 from balloon_usd.plan.particles import experiment_spacing, start_particles
 from balloon_usd.quality.crossing_counter import CrossingCounter
 from balloon_usd.quality.walls import walls_of
-from balloon_usd.stage import AirDescription, MeshDescription, StageDescription, StageWriter
+from balloon_usd.stage import AirDescription, MeshDescription, StageDescription, StageError, StageWriter
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -54,6 +54,9 @@ def write_stage(
             there is no such look, or the choices exclude each other.
         ValueError: there is no such level of detail.
     """
+    shown = getattr(frames, "plan", plan)
+    if shown is not plan and origin_of(shown) != origin_of(plan):
+        raise StageError(f'the frames show another plan, that of "{shown.recipe.name}"')
     level = detail_named(getattr(frames, "detail", "draft") if detail is None else detail)
     meshes = meshes_of(plan, level)
     description, last = describe_stage(plan, meshes), None

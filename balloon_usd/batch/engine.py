@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections import deque
+from os import PathLike
 from typing import TYPE_CHECKING, Self, TypeVar
 
 from balloon_usd.batch import record as records
+from balloon_usd.batch.error import BatchError
 from balloon_usd.batch.facts import Facts, Refusal
 from balloon_usd.batch.job import Job
 from balloon_usd.batch.journal import FILE_NAME, Journal
@@ -13,8 +15,8 @@ from balloon_usd.batch.machine import Machine
 from balloon_usd.batch.messages import Role, Started, Survey, Surveyed, Verified, Verify
 from balloon_usd.batch.pool import Pool
 from balloon_usd.batch.record import Record, Status
-from balloon_usd.batch.scheduler import MOST_FAILED_STARTS, BatchError, Scheduler
-from balloon_usd.batch.watch import Silence
+from balloon_usd.batch.scheduler import MOST_FAILED_STARTS, Scheduler
+from balloon_usd.batch.watch import Overheard, Silence
 from balloon_usd.processes.cores import usable_cores
 from balloon_usd.processes.forking import prepare_fork
 
@@ -42,13 +44,17 @@ def run_batch(
     """Make the stages of recipes, and return what became of each, in their order.
 
     What is in the output folder already, whole and made of the same recipe with the same options, is skipped.
-    Wherever the run is interrupted or killed, the same call again ends in the same files.
+    Wherever the run is interrupted or killed, the same call again ends in the same files. What a watch raises
+    stops all, and comes back as it is.
 
     Raises:
         NotKept: the journal cannot be written.
         BatchError: there is no such device, workers cannot start, kernels cannot be compiled, or the journal
             cannot be read.
+        TypeError: the recipes are one path, not a sequence of some.
     """
+    if isinstance(recipes, (str, PathLike)):
+        raise TypeError(f"{recipes!r} is one recipe, expected a list of them")
     told = watch or Silence()
     with Engine(order, machine or Machine(usable_cores()), told) as engine:
         return engine.make([str(recipe) for recipe in recipes])
@@ -59,7 +65,7 @@ class Engine:
 
     def __init__(self, order: Order, machine: Machine, watch: Watch) -> None:
         """Prepare; used in a `with` block, at whose end all its processes are gone."""
-        self.order, self.machine, self.watch = order, machine, watch
+        self.order, self.machine, self.watch = order, machine, Overheard(watch)
         self._pool = Pool(order)
         self._failed_starts = 0
         self._over = False
@@ -89,11 +95,14 @@ class Engine:
             try:
                 self._make_accepted(jobs, accepted)
             except OSError as error:
+                if error is self.watch.raised:
+                    raise
                 where = error.filename or self.order.folder
                 raise BatchError(f"{where}: {error.strerror or error}") from error
         return [job.record for job in jobs if job.record is not None]
 
     def _make_accepted(self, jobs: Sequence[Job], accepted: Sequence[Job]) -> None:
+        self.order.folder.mkdir(parents=True, exist_ok=True)
         journal = Journal(self.order.folder)
         for job in jobs:
             if job.record is not None:

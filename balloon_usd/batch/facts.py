@@ -7,16 +7,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from balloon_usd.batch.looks import LOOKS, WITH_AIR
+
 if TYPE_CHECKING:
     from collections.abc import Hashable
 
     from balloon_usd.batch.order import Order
     from balloon_usd.plan import Plan
-
-LOOKS = ("recipe", "clear", "chrome", "clay", "print", "stress")
-"""Looks of every stage."""
-WITH_AIR = "thesis"
-"""Look of stages of the model kosaka only; it needs a texture."""
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from balloon_usd.batch.error import NotKept
 from balloon_usd.batch.record import Record, Status
 from balloon_usd.files.hidden import matching
 from balloon_usd.files.lock import locked, remove_unheld
@@ -17,10 +18,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
 FILE_NAME = "batch.jsonl"
-
-
-class NotKept(Exception):  # noqa: N818
-    """The journal cannot be written, as on a full disk; the message says where and why."""
 
 
 class Journal:

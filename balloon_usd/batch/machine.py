@@ -70,6 +70,13 @@ class Machine:
     devices: tuple[str, ...] = ("auto",)
     """Names of devices; auto is the first CUDA device, else the CPU, all is every CUDA device."""
 
+    def __post_init__(self) -> None:
+        """Refuse a machine on which nothing can be made; raises `ValueError`."""
+        if self.cores < 1:
+            raise ValueError(f"{self.cores} cores make nothing, expected at least 1")
+        if not self.devices:
+            raise ValueError('no device, expected names of some, such as ("cpu",)')
+
     @property
     def may_fall_back(self) -> bool:
         """Whether the CPU takes over from a GPU that is gone."""

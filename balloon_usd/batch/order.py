@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path  # noqa: TC003  # dataclasses are read at run time
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+from balloon_usd.balloon.detail import detail_named
+from balloon_usd.batch.looks import LOOKS, WITH_AIR
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -38,7 +41,7 @@ class Order:
     """How the stages of a batch are wanted, and what stands beside them."""
 
     folder: Path
-    """Output folder."""
+    """Output folder; a text is taken, too."""
     detail: str = "draft"
     flat: bool = False
     usdz: bool = False
@@ -50,6 +53,18 @@ class Order:
     report: bool = True
     force: bool = False
     """Whether to make anew what is there already."""
+
+    def __post_init__(self) -> None:
+        """Take the folder as a path; raises `ValueError` or `TypeError` for what cannot be ordered."""
+        object.__setattr__(self, "folder", Path(self.folder))
+        detail_named(self.detail)
+        if not isinstance(self.frames, FrameRange):
+            raise TypeError(f"frames are {self.frames!r}, expected a FrameRange, such as FrameRange(1, 24)")
+        if self.look not in (None, *LOOKS, WITH_AIR):
+            raise ValueError(f"unknown look {self.look!r}, expected one of {', '.join((*LOOKS, WITH_AIR))}")
+        if self.usdz and (self.flat or self.shot):
+            other = "flat" if self.flat else "shot"
+            raise ValueError(f"{other} and usdz exclude each other")
 
     @property
     def ending(self) -> str:

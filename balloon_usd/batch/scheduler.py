@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from balloon_usd.batch import record as records
+from balloon_usd.batch.error import BatchError
 from balloon_usd.batch.job import BatchRun, Job
 from balloon_usd.batch.machine import Device
 from balloon_usd.batch.messages import (
@@ -56,10 +57,6 @@ STATUS = {
     Trouble.KILLED: Status.KILLED,
     Trouble.DEVICE: Status.DEVICE,
 }
-
-
-class BatchError(Exception):
-    """A batch cannot go on; the message says why."""
 
 
 class Scheduler:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from balloon_usd.batch.facts import Facts
     from balloon_usd.batch.record import Record
@@ -58,3 +59,44 @@ class Silence:
 
     def said(self, text: str) -> None:
         """Hear nothing."""
+
+
+class Overheard:
+    """Passes on what is told, and keeps what the watch raised."""
+
+    def __init__(self, watch: Watch) -> None:
+        self._watch = watch
+        self.raised: BaseException | None = None
+
+    def surveyed(self, accepted: Sequence[Facts], refused: Sequence[Record]) -> None:
+        """Pass on which recipes can be made."""
+        with self._kept():
+            self._watch.surveyed(accepted, refused)
+
+    def begun(self, device: str, frames: int) -> None:
+        """Pass on where it is computed."""
+        with self._kept():
+            self._watch.begun(device, frames)
+
+    def advanced(self, doing: str, frames: int, count: Count) -> None:
+        """Pass on how far it is."""
+        with self._kept():
+            self._watch.advanced(doing, frames, count)
+
+    def ended(self, record: Record) -> None:
+        """Pass on what became of a recipe."""
+        with self._kept():
+            self._watch.ended(record)
+
+    def said(self, text: str) -> None:
+        """Pass on what else happened."""
+        with self._kept():
+            self._watch.said(text)
+
+    @contextmanager
+    def _kept(self) -> Iterator[None]:
+        try:
+            yield
+        except BaseException as error:
+            self.raised = error
+            raise

@@ -17,6 +17,7 @@ from balloon_usd.batch.messages import (
     Draw,
     Drop,
     Frames,
+    Made,
     NotMade,
     Ring,
     Started,
@@ -125,7 +126,7 @@ class Writer:
             try:
                 self._start(part, batch)
             except Exception as error:  # no sculpture takes another one along
-                self._tell_not_made(part, error)
+                self._connection.send(_not_made(part, error))
                 if sculpture := batch.sculptures.get(part.place):
                     sculpture.stop()
                     del batch.sculptures[part.place]
@@ -162,13 +163,16 @@ class Writer:
             del self._batches[frames.batch]
 
     def _write(self, batch: _Batch, place: int, frames: list[Any]) -> None:
-        sculpture = batch.sculptures[place]
+        sculpture, told = batch.sculptures[place], None
         try:
             for frame in frames:
                 sculpture.add(frame)
         except Exception as error:  # no sculpture takes another one along
+            told = _not_made(sculpture.part, error)
+        if told is not None:
+            # The error is gone, and with it what it kept mapped of deleted files: a full disk has room again.
             sculpture.stop()
-            self._tell_not_made(sculpture.part, error)
+            self._connection.send(told)
             del batch.sculptures[place]
             return
         if frames and frames[-1].time_code == sculpture.part.last:
@@ -176,30 +180,16 @@ class Writer:
             del batch.sculptures[place]
 
     def _finish(self, sculpture: Sculpture) -> None:
+        told: Made | NotMade
         try:
-            made = sculpture.finish()
+            told = sculpture.finish()
         except Exception as error:  # no sculpture takes another one along
+            told = _not_made(sculpture.part, error, sculpture.failed)
+        if isinstance(told, NotMade):
             sculpture.stop()
-            self._tell_not_made(sculpture.part, error, sculpture.failed)
-        else:
-            self._connection.send(made)
+        self._connection.send(told)
         # Until now `close` finds it, whatever ends this process.
         self._complete.popleft()
-
-    def _tell_not_made(self, part: Part, error: Exception, failed: str = "") -> None:
-        trouble, why = Trouble.NOT_WRITTEN, f"{part.file}: {error}"
-        if isinstance(error, NoFrames):
-            trouble, why = Trouble.FAILED, f"{part.file}: simulation failed {failed}"
-        elif isinstance(error, OF_RECIPE):
-            why = str(error)
-        elif not isinstance(error, EXPECTED):
-            trouble = Trouble.UNFORESEEN
-            before = f"simulation failed {failed}; then " if failed else ""
-            why = f"{part.file}: {before}{''.join(traceback.format_exception(error))}"
-        elif failed:
-            trouble = Trouble.FAILED
-            why = f"{part.file}: simulation failed {failed}; the frames before that are not kept: {error}"
-        self._connection.send(NotMade(part.job, part.batch, trouble, why))
 
     def _drop(self, drop: Drop) -> None:
         for sculpture in list(self._complete):
@@ -239,3 +229,20 @@ class _Batch:
             status = sculpture.status_at(code, frames.statuses)
             found.append(arrays.frame(self.ring.layout.places[place], code, *status).copy())
         return found
+
+
+def _not_made(part: Part, error: Exception, failed: str = "") -> NotMade:
+    """Return what is told of a sculpture that an error ended; `failed`: why its simulation ended before."""
+    trouble, why = Trouble.NOT_WRITTEN, f"{part.file}: {error}"
+    if isinstance(error, NoFrames):
+        trouble, why = Trouble.FAILED, f"{part.file}: simulation failed {failed}"
+    elif isinstance(error, OF_RECIPE):
+        why = str(error)
+    elif not isinstance(error, EXPECTED):
+        trouble = Trouble.UNFORESEEN
+        before = f"simulation failed {failed}; then " if failed else ""
+        why = f"{part.file}: {before}{''.join(traceback.format_exception(error))}"
+    elif failed:
+        trouble = Trouble.FAILED
+        why = f"{part.file}: simulation failed {failed}; the frames before that are not kept: {error}"
+    return NotMade(part.job, part.batch, trouble, why)

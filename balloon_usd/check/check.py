@@ -33,12 +33,13 @@ MOST = 100
 
 
 @usd_access()
-def check_file(name: str, *, nvidia: bool = True) -> Report:
+def check_file(stage: str | Path, *, nvidia: bool = True) -> Report:
     """Look for everything that is wrong with a stage: a USD file, or a folder NAME as `run` writes it.
 
     Nothing is written. Memory does not grow with the number of frames, but with NVIDIA's validator, which
     holds all samples of a layer. `nvidia`: ask that where it is installed.
     """
+    name = str(stage)
     asked = nvidia and nvidia_installed()
     report = Report(name, asks_nvidia=asked, misses_nvidia=nvidia and not asked)
     with streaming():

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from balloon_usd.batch.facts import LOOKS, WITH_AIR
+from balloon_usd.batch.looks import LOOKS, WITH_AIR
 from balloon_usd.cli.failure import EXIT_CODES_HELP, ExitCode, Failure
 from balloon_usd.cli.form import require_form
 from balloon_usd.cli.output import require_readable_name

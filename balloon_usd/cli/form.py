@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from balloon_usd.batch.facts import LOOKS, WITH_AIR
+from balloon_usd.batch.looks import LOOKS, WITH_AIR
 from balloon_usd.cli.failure import ExitCode, Failure
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from balloon_usd.batch.facts import LOOKS, WITH_AIR
+from balloon_usd.batch.looks import LOOKS, WITH_AIR
 from balloon_usd.batch.order import FrameRange, Order
 from balloon_usd.cli.device import devices_named
 from balloon_usd.cli.failure import EXIT_CODES_HELP, ExitCode, Failure
@@ -174,9 +174,8 @@ def _here(
 ) -> list[Record]:
     """Make recipes on this machine."""
     from balloon_usd.batch.engine import run_batch  # noqa: PLC0415
-    from balloon_usd.batch.journal import NotKept  # noqa: PLC0415
+    from balloon_usd.batch.error import BatchError, NotKept  # noqa: PLC0415
     from balloon_usd.batch.machine import Machine  # noqa: PLC0415
-    from balloon_usd.batch.scheduler import BatchError  # noqa: PLC0415
 
     try:
         return run_batch(files, order, Machine(jobs or usable_cores(), devices), watch)
@@ -189,10 +188,9 @@ def _here(
 def _on_cluster(address: str | None) -> Engine:
     """Return what makes recipes on a Ray cluster."""
     from balloon_usd.batch.cluster import run_on_cluster  # noqa: PLC0415
-    from balloon_usd.batch.journal import NotKept  # noqa: PLC0415
+    from balloon_usd.batch.error import BatchError, NotKept  # noqa: PLC0415
     from balloon_usd.batch.machine import Machine  # noqa: PLC0415
     from balloon_usd.batch.ray_cluster import ClusterError  # noqa: PLC0415
-    from balloon_usd.batch.scheduler import BatchError  # noqa: PLC0415
 
     def made(
         files: Sequence[Path], order: Order, devices: tuple[str, ...], jobs: int | None, watch: Watch

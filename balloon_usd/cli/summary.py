@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections import Counter
 from typing import TYPE_CHECKING, Any
 
-from rich.console import Console
 from rich.table import Table
 
 from balloon_usd.batch.record import Status
+from balloon_usd.cli.console import Terminal
 from balloon_usd.quality.joints import SLIPPED
 from balloon_usd.quality.line import quality_line
 from balloon_usd.quality.measures import Verdict
@@ -41,7 +41,7 @@ def print_summary(records: Sequence[Record], order: Order, seconds: float, devic
     """
     if not any(record.name for record in records):
         return
-    console = Console(soft_wrap=True, highlight=False)
+    console = Terminal(soft_wrap=True, highlight=False)
     listed = records if len(records) <= MOST_ROWS else [r for r in records if r.status not in THERE]
     if listed:
         console.print(_table(listed), no_wrap=True, crop=False)

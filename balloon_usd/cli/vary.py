@@ -103,10 +103,11 @@ def _print_summary(made: Variations, recipe: Path, output: Path) -> None:
 @contextmanager
 def _shown_progress() -> Iterator[Progress]:
     """Show a bar on a terminal while variations are planned."""
-    from rich.console import Console  # noqa: PLC0415
     from rich.progress import Progress as Bar  # noqa: PLC0415
 
-    console = Console(stderr=True)
+    from balloon_usd.cli.console import Terminal  # noqa: PLC0415
+
+    console = Terminal(stderr=True)
     with Bar(console=console, transient=True, disable=not console.is_terminal) as bar:
         task = bar.add_task("planning", total=None)
         yield lambda done, total: bar.update(task, completed=done, total=total)

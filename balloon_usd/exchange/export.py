@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from math import ceil, floor
+from operator import index
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, get_args
 from xml.etree import ElementTree as ET
 
 import numpy as np
@@ -13,6 +14,7 @@ from balloon_usd.exchange.error import NotExportedError
 from balloon_usd.exchange.merged_mesh import merged_mesh
 from balloon_usd.exchange.still_formats import write_still
 from balloon_usd.exchange.xdmf_series import require_triangles_and_quads, write_series
+from balloon_usd.language.choices import unknown
 from balloon_usd.mesh_file.error import MeshFileError
 from balloon_usd.mesh_file.libraries import library
 from balloon_usd.openusd import Tf, usd_access
@@ -28,6 +30,7 @@ if TYPE_CHECKING:
     from balloon_usd.exchange.merged_mesh import MergedMesh
 
 Format = Literal["obj", "ply", "vtu", "xdmf"]
+FORMATS: tuple[Format, ...] = get_args(Format)
 
 MOST = 1_000_000
 """Frames that are exported unasked: a stage that claims more may be a damaged one."""
@@ -47,25 +50,30 @@ def export_stage(
     Raises:
         MeshFileError: the stage cannot be read or has no such frame, or the format cannot hold it.
         NotExportedError: the disk is full, or a folder is in the way.
+        ValueError: there is no such format.
+        TypeError: frames are no whole numbers.
     """
+    if form not in FORMATS:
+        raise ValueError(unknown("format", form, FORMATS))
+    codes = None if frames is None else [index(frame) for frame in frames]
     for name in ("meshio", "h5py") if form == "xdmf" else ("meshio",):
         library(name)
     stage = file_of(Path(stage))
     merged = _read(stage)
     name, home = stage.stem, Path(folder)
-    codes = _time_codes(merged, str(stage), frames)
+    moments = _time_codes(merged, str(stage), codes)
     if form == "xdmf":
         require_triangles_and_quads(merged)
-        files: dict[Path, float] = {home / f"{name}.xdmf": codes[0], home / f"{name}.h5": codes[0]}
+        files: dict[Path, float] = {home / f"{name}.xdmf": moments[0], home / f"{name}.h5": moments[0]}
     elif _moves(merged):
-        files = {home / f"{name}.{code:04.0f}.{form}": code for code in codes}
+        files = {home / f"{name}.{code:04.0f}.{form}": code for code in moments}
     else:
-        files = {home / f"{name}.{form}": codes[0]}
-    index = [home / f"{name}.pvd"] if form == "vtu" and _moves(merged) else []
+        files = {home / f"{name}.{form}": moments[0]}
+    guide = [home / f"{name}.pvd"] if form == "vtu" and _moves(merged) else []
     try:
         # What a damaged stage holds may be no numbers.
         with np.errstate(invalid="ignore"):
-            return _publish(merged, codes, files, index)
+            return _publish(merged, moments, files, guide)
     except Tf.ErrorException as error:
         raise MeshFileError(f"{stage} is damaged and cannot be read") from error
 

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
+from balloon_usd.language.choices import unknown
 from balloon_usd.openusd import usd_access
+from balloon_usd.preview.camera import VIEWS
 from balloon_usd.preview.painter import Painter
 from balloon_usd.preview.png_file import require_place, write_png
 from balloon_usd.preview.read_stage import read_stage
@@ -22,6 +25,8 @@ if TYPE_CHECKING:
 
     Font = ImageFont.ImageFont | ImageFont.FreeTypeFont
 
+MOST_PIXELS = 8192
+"""Width and height of a picture at most: a sheet of eight takes 1.6 GB then."""
 MOMENTS = 8
 """Pictures on a sheet when no frames are asked for."""
 
@@ -71,10 +76,12 @@ def draw_contact_sheet(
     Raises:
         PreviewError: the stage cannot be read or has no such look, the sheet cannot be written, or there is
             no such device.
+        ValueError: there is no such view, a time code is no number, or pictures have no size.
     """
+    _require_layout(columns, size, view)
     require_place(Path(png_path))
     scene = read_stage(stage_path, look)
-    moments = tuple(frames) if frames is not None else spread_moments(scene.start, scene.end)
+    moments = _moments(scene, frames)
     painter = Painter(scene, device)
     sheet = _empty_sheet(scene, len(moments), columns, size)
     for number, moment in enumerate(moments):
@@ -86,6 +93,25 @@ def draw_contact_sheet(
         words = (f"frame {moment:g}", scene.doing(moment))
         _caption(sheet, (left, top + size[1]), size[0], words, shot)
     return write_png(sheet, Path(png_path))
+
+
+def _require_layout(columns: int, size: tuple[int, int], view: str) -> None:
+    if columns < 1:
+        raise ValueError(f"{columns} pictures in a row, expected at least 1")
+    if not all(1 <= side <= MOST_PIXELS for side in size):
+        raise ValueError(f"pictures of {size[0]} by {size[1]} pixels, expected 1 to {MOST_PIXELS}")
+    if view not in VIEWS:
+        raise ValueError(unknown("view", view, VIEWS))
+
+
+def _moments(scene: StageScene, frames: Sequence[float] | None) -> tuple[float, ...]:
+    """Return time codes as plain numbers: some that were asked for, or those of a usual sheet."""
+    if frames is None:
+        return spread_moments(scene.start, scene.end)
+    found = tuple(float(frame) for frame in frames)
+    if not found or not all(map(isfinite, found)):
+        raise ValueError(f"time codes {list(found)}, expected some numbers")
+    return found
 
 
 def spread_moments(start: float, end: float, count: int = MOMENTS) -> tuple[float, ...]:

@@ -16,7 +16,7 @@ from balloon_usd.preview.stage_mesh import read_mesh
 from balloon_usd.preview.stage_place import World
 from balloon_usd.stage.animated import STEP
 from balloon_usd.stage.component import in_component
-from balloon_usd.stage.on_disk import special_files
+from balloon_usd.stage.on_disk import file_of, special_files
 from balloon_usd.stage.opening import quiet
 
 if TYPE_CHECKING:
@@ -82,11 +82,13 @@ class StageScene:
 def read_stage(path: str | Path, look: str | None = None) -> StageScene:
     """Open a stage in one of its looks, None for its own, and find its meshes and points.
 
-    Where there are component models only these are read: what stands round them in a shot is scenery.
+    `path`: a file, or a folder NAME as `run` writes it. Where there are component models only these are read:
+    what stands round them in a shot is scenery.
 
     Raises:
         PreviewError: the file is not there, no USD file or not whole, has no such look, or shows no mesh.
     """
+    path = _file_of(path)
     stage, selected = _opened(path, look)
     drawn = [prim for prim in stage.Traverse(Usd.TraverseInstanceProxies()) if _is_drawn(prim)]
     drawn = [prim for prim in drawn if in_component(prim)] or drawn
@@ -97,6 +99,15 @@ def read_stage(path: str | Path, look: str | None = None) -> StageScene:
         raise PreviewError(f"{path} shows no mesh")
     title, (start, end, fps) = _title(stage, Path(path)), _times(stage, path)
     return StageScene(title, start, end, fps, tuple(meshes), stage, selected, tuple(clouds))
+
+
+def _file_of(path: str | Path) -> str | Path:
+    """Return the file that a path stands for, itself where that holds no stage or cannot be looked up."""
+    try:
+        file = file_of(Path(path))
+    except (OSError, ValueError):
+        return path
+    return file if file.is_file() else path
 
 
 def _opened(path: str | Path, look: str | None) -> tuple[Any, str]:

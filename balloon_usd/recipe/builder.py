@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Self
 
 from balloon_usd.language.choices import unknown
-from balloon_usd.language.quantities import LengthLike, Units, written_length
+from balloon_usd.language.quantities import METRES, LengthLike, Units, written_length
 from balloon_usd.operations.operation import Operation
 from balloon_usd.operations.table import BY_WORD, WORDS
 
@@ -52,6 +52,8 @@ class RecipeBuilder:
         mirror: bool = False,
         must_hold: str | Sequence[str] | None = None,
     ) -> None:
+        if units not in METRES:
+            raise ValueError(unknown("unit", units, METRES))
         self._units = units
         head = {"title": title or None, "source": source or None, "units": units, "fps": fps, "tempo": tempo}
         self._head = _given(head)
@@ -84,7 +86,12 @@ class RecipeBuilder:
     ) -> Self:
         """Take a balloon of a size; give `tail` (flat), `inflated` or `capsule`, m. Or take one of a `mesh`
         file, in this `unit`, blown up to `swell`, its origin `at` a place (3,), m.
+
+        Raises:
+            ValueError: there is a balloon of this name.
         """
+        if name in self._balloons:
+            raise ValueError(f'there is a balloon "{name}" already, expected another name')
         lengths = {
             "tail": tail,
             "inflated": inflated,

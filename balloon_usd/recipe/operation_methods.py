@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from inspect import Parameter, Signature, getdoc, signature
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -35,6 +36,9 @@ def signature_of(operation: type[Operation]) -> Signature:
 def require_arguments(operation: type[Operation], /, *what: object, **keys: object) -> None:
     """Raise a `TypeError` with what the method of an operation takes where it does not take these."""
     takes = signature_of(operation)
+    twice = [key for key in keys if any(isinstance(each, Mapping) and key in each for each in what)]
+    if twice:
+        raise TypeError(f'{operation.word}: "{twice[0]}" is given twice, expected it once')
     try:
         takes.bind(None, *what, **keys)
     except TypeError as wrong:

@@ -27,6 +27,10 @@ class SimulationFailed(Exception):  # noqa: N818
         place = "" if frame is None else f" (frame {frame})"
         super().__init__(f"at {time:.2f} s{place}, {step}: {cause}")
 
+    def __reduce__(self) -> tuple[type[SimulationFailed], tuple[str, float, str, int | None]]:
+        """Travel between processes."""
+        return SimulationFailed, (self.step, self.time, self.cause, self.frame)
+
 
 class DeviceUnavailable(Exception):  # noqa: N818
     """A device was asked for that is not there; the message lists those that are."""
@@ -35,3 +39,7 @@ class DeviceUnavailable(Exception):  # noqa: N818
         self.name = name
         self.available = tuple(available)
         super().__init__(f'there is no device "{name}", only {", ".join(available)}')
+
+    def __reduce__(self) -> tuple[type[DeviceUnavailable], tuple[str, tuple[str, ...]]]:
+        """Travel between processes."""
+        return DeviceUnavailable, (self.name, self.available)

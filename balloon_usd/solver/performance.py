@@ -28,6 +28,11 @@ class Performance:
         return self._simulation.detail.name
 
     @property
+    def plan(self) -> Plan:
+        """What is performed."""
+        return self._simulation.plans[0]
+
+    @property
     def meshes(self) -> tuple[BalloonMesh, ...]:
         """One mesh a balloon, in the order of `Plan.strips`."""
         return self._simulation.meshes[0]

@@ -63,8 +63,8 @@ class Simulation:
         self.plans = tuple(plans)
         self.detail = detail
         self.device = device
-        self.fps = _the_one("frame rate", [plan.recipe.fps for plan in plans])
-        model = _the_one("model", [plan.recipe.physics.model for plan in plans])
+        self.fps = _the_one("frame rate", [plan.recipe.fps for plan in self.plans])
+        model = _the_one("model", [plan.recipe.physics.model for plan in self.plans])
         maker = model_named(model)
         self.substeps = _substeps(self.plans, maker.usual_substeps(detail), self.fps)
         made = [made_meshes(plan, detail) for plan in self.plans]
@@ -179,6 +179,9 @@ def simulate_many(
 
     Raises:
         DeviceUnavailable: there is no such device.
-        ValueError: the plans have different frame rates or models, or there is no such level of detail.
+        ValueError: the plans have different frame rates or models, there is no such level of detail, or no
+            such number of threads.
     """
+    if threads is not None and threads < 1:
+        raise ValueError(f"{threads} threads, expected at least 1")
     return Simulation(plans, detail_named(detail), device_named(device), threads)

@@ -15,6 +15,7 @@ from balloon_usd.stage.detail_files import MATERIALS
 from balloon_usd.stage.error import StageError, writing
 from balloon_usd.stage.flat import begin_flat, complete_flat, files_beside
 from balloon_usd.stage.looks import default_look, require_look
+from balloon_usd.stage.on_disk import why_not_named
 from balloon_usd.stage.properties import one_sample_per_time_code, opens_whole
 from balloon_usd.stage.samples import SampleStream
 from balloon_usd.stage.shot import shot_name, write_shot
@@ -95,13 +96,19 @@ class StageWriter:
         require_look(shown, description, textured=not usdz)
         self._wanted = Wanted(detail, shown, shot)
         self._final = Path(folder) / f"{description.name}{self._form.ending}"
+        if why := why_not_named(self._final):
+            raise StageError(f"could not be written: {why}")
+        with writing(self._final):
+            self._find_the_way_free()
+        self._work = Workspace(self._final)
+
+    def _find_the_way_free(self) -> None:
         if self._final.exists() and self._final.is_dir() == bool(self._form.ending):
             in_the_way = "folder" if self._form.ending else "file"
             raise StageError(f"{self._final} could not be written: a {in_the_way} is in the way")
         for beside in (self._final.with_name(name) for name in self._beside()):
             if beside.is_dir():
                 raise StageError(f"{beside} could not be written: a folder is in the way")
-        self._work = Workspace(self._final)
 
     @usd_access()
     def __enter__(self) -> Self:

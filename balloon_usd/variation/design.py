@@ -94,8 +94,11 @@ def design_of(file: File, settings: Settings, target: File, *, draws: int | None
     return Design(recipe, template, parameters, chosen, names, moved, file.parent, target)
 
 
-def _amount_problems(parameters: Sequence[Parameter], draws: int | None, seed: int | None) -> Iterator[str]:
+def _amount_problems(parameters: Sequence[Parameter], draws: object, seed: object) -> Iterator[str]:
     """Yield what is wrong with how many variations there are."""
+    if not isinstance(draws, int | None) or not isinstance(seed, int | None):
+        yield f"{draws!r} variations with seed {seed!r} cannot be drawn, expected whole numbers"
+        return
     if draws is not None:
         if not 1 <= draws <= MOST_VARIATIONS:
             yield f"{shown_count(draws)} variations cannot be drawn, expected 1 to {MOST_VARIATIONS}"

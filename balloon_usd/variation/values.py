@@ -100,7 +100,7 @@ def listed(values: Sequence[object]) -> Listed:
     Raises:
         ValueError: there is none, one stands twice, or one is not what a recipe can hold.
     """
-    if not values:
+    if len(values) == 0:
         raise ValueError(f"no value, expected some such as {EXAMPLE}")
     plain = tuple(_plain(value) for value in values)
     seen: set[str] = set()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 import subprocess
 import sys
 from itertools import islice
@@ -12,6 +13,7 @@ import pytest
 
 import balloon_usd
 from balloon_usd import (
+    DeviceUnavailable,
     Frame,
     Plan,
     Recipe,
@@ -133,3 +135,30 @@ def test_a_failed_simulation_is_raised_and_leaves_no_stage(
 def test_a_wrong_choice_is_told(detail: str, device: str, error: str, plan: Plan) -> None:
     with pytest.raises((ValueError, balloon_usd.DeviceUnavailable), match=error):
         simulate(plan, detail=detail, device=device)
+
+
+def test_frames_of_another_plan_are_not_written(plan: Plan, recipe: Recipe, tmp_path: Path) -> None:
+    other = plan_recipe(Recipe.parse(recipe.to_yaml().replace("name: bud", "name: leaf")))
+    with pytest.raises(StageError, match='the frames show another plan, that of "leaf"'):
+        write_stage(plan, simulate(other, device="cpu"), tmp_path)
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("folder", ["x" * 300, "a\0b", "a\udcffb"])
+def test_a_folder_that_can_have_no_stage_is_told(plan: Plan, tmp_path: Path, folder: str) -> None:
+    with pytest.raises(StageError, match="could not be written"):
+        write_stage(plan, simulate(plan, device="cpu"), tmp_path / folder)
+
+
+def test_plans_may_come_one_by_one_and_threads_are_counted_from_one(plan: Plan) -> None:
+    assert simulate_many((each for each in [plan]), device="cpu").frame_counts == (plan.frame_count,)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="0 threads, expected at least 1"):
+        simulate_many([plan], device="cpu", threads=0)
+
+
+def test_errors_travel_between_processes() -> None:
+    failed = pickle.loads(pickle.dumps(SimulationFailed("twist", 1.5, "it bursts", 37)))
+    assert (failed.step, failed.time, failed.cause, failed.frame) == ("twist", 1.5, "it bursts", 37)
+    assert str(failed) == "at 1.50 s (frame 37), twist: it bursts"
+    missing = pickle.loads(pickle.dumps(DeviceUnavailable("cuda:7", ["cpu"])))
+    assert str(missing) == 'there is no device "cuda:7", only cpu'

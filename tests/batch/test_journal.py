@@ -7,7 +7,8 @@ import sys
 
 import pytest
 
-from balloon_usd.batch.journal import Journal, NotKept
+from balloon_usd.batch.error import NotKept
+from balloon_usd.batch.journal import Journal
 from balloon_usd.batch.record import Record, Status
 from tests.batch.runs import ROOT
 

@@ -165,6 +165,16 @@ def test_output_that_nobody_reads_to_its_end_leaves_no_traceback(dog):
     process.stderr.close()
 
 
+def test_a_run_that_nobody_hears_to_its_end_is_made_and_says_so(cli, solver, write_recipe, tmp_path):
+    words = [sys.executable, "-m", "balloon_usd", "run", write_recipe(), "-o", str(tmp_path / "out")]
+    process = interruptible.start([*words, "--no-preview", "--no-report"])
+    process.stdout.close()
+    process.stderr.read()
+    process.stderr.close()
+    assert process.wait(timeout=120) == 141
+    assert (tmp_path / "out" / "snake" / "snake.usda").exists()
+
+
 def test_a_folder_that_is_gone_is_told(folder, tmp_path):
     place = tmp_path / "gone"
     place.mkdir()

@@ -242,3 +242,12 @@ def test_a_stage_that_is_damaged_between_its_frames_is_refused_and_leaves_nothin
     with pytest.raises(MeshFileError, match=r"dog.usda (is damaged and cannot be read|is not whole)"):
         export_stage(tmp_path / "dog" / "dog.usda", tmp_path / "out", "ply")
     assert list((tmp_path / "out").glob("*")) == []
+
+
+def test_a_format_that_there_is_not_and_frames_between_frames_are_refused(tmp_path):
+    file = write_stage(sculpture(), frames(2), tmp_path).files[0]
+    with pytest.raises(ValueError, match='unknown format "stl"'):
+        export_stage(file, tmp_path / "out", "stl")
+    with pytest.raises(TypeError, match="float"):
+        export_stage(file, tmp_path / "out", "obj", frames=[1.5])
+    assert len(export_stage(file, tmp_path / "out", "obj", frames=np.arange(1, 3))) == 2

@@ -192,3 +192,27 @@ def test_a_sheet_that_cannot_be_written_leaves_nothing(stage_path, tmp_path):
     with pytest.raises(PreviewError, match="cannot be written"):
         draw_contact_sheet(stage_path, tmp_path / "no" / "x.png", frames=(1,), size=SMALL, device="cpu")
     assert [path.name for path in tmp_path.iterdir()] == ["taken.png"]
+
+
+@pytest.mark.parametrize(
+    ("wrong", "told"),
+    [
+        ({"columns": 0}, "0 pictures in a row"),
+        ({"size": (0, 64)}, "pictures of 0 by 64 pixels"),
+        ({"size": (10**6, 10**6)}, "expected 1 to 8192"),
+        ({"view": "back"}, 'unknown view "back"'),
+        ({"frames": [float("nan")]}, "expected some numbers"),
+        ({"frames": []}, "expected some numbers"),
+    ],
+)
+def test_pictures_without_size_view_or_moment_are_refused(stage_path, tmp_path, wrong, told):
+    with pytest.raises(ValueError, match=told):
+        draw_contact_sheet(stage_path, tmp_path / "sheet.png", device="cpu", **wrong)
+    assert not (tmp_path / "sheet.png").exists()
+
+
+def test_a_folder_of_layers_stands_for_its_stage_and_time_codes_may_be_numbers_of_numpy(tmp_path):
+    written = write_stage(Capsule().describe(), Capsule().frames(2), tmp_path)
+    options = {"frames": np.arange(1, 3), "size": SMALL, "device": "cpu"}
+    sheet = draw_contact_sheet(written.files[0].parent, tmp_path / "sheet.png", **options)
+    assert sheet.exists()

@@ -391,6 +391,15 @@ def test_wrong_arguments_are_told_with_the_word_and_those_that_it_takes(word, wh
         RecipeBuilder("f").add(word, *what, **keys)
 
 
+def test_what_is_given_twice_or_in_unknown_units_is_refused_at_once() -> None:
+    with pytest.raises(ValueError, match='there is a balloon "main" already'):
+        RecipeBuilder("f").balloon("main", size=260).balloon("main", size=160)
+    with pytest.raises(TypeError, match='bubbles: "a" is given twice, expected it once'):
+        RecipeBuilder("f").bubbles({"a": 0.05}, a=0.06)
+    with pytest.raises(ValueError, match='unknown unit "inch"'):
+        RecipeBuilder("f", units="inch")
+
+
 def test_numbers_and_arrays_of_numpy_are_written_as_plain_ones():
     number = np.float32
     figure = (
