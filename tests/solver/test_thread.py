@@ -87,13 +87,9 @@ ROW = Thread.example.replace("length: 29, tail: 6", "length: 32, tail: 7").repla
 )
 
 
-@pytest.fixture(scope="module")
-def row():
-    return Threaded(ROW)
-
-
 @pytest.mark.long
-def test_a_row_of_bubbles_stays_before_the_ring_and_the_rest_goes_through(row):
+def test_a_row_of_bubbles_stays_before_the_ring_and_the_rest_goes_through():
+    row = Threaded(ROW)
     assert (row.stuck, row.slipped) == ([], [])
     assert row.result["through"]["blade"] > 0.9
     ends = [row.place(row.move.led[at]) for at in (row.move.row - 1, -1)]
@@ -102,8 +98,8 @@ def test_a_row_of_bubbles_stays_before_the_ring_and_the_rest_goes_through(row):
     assert sum(row.crossings) == 0
 
 
-def test_nothing_unwinds_in_a_row_that_leads_back_into_its_ring(row):
-    assert row.plan.cautions == ()
+def test_nothing_unwinds_in_a_row_that_leads_back_into_its_ring():
+    assert plan(Recipe.parse(ROW)).cautions == ()
     loose = plan(Recipe.parse(ROW[: ROW.index("  - thread")])).cautions
     assert [caution.what for caution in loose] == [
         "the twist between first and second will unwind",
