@@ -23,7 +23,7 @@ format: 1
 name: bow
 units: cm
 balloons:
-  main: {size: 260, length: 30, tail: 9}
+  main: {size: 260, length: 17, tail: 9}
 steps:
   - bubbles: {knob: 3}
   - ear: {first: 3}

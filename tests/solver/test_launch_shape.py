@@ -20,11 +20,14 @@ format: 1
 name: head
 units: cm
 balloons:
-  main: {size: 260, length: 14, tail: 6, color: red}
+  main: {size: 260, length: 8, tail: 6, color: red}
 steps:
+  - inflate: main
+    seconds: 0.5
   - bubbles: {nose: 3, left_ear: 4, right_ear: 4}
   - lock: [left_ear, right_ear]
     point: up
+    seconds: 1
   - press: {bubble: nose, depth: 0.3}
     seconds: 0.3
   - rest: tail

@@ -18,11 +18,15 @@ format: 1
 name: stool
 units: cm
 balloons:
-  main: {size: 260, length: 15, tail: 6}
+  main: {size: 260, length: 12, tail: 6}
 steps:
+  - inflate: main
+    seconds: 0.5
   - bubbles: {front: 4, left_leg: 6, right_leg: 6}
+    seconds: 1.5
   - lock: [left_leg, right_leg]
     point: down
+    seconds: 1.5
   - rest: back
 pose: POSE
 symmetric: false

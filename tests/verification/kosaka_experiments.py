@@ -25,6 +25,7 @@ from balloon_usd.solver.kosaka.model import KosakaModel
 from balloon_usd.solver.kosaka.parameters import Parameters
 from balloon_usd.solver.simulation import simulate_many
 from balloon_usd.solver.status import COMES_UNDONE
+from tests.crossing import deepest_crossing
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
@@ -34,6 +35,8 @@ EXPERIMENTS = ("diffusion", "press", "bubble", "bubbles", "bend")
 """Recipes of the experiments 4.2.1 to 4.2.4."""
 NEAR = 0.015
 """Distance within which the solid angle of a face is taken exactly, m: three widths of a face."""
+DEEPEST = 1.0
+"""Deepest that a wall may lie inside another, mm."""
 SLABS, SHELLS = 8, 2
 """Cells of equal volume for the density of air; a shell is no thinner than the distance of two particles."""
 
@@ -117,6 +120,12 @@ def perform(text: str, device: str = "cpu", most: int | None = None) -> Run:
 def performed(text: str) -> Run:
     """A recipe performed on the CPU, once for all tests."""
     return perform(text)
+
+
+def deepest_wall(name: str) -> float:
+    """How deep a wall lies inside another in the last frame of a recipe, mm."""
+    run = performed(recipe(name))
+    return 1e3 * float(deepest_crossing([(run.frames[-1].points[0], run.mesh.quads)]).depth)
 
 
 # --- air
