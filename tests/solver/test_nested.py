@@ -34,6 +34,7 @@ balloons:
 steps:
   - insert: {inner: outer}
   - inflate: ORDER
+    seconds: 1.5
 """
 SQUEEZED = (
     Insert.example.replace("size: 260", "size: 350").replace("length: 9", "length: 10")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from itertools import cycle
 
 import numpy as np
@@ -25,14 +26,27 @@ def two_of_kosaka():
 
 @pytest.fixture(params=["one flat state", "several"])
 def states(request, monkeypatch):
+    """Whether plans that advance together are in one flat state or in several."""
     monkeypatch.setattr(
         "balloon_usd.solver.simulation.usable_cores", lambda: 1 + (request.param == "several")
     )
+    return request.param
 
 
-def assert_frames_are_snapshots(plans):
+def simulated(plans):
+    """A simulation and all its snapshots."""
     simulation = simulate_many(plans, device="cpu")
-    snapshots, frames = simulation.snapshots(), simulate_many(plans, device="cpu").frames()
+    return simulation, list(simulation.snapshots())
+
+
+@cache
+def three_simulated(states):
+    """The three plans simulated in states of the fixture, and all snapshots."""
+    return simulated(three())
+
+
+def assert_frames_are_snapshots(plans, simulation, snapshots):
+    frames = simulate_many(plans, device="cpu").frames()
     told = [None] * len(plans)
     for shot, outcomes in zip(snapshots, frames, strict=True):
         for change in shot.changes:
@@ -44,18 +58,16 @@ def assert_frames_are_snapshots(plans):
             assert bits(frame) == bits(outcomes[k])
 
 
-@pytest.mark.usefixtures("states")
-def test_snapshots_hold_the_frames_of_all_plans():
-    assert_frames_are_snapshots(three())
+def test_snapshots_hold_the_frames_of_all_plans(states):
+    assert_frames_are_snapshots(three(), *three_simulated(states))
 
 
 def test_snapshots_hold_the_air_of_all_plans():
-    assert_frames_are_snapshots(two_of_kosaka())
+    assert_frames_are_snapshots(two_of_kosaka(), *simulated(two_of_kosaka()))
 
 
-@pytest.mark.usefixtures("states")
-def test_a_change_is_told_once_and_a_failure_with_it():
-    shots = list(simulate_many(three(), device="cpu").snapshots())
+def test_a_change_is_told_once_and_a_failure_with_it(states):
+    _, shots = three_simulated(states)
     assert [change.plan for change in shots[0].changes] == [0, 1, 2]
     told = [change for shot in shots for change in shot.changes]
     assert len(told) < len(shots)
@@ -68,13 +80,12 @@ def test_a_change_is_told_once_and_a_failure_with_it():
     assert all(now != then for now, then in zip(texts[1:], texts, strict=False))
 
 
-@pytest.mark.usefixtures("states")
-def test_snapshots_are_written_into_memory_that_the_caller_gives():
+def test_snapshots_are_written_into_memory_that_the_caller_gives(states):
     simulation = simulate_many(three(), device="cpu")
     slots = [simulation.extent.frame_arrays(np.zeros) for _ in range(2)]
     turns = cycle(slots)
     given = simulation.snapshots(lambda: next(turns))
-    expected = simulate_many(three(), device="cpu").snapshots()
+    _, expected = three_simulated(states)
     for k, (shot, fresh) in enumerate(zip(given, expected, strict=True)):
         assert np.shares_memory(shot.arrays.points, slots[k % 2].points)
         assert len(shot.arrays.points) == simulation.extent.vertices

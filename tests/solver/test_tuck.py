@@ -9,7 +9,8 @@ from balloon_usd.operations.tuck import Tuck
 from balloon_usd.quality.astride import ASTRIDE, Tube, share_between, share_in_hole
 from tests.solver.into_ring import IntoRing
 
-HELD = "tempo: show\nphysics: {hold: 2}\n"
+HELD = "physics: {hold: 2}\n"
+SLOWLY = "tempo: show\n"
 WHEEL = """
 format: 1
 name: wheel
@@ -87,11 +88,11 @@ def test_it_lies_along_them_and_stays_where_it_is(duck):
 
 
 def test_an_ear_stays_in_the_hole_of_a_loop_and_slips_out_of_a_closed_one():
-    wheel = IntoRing(WHEEL.format(tyre=20) + HELD)
+    wheel = IntoRing(WHEEL.format(tyre=20) + SLOWLY + HELD)
     assert wheel.stuck == wheel.slipped == []
     assert wheel.result["through"]["hub"] > 0.3
     assert not any(wheel.crossings)
-    closed = IntoRing(WHEEL.format(tyre=15) + HELD)
+    closed = IntoRing(WHEEL.format(tyre=15) + SLOWLY + HELD)
     (told,) = (*closed.stuck, *closed.slipped)
     assert told.startswith(("hub did not come into tyre: ", "hub slipped out of tyre at "))
     assert closed.result["through"]["hub"] < ASTRIDE
@@ -100,7 +101,7 @@ def test_an_ear_stays_in_the_hole_of_a_loop_and_slips_out_of_a_closed_one():
 
 @pytest.mark.long
 def test_a_ball_of_another_balloon_sits_astride_a_pair():
-    made = IntoRing(PENGUIN + HELD)
+    made = IntoRing(PENGUIN + SLOWLY + HELD)
     assert made.stuck == made.slipped == []
     assert 0.3 < made.result["through"]["cap"] < 0.7
     assert not any(made.crossings)
