@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -58,6 +60,7 @@ physics: {model: kosaka, hold: 0.25}
 """
 
 
+@cache
 def frames(text):
     """Points of walls and of air in every frame, (frames, N, 3), and the meshes of the balloons."""
     simulation = simulate_many([plan(Recipe.parse(text))], detail="draft", device="cpu")
