@@ -53,6 +53,7 @@ UNSIGNED = r"(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]{1,3})?"
 NUMBER = rf"[-+]?{UNSIGNED}"
 """Pattern of a number."""
 _QUANTITY = re.compile(rf"\s*({NUMBER})\s*([A-Za-z\"]*)\s*", re.ASCII)
+_FRACTION = re.compile(r"\s*(?:([0-9]{1,4})\s+)?([0-9]{1,4})/([1-9][0-9]{0,3})\s*([A-Za-z\"]*)\s*", re.ASCII)
 _PERCENT = re.compile(rf"\s*{NUMBER}\s*%?\s*", re.ASCII)
 _DECIMAL_COMMA = re.compile(r"\s*[0-9]+,[0-9]+\s*[a-z\"]*\s*", re.ASCII)
 _LONGEST_TEXT = 40
@@ -75,7 +76,7 @@ def metres(value: object, units: str | None) -> float:
     Raises:
         ValueError: if it is no length, has no unit or an unknown one.
     """
-    number, unit = _number_and_unit(value, "length", '"12 mm" or "4 in"')
+    number, unit = _fraction(value) or _number_and_unit(value, "length", '"12 mm" or "4 in"')
     unit = unit or units or ""
     if not unit:
         remedy = f'expected units: cm at the top of the recipe, or a length such as "{_plain(number)} cm"'
@@ -164,6 +165,14 @@ def _in_units(value: object, units: Mapping[str, Decimal], what: str, example: s
     if unit and unit not in units:
         raise ValueError(f"unknown {called} {quoted(unit)}, expected {one_of(units)}")
     return float(number * units[unit] if unit else number)
+
+
+def _fraction(value: object) -> tuple[Decimal, str] | None:
+    """Return what makers with inches write, such as `1 1/2 in` or `3/4`, and its unit; None of all else."""
+    found = _FRACTION.fullmatch(value) if isinstance(value, str) and len(value) <= _LONGEST_TEXT else None
+    if found is None:
+        return None
+    return Decimal(found[1] or 0) + Decimal(found[2]) / Decimal(found[3]), found[4]
 
 
 def _number_and_unit(value: object, what: str, example: str) -> tuple[Decimal, str]:
@@ -261,7 +270,8 @@ class LengthWithin:
         least = {"minimum" if self.low_included else "exclusiveMinimum": 0} if self.low >= 0.0 else {}
         units, sign = "|".join(METRES), "\\+" if self.low >= 0.0 else "[-+]"
         text = {"type": "string", "pattern": rf"^\s*{sign}?[0-9.]+([eE][-+]?[0-9]+)?\s*({units})\s*$"}
-        return {"anyOf": [{"type": "number", **least}, text]}
+        fraction = {"type": "string", "pattern": rf"^\s*([0-9]+\s+)?[0-9]+/[0-9]+\s*({units})?\s*$"}
+        return {"anyOf": [{"type": "number", **least}, text, fraction]}
 
 
 @dataclass(frozen=True)

@@ -93,6 +93,7 @@ must_hold: planned
 
     def perform(self, score: Score, index: int) -> None:
         """Lead each bubble onto an arc."""
+        self._refuse_closed(score, index)
         point = score.towards(self.point or "up")
         calm = {bubble: self._calm_seconds(bubble, score, index) for bubble in self.bend}
         score.refuse_haste(index, self.seconds, sum(calm.values()), f"bend {all_of(self.names)}")
@@ -103,6 +104,14 @@ must_hold: planned
             move = BendMove(score.now, seconds, index, f"bend: {bubble}", rings, point, flat, again, angle)
             score.add(move)
             score.let_go(index)
+
+    def _refuse_closed(self, score: Score, index: int) -> None:
+        """Refuse bubbles that close on themselves: both their ends are one joint."""
+        piece = score.piece.after(index)
+        closed = [name for name in self.names if piece.is_closed((name,))]
+        text = "closes on itself, and has no ends that could be led, expected another bubble, or aim"
+        if closed:
+            score.refuse(index, {(self.word, name): f"{name} {text}" for name in closed})
 
     def _calm_seconds(self, bubble: str, score: Score, index: int) -> float:
         """Return how long a calm maker takes to bend a bubble, with what hangs on it, s."""

@@ -31,7 +31,7 @@ class OnBalloon(Entries):
     """Of an operation on one balloon."""
 
     balloon: Name | None = None
-    """The balloon worked on; needed when there are several."""
+    """The balloon worked on; needed where there are several and no bubble says which."""
 
 
 class Pointed(Entries):

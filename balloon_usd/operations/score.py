@@ -107,6 +107,14 @@ class PlacedBubble(Protocol):
         """Whether it has a hole once its two ends are one, if it is long enough: no ear and no tulip has."""
 
     @property
+    def looped(self) -> bool:
+        """Whether it is made a loop or a fold: its two ends are one, and it is long enough to be no ball."""
+
+    @property
+    def halved(self) -> bool:
+        """Whether its two halves lie side by side, as those of a fold."""
+
+    @property
     def length(self) -> float:
         """Inflated length, m."""
 

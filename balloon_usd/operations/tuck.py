@@ -39,6 +39,10 @@ FITS = 0.9
 """Width of the hole of a loop beyond which a limb slips out of it, in widths of its tube: an ear of 3 cm of a
 260 stays in a loop of 30 cm and slips out of one of 32.
 """
+LOOP_IN_LOOP = 1.5
+"""Length of a loop below which another one does not come into its hole, in the length of that: in simulations
+of a 260 one of 20 cm comes into one of 30 and stays in one of 50, one of 28 comes in from 43 on.
+"""
 MOST = 2
 """Largest number of bubbles between which one is set."""
 PLACES, PLACES_OF_LOOP = 3, 7
@@ -126,30 +130,40 @@ steps:
             bench.piece.touch(place.index, cls.word, names[0], names[1:])
 
     def refusals(self, layout: Layout) -> Iterator[tuple[tuple[str, ...], str]]:
-        """Yield a loop without a hole."""
+        """Yield a loop without a hole, and a fold, out of which all slips."""
         between = self.tuck.between
-        if len(between) == 1 and (fault := without_hole(between[0], layout)):
-            yield (self.word, "between"), f"{fault}, expected a loop or a fold, or two bubbles"
+        if len(between) > 1:
+            return
+        if fault := without_hole(between[0], layout):
+            yield (self.word, "between"), f"{fault}, expected a loop, or two bubbles"
+        elif layout.bubble(between[0]).halved:
+            what = f"{between[0]} is a fold, whose halves its twist keeps side by side"
+            yield (self.word, "between"), f"{what}, expected a loop, or two bubbles"
 
     def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:
-        """Warn of a loop whose hole its own wall closes, and of one whose hole is too wide."""
+        """Warn of a loop whose hole its own wall closes, and of one whose hole is too narrow or too wide."""
         bubble, *between = (layout.bubble(name) for name in self.names)
-        if len(between) == 1 and is_too_wide(between[0].length, between[0].width, bubble.width):
-            loop, most = self.tuck.between[0], math.pi * (FITS * bubble.width + between[0].width)
-            yield Caution(
-                index,
-                f"{self.tuck.bubble} may slip out of {loop} ({cm(between[0].length)})",
+        if len(between) > 1:
+            return
+        name, into, loop = self.tuck.bubble, self.tuck.between[0], between[0]
+        shown = f"{into} ({cm(loop.length)})"
+        narrow = f"{name} ({cm(bubble.length)}) may slip out of {shown}"
+        if loop.length < OPEN * loop.width:
+            least = cm(OPEN * loop.width)
+            why = "the wall of so short a loop closes its hole"
+            yield Caution(index, narrow, why, f"make {into} at least {least} long")
+        elif bubble.looped and 1.001 * loop.length < LOOP_IN_LOOP * bubble.length:
+            least, most = cm(LOOP_IN_LOOP * bubble.length), cm(loop.length / LOOP_IN_LOOP)
+            what = f"{name} ({cm(bubble.length)}) may not come into {shown}"
+            why = f"{name} is as wide as two tubes"
+            yield Caution(index, what, why, f"make {into} at least {least} long, or {name} at most {most}")
+        elif is_too_wide(loop.length, loop.width, bubble.width, looped=bubble.looped):
+            most_long = math.pi * (FITS * bubble.width + loop.width)
+            what, why = (
+                f"{name} may slip out of {shown}",
                 f"its hole is about as wide as a {bubble.size}, or wider",
-                f"make {loop} {at_most(most)} long, or less",
             )
-        if len(between) == 1 and between[0].length < OPEN * between[0].width:
-            loop, least = self.tuck.between[0], OPEN * between[0].width
-            yield Caution(
-                index,
-                f"{self.tuck.bubble} ({cm(bubble.length)}) may slip out of {loop} ({cm(between[0].length)})",
-                "the wall of so short a loop closes its hole",
-                f"make {loop} at least {cm(least)} long",
-            )
+            yield Caution(index, what, why, f"make {into} {at_most(most_long)} long, or less")
 
     def perform(self, score: Score, index: int) -> None:
         """Spread the others, bring it over them and in, and let them close on it."""
@@ -172,9 +186,9 @@ steps:
         score.settle(move)
 
 
-def is_too_wide(length: float, width: float, limb: float) -> bool:
-    """Whether a limb so wide slips out of the hole of a loop so long, of a tube so wide, m."""
-    return length / math.pi - width > FITS * limb
+def is_too_wide(length: float, width: float, limb: float, *, looped: bool) -> bool:
+    """Whether a limb so wide slips out of the hole of a loop so long, of a tube so wide, m: a loop stays."""
+    return not looped and length / math.pi - width > FITS * limb
 
 
 def _across(bubble: PlacedBubble) -> float:
@@ -188,7 +202,7 @@ def _faults(piece: Workpiece, name: str, between: Sequence[str]) -> Iterator[tup
         yield "between", "names a bubble twice, expected each once"
         return
     if len(between) == 1 and not piece.is_closed(between):
-        yield "between", f"{between[0]} is no closed ring by now, expected a loop or a fold, or two bubbles"
+        yield "between", f"{between[0]} is no closed ring by now, expected a loop, or two bubbles"
     if name in piece.gripped():
         yield "bubble", f"{name} is held by others already, expected each bubble once"
     if circle := [each.bubble for each in piece.holding() if name in each.others and each.bubble in between]:

@@ -249,6 +249,8 @@ class Workbench:
         self.find_whole(name, place, path)
         if len(self.complaints) > known:
             return
+        if not self._is_unwound(name, path, "this step before that one, or another bubble"):
+            return
         before, at = self._curved_at.get(name, (word, None))
         if at is not None and (once or before != word):
             expected = "that once" if before == word else f"{before} or {word} alone"
@@ -266,11 +268,13 @@ class Workbench:
 
     def is_open(self, ring: Iterable[str], path: Path) -> bool:
         """Say whether anything goes between some bubbles; complain if they are wound about each other."""
-        wound = next((name for name in ring if name in self._wound_at), None)
-        if wound is not None:
-            what = f"{wound} is wound or plaited at {path_text(self._wound_at[wound])}"
-            self.complain(path, f"{what}, expected bubbles with room between them")
-        return wound is None
+        return all(self._is_unwound(name, path, "bubbles with room between them") for name in ring)
+
+    def _is_unwound(self, name: str, path: Path, expected: str) -> bool:
+        if name in self._wound_at:
+            what = f"{name} is wound or plaited at {path_text(self._wound_at[name])}"
+            self.complain(path, f"{what}, expected {expected}")
+        return name not in self._wound_at
 
     def close_tip(self, name: str, path: Path) -> bool:
         """Let what is left of a balloon end in a joint, once; say whether it can."""

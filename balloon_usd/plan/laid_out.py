@@ -39,6 +39,14 @@ class _Placed:
         return self.planned.hollow
 
     @property
+    def looped(self) -> bool:
+        return self.planned.looped
+
+    @property
+    def halved(self) -> bool:
+        return self.planned.halved
+
+    @property
     def length(self) -> float:
         return self.planned.length
 

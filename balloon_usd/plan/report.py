@@ -24,14 +24,16 @@ if TYPE_CHECKING:
     from balloon_usd.plan.strip import PlannedBubble, Strip
     from balloon_usd.recipe import Recipe
 
+ROUND_OFF = 5.0e-5
+"""Length that is not shown, m."""
 PLAN_FORMAT = 1
 """Version of the layout of `plan_json`."""
 
 
 def plan_text(plan: Plan) -> str:
     """Return the plan as readable text: strips, tail, joints, locks and cautions with their reasons."""
-    made = f"{round(plan.choreography.seconds)} s: {plan.frame_count} frames"
-    shown = f"made in {made}, {plan.recipe.fps:g} a second"
+    lasts = f"{round(plan.choreography.seconds)} s: {plan.frame_count} frames"
+    shown = f"the animation lasts {lasts}, {plan.recipe.fps:g} a second"
     lines, popped = [*head_lines(plan), shown], plan.recipe.piece.popped
     for name, strip in plan.strips.items():
         if strip.shape is not None:
@@ -119,10 +121,15 @@ def _budget_lines(plan: Plan, budget: Budget) -> Iterator[str]:
     each = f"about {cm((budget.tail_needed - budget.drawn) / max(twists, 1))} each"
     if budget.drawn > 0.0:
         each += f", and {cm(budget.drawn)} that turns draw in"
-    yield (
-        f"  {twists} {'twist uses' if twists == 1 else 'twists use'} {cm(budget.tail_used)} of flat tail "
-        f"({each}), {cm(budget.tail_left)} are left"
-    )
+    counted = "1 twist" if twists == 1 else f"{twists} twists"
+    if budget.tail_used < budget.tail_needed - ROUND_OFF:
+        needs = "needs" if twists == 1 else "need"
+        short = f"({each}), and there are {cm(budget.tail_used)}"
+        yield f"  {counted} {needs} {cm(budget.tail_needed)} of flat tail {short}"
+    else:
+        uses = "uses" if twists == 1 else "use"
+        left = f"({each}), {cm(budget.tail_left)} are left"
+        yield f"  {counted} {uses} {cm(budget.tail_used)} of flat tail {left}"
     if budget.most_tail > budget.tail_needed:
         yield (
             f"  fits when blown up {at_least(budget.shortest_inflation)} "

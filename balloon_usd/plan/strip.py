@@ -97,6 +97,18 @@ class PlannedBubble:
         return maker is None or maker.hollow or not maker.closes
 
     @property
+    def looped(self) -> bool:
+        """Whether it is made a loop or a fold: its two ends are one, and it is long enough to be no ball."""
+        maker = BY_KIND.get(self.kind)
+        return maker is not None and maker.hollow
+
+    @property
+    def halved(self) -> bool:
+        """Whether its two halves lie side by side, as those of a fold."""
+        maker = BY_KIND.get(self.kind)
+        return maker is not None and maker.folds
+
+    @property
     def rest_length(self) -> float:
         """Length of its rubber, m: unstressed, or in a capsule before it is twisted."""
         return self.rest_end - self.rest_start

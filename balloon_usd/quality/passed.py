@@ -249,7 +249,7 @@ class _Tucked(_Followed):
             loop, limb = bubbles[move.between[0]], bubbles[move.bubble]
             wide, width = (2.0 * plan.strips[each.balloon].inflated_radius for each in (loop, limb))
             self.if_stuck = self.if_slipped = "make the loop longer or the bubble shorter"
-            if is_too_wide(loop.length, wide, width):
+            if is_too_wide(loop.length, wide, width, looped=limb.looped):
                 self.if_slipped = "make the loop shorter, its hole is as wide as the bubble"
         else:
             self.into, self.out_of = f"between {between}", f"from between {between}"

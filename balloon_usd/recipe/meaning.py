@@ -70,7 +70,8 @@ def _check_filling(balloon: str, entry: object, bench: Workbench) -> None:
         bench.complain((*path, "size"), "is missing, expected the size of the balloon, such as 260")
     given = [key for key in FILLINGS if key in entry]
     if not given:
-        bench.complain(path, f"does not say how far it is blown up, expected {one_of(FILLINGS)}")
+        kinds = "tail or inflated, or capsule in model kosaka"
+        bench.complain(path, f"does not say how far it is blown up, expected {kinds}")
     for extra in given[1:]:
         what = f"stands beside {given[0]}, expected exactly {one_of(FILLINGS)}"
         bench.complain((*path, extra), what)

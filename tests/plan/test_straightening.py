@@ -86,8 +86,6 @@ def test_creep_is_measured_until_hands_take_the_figure_up_again():
         ("aim: {left_arm: up}", 0),
         ("aim: {left_arm: up, right_arm: up}", 1),
         ("aim: {left_arm: [left, up], right_arm: [up, right]}", 1),
-        ("bend: {left_arm: 90}", 0),
-        ("bend: {left_arm: 90, right_arm: 90}", 1),
         ("pop: right_arm", 0),
         ("push: {bubble: nose, through: [left_arm]}", 1),
     ],
@@ -101,6 +99,19 @@ def test_what_is_done_later_with_one_of_both_alone_makes_them_no_twins(later, co
     point: right
   - rest: tail
   - {later}
+"""
+    text = CAT[: CAT.index("steps:")] + "steps:" + steps
+    assert sum(len(move.twins) for move in straightens(text=text)) == count
+
+
+@pytest.mark.parametrize(("bent", "count"), [("left_leg: 60", 0), ("left_leg: 60, right_leg: 60", 1)])
+def test_legs_of_which_one_alone_is_bent_are_no_twins(bent, count):
+    steps = f"""
+  - bubbles: {{nose: 4, left_leg: 14, right_leg: 14}}
+  - lock: [left_leg, right_leg]
+    point: down
+  - rest: tail
+  - bend: {{{bent}}}
 """
     text = CAT[: CAT.index("steps:")] + "steps:" + steps
     assert sum(len(move.twins) for move in straightens(text=text)) == count

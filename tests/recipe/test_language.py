@@ -141,6 +141,9 @@ def test_every_manner_that_makes_sense_with_an_operation_is_read(kind: str) -> N
         ("'10'", 0.1),
         ("'  4  in '", 0.1016),
         ("5 m", 5.0),
+        ("1 1/2 in", 0.0381),
+        ("'3/4\"'", 0.01905),
+        ("1/2", 0.005),
     ],
 )
 def test_a_length_may_be_a_bare_number_or_carry_its_unit(written: str, metres: float) -> None:

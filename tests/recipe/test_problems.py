@@ -227,7 +227,7 @@ def test_a_wrong_balloon_entry_is_found_at_its_place(
         (
             "{size: 260}",
             3,
-            "balloons.m: does not say how far it is blown up, expected one of tail, inflated, capsule",
+            "balloons.m: does not say how far it is blown up, expected tail or inflated, or capsule in model kosaka",
         ),
         ("{tail: 1}", 3, "balloons.m.size: is missing, expected the size of the balloon, such as 260"),
         (

@@ -75,7 +75,7 @@ def test_a_ball_that_closes_on_itself_has_no_hole_for_a_limb() -> None:
     with pytest.raises(RecipeError) as caught:
         plan(recipe)
     (problem,) = caught.value.problems
-    assert problem.text.startswith("knob (3 cm) has no hole, expected a loop or a fold, or two bubbles")
+    assert problem.text.startswith("knob (3 cm) has no hole, expected a loop, or two bubbles")
 
 
 def test_the_plan_warns_of_a_loop_whose_wall_closes_its_hole_and_of_one_whose_hole_is_too_wide() -> None:
@@ -86,6 +86,32 @@ def test_the_plan_warns_of_a_loop_whose_wall_closes_its_hole_and_of_one_whose_ho
     assert "knob (3 cm) may slip out of wheel (15 cm)" in told[15]
     assert not any("slip out" in each for each in (*told[20], *told[30]))
     assert "knob may slip out of wheel (32 cm)" in told[32]
+
+
+SWAN = """
+format: 1
+name: swan
+units: cm
+balloons:
+  main: {size: 260, length: 30, tail: 6}
+steps:
+  - gather: {small: 20, large: SIZE}
+  - rest: neck
+  - tuck: {bubble: small, between: [large]}
+"""
+
+
+def test_the_plan_warns_of_a_loop_that_is_as_wide_as_two_tubes_and_of_no_hole_as_wide_as_one() -> None:
+    told = {size: str(plan(Recipe.parse(SWAN.replace("SIZE", str(size)))).cautions) for size in (26, 30, 50)}
+    assert "small (20 cm) may not come into large (26 cm)" in told[26]
+    assert "make large at least 30 cm long, or small at most 17.3 cm" in told[26]
+    assert "small" not in told[30] + told[50]
+
+
+def test_nothing_is_set_into_a_fold() -> None:
+    fold = "  - fold: {wheel: 20}\n    balloon: main\n  - tuck: {bubble: knob, between: [wheel]}\n"
+    with pytest.raises(RecipeError, match="wheel is a fold, whose halves its twist keeps side by side"):
+        plan(Recipe.parse(BIRD + fold))
 
 
 def test_the_twist_by_which_it_hangs_holds_and_what_hangs_on_it_may_turn() -> None:
