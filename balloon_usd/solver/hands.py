@@ -65,7 +65,7 @@ class Hands:
         self.radius = np.where(self.closed, self.neck, 0.0).astype(np.float32)
         self.radius_goal = self.radius.copy()
         self.touching = np.zeros(len(scene.bodies), dtype=np.int32)
-        """Balloons whose walls may touch something: those that have been folded."""
+        """Balloons whose walls may touch something: once any is bent, pressed or brought to others."""
         self.contact = self._touched = False
         """Whether walls are searched in the frame that was uploaded, and whether any could touch in it."""
         self.fingers = scene.fingers.numpy().copy()

@@ -34,8 +34,7 @@ class Curl(LatexCurve[moves.Curl]):
     """A bubble of latex that is rolled up, with what gas comes to fill of its flat tail meanwhile."""
 
     def path(self, move: moves.Curl, straight: tuple[int, int]) -> Path:
-        """Return the coil, whose turns touch each other."""
-        self._hands.touch(self._sculpture.bodies)
+        """Return the coil."""
         row, axis = Row(self._began, straight), np.array(move.point)
         if move.growth > 0.0:
             self._coil: Coil = Disc(row, move.turns, axis, move.growth)

@@ -17,6 +17,11 @@ class LatexCurve(Curve[AMove], ABC):
 
     _sculpture: LatexSculpture
 
+    def __init__(self, move: AMove, sculpture: LatexSculpture) -> None:
+        """Take hold of the bubble and of what hangs on it; from now on walls touch."""
+        super().__init__(move, sculpture)
+        sculpture.hands.touch(sculpture.bodies)
+
     def take(self, joint: int) -> None:
         """Grip a ring: bending a tube that is blown up takes more than a light push."""
         self._hands.grip(joint, self._sculpture.frame.middle)

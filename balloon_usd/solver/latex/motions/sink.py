@@ -38,7 +38,7 @@ class Sink(Motion):
     def __init__(self, move: moves.Sink, sculpture: LatexSculpture) -> None:
         """Find what sinks, and hold balloons that have no necks for hands."""
         self._hands, strips, body = sculpture.hands, sculpture.plan.strips, sculpture.body
-        # Before the first fold walls of tubes touch nothing.
+        # Until something is bent, pressed or brought together walls of tubes touch nothing.
         self._hands.touch(sculpture.bodies)
         hosts = hosts_of(strips)
         pairs = [(body[guest], body[host.balloon]) for guest, host in hosts.items()]
