@@ -12,6 +12,7 @@ from balloon_usd.language.lengths import at_most, cm
 from balloon_usd.language.names import Name
 from balloon_usd.operations import moves
 from balloon_usd.operations.caution import Caution
+from balloon_usd.operations.closing import LENIENCE
 from balloon_usd.operations.modifiers import Entries, Pointed, Timed
 from balloon_usd.operations.operation import Operation
 from balloon_usd.operations.passing import names_in, without_hole
@@ -152,7 +153,7 @@ steps:
             least = cm(OPEN * loop.width)
             why = "the wall of so short a loop closes its hole"
             yield Caution(index, narrow, why, f"make {into} at least {least} long")
-        elif bubble.looped and 1.001 * loop.length < LOOP_IN_LOOP * bubble.length:
+        elif bubble.looped and loop.length < LOOP_IN_LOOP * bubble.length - LENIENCE:
             least, most = cm(LOOP_IN_LOOP * bubble.length), cm(loop.length / LOOP_IN_LOOP)
             what = f"{name} ({cm(bubble.length)}) may not come into {shown}"
             why = f"{name} is as wide as two tubes"

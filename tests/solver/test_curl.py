@@ -14,7 +14,7 @@ from balloon_usd.quality.ring_corners import RingCorners
 from balloon_usd.quality.watch import QualityWatch
 from balloon_usd.quality.wound import turns_of_coil
 from balloon_usd.recipe import Recipe, RecipeBuilder, RecipeError
-from balloon_usd.solver.latex.motions.curl import Disc, Helix
+from balloon_usd.solver.latex.coil import Disc, Helix
 from balloon_usd.solver.motions.curve import Row
 from balloon_usd.solver.simulation import simulate_many
 
