@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from balloon_usd.balloon.detail import detail_named
 from balloon_usd.batch.looks import LOOKS, WITH_AIR
+from balloon_usd.language.choices import unknown
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -60,8 +61,8 @@ class Order:
         detail_named(self.detail)
         if not isinstance(self.frames, FrameRange):
             raise TypeError(f"frames are {self.frames!r}, expected a FrameRange, such as FrameRange(1, 24)")
-        if self.look not in (None, *LOOKS, WITH_AIR):
-            raise ValueError(f"unknown look {self.look!r}, expected one of {', '.join((*LOOKS, WITH_AIR))}")
+        if self.look is not None and self.look not in (*LOOKS, WITH_AIR):
+            raise ValueError(unknown("look", self.look, (*LOOKS, WITH_AIR)))
         if self.usdz and (self.flat or self.shot):
             other = "flat" if self.flat else "shot"
             raise ValueError(f"{other} and usdz exclude each other")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import errno
+import os
 from typing import NoReturn
 
 from rich.console import Console
@@ -11,5 +13,5 @@ class Terminal(Console):
     """A console that leaves a closed pipe to the command, as any other output does: Rich ends with code 1."""
 
     def on_broken_pipe(self) -> NoReturn:
-        """Let the error go on; called while it is handled."""
-        raise  # noqa: PLE0704
+        """Say so as a stream does."""
+        raise BrokenPipeError(errno.EPIPE, os.strerror(errno.EPIPE))

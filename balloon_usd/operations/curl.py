@@ -106,7 +106,8 @@ steps:
     def refusals(self, layout: Layout) -> Iterator[tuple[tuple[str, ...], str]]:
         """Yield what is no coil, and coils of more turns than a bubble has length for."""
         for name, turns in self.curl.items():
-            bubble, most = layout.bubble(name), self._room(layout.bubble(name))
+            bubble = layout.bubble(name)
+            most = self._room(bubble)
             if abs(turns) < LEAST_TURNS:
                 text = f"{turns:g} turns are no coil"
                 yield (self.word, name), f"{text}, expected bend, or at least {LEAST_TURNS:g} turns"
@@ -118,7 +119,8 @@ steps:
     def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:
         """Warn of coils that open, since there is no length to roll them farther than they shall stay."""
         for name, turns in self.curl.items():
-            bubble, most = layout.bubble(name), self._room(layout.bubble(name))
+            bubble = layout.bubble(name)
+            most = self._room(bubble)
             if KEPT * most < abs(turns) <= most:
                 least = at_least(self._least(abs(turns) / KEPT) * bubble.width)
                 yield Caution(

@@ -25,7 +25,7 @@ from balloon_usd.solver.frame_arrays import Extent
 from balloon_usd.solver.snapshot import frames_of
 
 if TYPE_CHECKING:
-    from collections.abc import Generator, Iterator, Sequence
+    from collections.abc import Generator, Iterable, Iterator, Sequence
 
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan
@@ -57,7 +57,7 @@ class Simulation:
     """Plans performed together, one frame at a time."""
 
     def __init__(
-        self, plans: Sequence[Plan], detail: Detail, device: str, threads: int | None = None
+        self, plans: Iterable[Plan], detail: Detail, device: str, threads: int | None = None
     ) -> None:
         """Prepare to perform plans; `threads`: of a CPU at most, one for each of its cores if absent."""
         self.plans = tuple(plans)
@@ -171,7 +171,7 @@ def _substeps(plans: Sequence[Plan], usual: int, fps: float) -> int:
 
 
 def simulate_many(
-    plans: Sequence[Plan], detail: str = "draft", device: str = "auto", threads: int | None = None
+    plans: Iterable[Plan], detail: str = "draft", device: str = "auto", threads: int | None = None
 ) -> Simulation:
     """Return a simulation of several plans that advance together.
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from math import prod
+from numbers import Integral
 from typing import TYPE_CHECKING
 
 from balloon_usd.language.yaml_reader import read_yaml
@@ -94,9 +95,9 @@ def design_of(file: File, settings: Settings, target: File, *, draws: int | None
     return Design(recipe, template, parameters, chosen, names, moved, file.parent, target)
 
 
-def _amount_problems(parameters: Sequence[Parameter], draws: object, seed: object) -> Iterator[str]:
+def _amount_problems(parameters: Sequence[Parameter], draws: int | None, seed: int | None) -> Iterator[str]:
     """Yield what is wrong with how many variations there are."""
-    if not isinstance(draws, int | None) or not isinstance(seed, int | None):
+    if not all(each is None or isinstance(each, Integral) for each in (draws, seed)):
         yield f"{draws!r} variations with seed {seed!r} cannot be drawn, expected whole numbers"
         return
     if draws is not None:

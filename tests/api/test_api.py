@@ -151,7 +151,7 @@ def test_a_folder_that_can_have_no_stage_is_told(plan: Plan, tmp_path: Path, fol
 
 
 def test_plans_may_come_one_by_one_and_threads_are_counted_from_one(plan: Plan) -> None:
-    assert simulate_many((each for each in [plan]), device="cpu").frame_counts == (plan.frame_count,)  # type: ignore[arg-type]
+    assert simulate_many((each for each in [plan]), device="cpu").frame_counts == (plan.frame_count,)
     with pytest.raises(ValueError, match="0 threads, expected at least 1"):
         simulate_many([plan], device="cpu", threads=0)
 

@@ -37,7 +37,7 @@ def test_a_folder_may_be_a_text(solver, write_recipe, tmp_path):
     ("wrong", "told"),
     [
         ({"detail": "coarse"}, "unknown detail 'coarse', expected one of draft"),
-        ({"look": "glass"}, "unknown look 'glass', expected one of recipe"),
+        ({"look": "glass"}, 'unknown look "glass", expected one of recipe'),
         ({"flat": True, "usdz": True}, "flat and usdz exclude each other"),
         ({"usdz": True, "shot": True}, "shot and usdz exclude each other"),
     ],

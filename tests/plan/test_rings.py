@@ -48,6 +48,19 @@ def test_places_lie_apart_so_that_no_mesh_grows_between_them(planned, bend):
             assert len(mesh_of(strip, detail).ring_along) < 2.0 * fewest
 
 
+def test_a_loop_that_is_held_at_more_places_and_whose_round_ends_reach_them_needs_no_more_rings(planned):
+    (strip,) = planned("""
+        balloons: {a: {size: 260, tail: 10}}
+        steps:
+        - loop: {b: 20.4}
+        - ear: {c: 3}
+        - tuck: {bubble: c, between: [b]}
+        """).strips.values()
+    loop = strip.bubbles[0]
+    assert len([place for place in guide_places(strip) if loop.rest_start < place < loop.rest_end]) >= 7
+    assert len(mesh_of(strip, DETAILS["draft"]).ring_along) < 150
+
+
 def test_hands_hold_a_bent_tube_without_flat_tail_up_to_where_it_is_round(planned):
     tube = "balloons: {a: {size: 260, length: 15, tail: 1}}\nsteps:\n- bubbles: {b: 15, c: 15}\n- rest: end\n"
     (strip,) = planned(f"{tube}- bend: {{end: 30}}\n").strips.values()

@@ -147,17 +147,27 @@ def test_turns_below_0_are_left_handed():
     assert move.asked == 1.5
 
 
-@pytest.mark.parametrize("turns", [-2.0, 3.0])
-@pytest.mark.parametrize("axis", [(0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, -1.0, 0.0)])
-def test_a_row_of_rings_is_rolled_up_without_being_stretched(axis, turns):
-    row = np.stack([np.linspace(0.6, 0.0, 49), np.zeros(49), np.zeros(49)], axis=1)
-    coil = Helix(Row(row), turns, np.array(axis), 0.03)
+def row_of(sides):
+    """A straight row of rings, 60 cm long, (sides + 1, 3), m."""
+    return np.stack([np.linspace(0.6, 0.0, sides + 1), np.zeros(sides + 1), np.zeros(sides + 1)], axis=1)
+
+
+def rolled_up(coil, row, stretched):
+    """Where the rings of a row are when it is rolled up; on the way none is stretched by more than a share."""
     assert coil.places(0.0) == pytest.approx(row, abs=1e-9)
     for progress in (0.2, 0.5, 0.9, 1.0):
         places = coil.places(progress)
         assert places[-1] == pytest.approx(row[-1], abs=1e-12)
         apart = np.linalg.norm(np.diff(places, axis=0), axis=1)
-        assert apart == pytest.approx(np.full(48, 0.6 / 48), rel=0.04)
+        assert apart == pytest.approx(np.full(len(row) - 1, 0.6 / (len(row) - 1)), rel=stretched)
+    return places
+
+
+@pytest.mark.parametrize("turns", [-2.0, 3.0])
+@pytest.mark.parametrize("axis", [(0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, -1.0, 0.0)])
+def test_a_row_of_rings_is_rolled_up_without_being_stretched(axis, turns):
+    row = row_of(48)
+    places = rolled_up(Helix(Row(row), turns, np.array(axis), 0.03), row, 0.04)
     assert turns_of_coil(places) == pytest.approx(abs(turns), rel=1e-3)
     assert sense(places[::-1]) == np.sign(turns)
     assert (places[0] - places[-1]) @ np.array(axis) == pytest.approx(0.03 * abs(turns))
@@ -166,19 +176,16 @@ def test_a_row_of_rings_is_rolled_up_without_being_stretched(axis, turns):
 @pytest.mark.parametrize("turns", [-1.5, 2.0])
 @pytest.mark.parametrize("axis", [(0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, -1.0, 0.0)])
 def test_a_row_of_rings_is_rolled_up_into_a_disc_without_being_stretched(axis, turns):
-    row = np.stack([np.linspace(0.6, 0.0, 193), np.zeros(193), np.zeros(193)], axis=1)
+    row = row_of(192)
     disc = Disc(Row(row), turns, np.array(axis), 0.03)
-    assert disc.places(0.0) == pytest.approx(row, abs=1e-9)
+    rolled = rolled_up(disc, row, 0.02)
     for progress in (0.2, 0.5, 0.9, 1.0):
         places, turned = disc.places(progress), disc.turned(progress)
-        assert places[-1] == pytest.approx(row[-1], abs=1e-12)
-        apart = np.linalg.norm(np.diff(places, axis=0), axis=1)
-        assert apart == pytest.approx(np.full(192, 0.6 / 192), rel=0.02)
         outward = (places[0] - places[1]) / np.linalg.norm(places[0] - places[1])
         assert turned @ (1.0, 0.0, 0.0) == pytest.approx(outward, abs=0.1)
-    assert turns_of_coil(places) == pytest.approx(abs(turns), rel=0.02)
-    assert np.ptp(places @ np.array(axis)) < 1e-9
-    apart = np.linalg.norm(places[:, None] - places[None, :], axis=2)
+    assert turns_of_coil(rolled) == pytest.approx(abs(turns), rel=0.02)
+    assert np.ptp(rolled @ np.array(axis)) < 1e-9
+    apart = np.linalg.norm(rolled[:, None] - rolled[None, :], axis=2)
     far_along = np.abs(np.subtract.outer(np.arange(193), np.arange(193))) > 20
     assert apart[far_along].min() == pytest.approx(0.03, rel=0.05)
 
@@ -186,7 +193,7 @@ def test_a_row_of_rings_is_rolled_up_into_a_disc_without_being_stretched(axis, t
 @pytest.mark.parametrize("turns", [-2.0, 3.0])
 @pytest.mark.parametrize("axis", [(0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, -1.0, 0.0)])
 def test_what_hangs_on_the_end_that_is_rolled_in_turns_with_it(axis, turns):
-    row = np.stack([np.linspace(0.6, 0.0, 961), np.zeros(961), np.zeros(961)], axis=1)
+    row = row_of(960)
     coil = Helix(Row(row), turns, np.array(axis), 0.03)
     assert coil.turned(0.0) == pytest.approx(np.eye(3), abs=1e-9)
     for progress in (0.2, 0.5, 0.9, 1.0):

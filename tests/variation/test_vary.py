@@ -6,6 +6,7 @@ import os
 import tempfile
 from pathlib import Path
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -319,3 +320,12 @@ def test_a_named_value_is_varied_wherever_formulas_use_it(tmp_path):
     assert refused(file, {"let.era": [1]}, tmp_path / "other") == [
         'let.era: unknown key "era", did you mean "ear"?'
     ]
+
+
+def test_numbers_of_draws_are_whole_and_values_may_be_an_array(tmp_path):
+    with pytest.raises(
+        VariationError, match=r"1.5 variations with seed None cannot be drawn, expected whole"
+    ):
+        vary_recipe(DOG, {TAIL: "9..15"}, tmp_path, draws=1.5)
+    assert len(vary_recipe(DOG, {TAIL: np.linspace(10.0, 12.0, 3)}, tmp_path / "a").written) == 3
+    assert len(vary_recipe(DOG, {TAIL: "9..15"}, tmp_path / "b", draws=np.int64(2)).written) == 2
