@@ -21,6 +21,8 @@ class Detail:
     """Axial spacing of rings beside a joint, in R0."""
     substeps: int
     """Substeps per frame at 24 frames per second."""
+    round_around: int
+    """Vertices round a round balloon, a multiple of four: it is as wide as three tubes."""
     capsule_around: int
     """Vertices round a capsule, a multiple of four."""
     shape_quads: int
@@ -29,7 +31,14 @@ class Detail:
 
 DETAILS: dict[str, Detail] = {
     "draft": Detail(
-        "draft", around=12, axial=0.66, axial_at_joint=0.34, substeps=100, capsule_around=32, shape_quads=2500
+        "draft",
+        around=12,
+        axial=0.66,
+        axial_at_joint=0.34,
+        substeps=100,
+        round_around=20,
+        capsule_around=32,
+        shape_quads=2500,
     ),
     "preview": Detail(
         "preview",
@@ -37,11 +46,19 @@ DETAILS: dict[str, Detail] = {
         axial=0.42,
         axial_at_joint=0.22,
         substeps=200,
+        round_around=28,
         capsule_around=48,
         shape_quads=8000,
     ),
     "full": Detail(
-        "full", around=28, axial=0.27, axial_at_joint=0.15, substeps=300, capsule_around=64, shape_quads=24000
+        "full",
+        around=28,
+        axial=0.27,
+        axial_at_joint=0.15,
+        substeps=300,
+        round_around=32,
+        capsule_around=64,
+        shape_quads=24000,
     ),
 }
 

@@ -1,9 +1,13 @@
-"""Balloon sizes: the flat, unstressed tube of each code.
+"""Balloon sizes: the flat, unstressed wall of each code, of tubes and of round balloons.
 
 No published measurement of these tubes was found. Radii and lengths are the nominal inflated sizes (the
 first digit is the diameter in inches, the rest the length in inches) divided by the stretches at which latex
 carries its bulge (5.664 round the tube, 4.146 along it, see `tube_theory.maxwell_state`); the wall thickness
 is chosen to give a plausible weight. Uncertainty: radius 15 %, length 20 %, thickness 30 %.
+
+Round balloons are as wide as their names say, in inches, when their widest ring is stretched five times.
+Their walls are as thick as their weights need: 2.7 g were measured of one of 10.5 inches, and 0.5 to 0.6 g
+are told of one of 5. Their necks are judged. Uncertainty: radius 10 %, neck and thickness 30 %.
 """
 
 from __future__ import annotations
@@ -11,13 +15,15 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, fields
 
+from balloon_usd.balloon.round_outline import round_area, round_length
+
 NECK_REACH = 1.0
 """Rubber on each side of a joint that counts as its neck, in R0: folded and pressed together there."""
 
 
 @dataclass(frozen=True)
 class BalloonSize:
-    """The unstressed tube of one balloon size.
+    """The unstressed tube, or round balloon, of one balloon size.
 
     Raises:
         ValueError: a dimension is not a positive finite number.
@@ -26,19 +32,31 @@ class BalloonSize:
     name: str
     """Size code, for example "260"."""
     radius: float
-    """Unstressed tube radius R0, m."""
+    """Unstressed tube radius R0, or that of the widest ring of a round balloon, m."""
     length: float
-    """Unstressed tube length L0, m."""
+    """Unstressed length L0 from the knot to the tip along the wall, m."""
     thickness: float
     """Unstressed wall thickness h0, m."""
+    neck: float | None = None
+    """Unstressed radius at the knot of a round balloon, m; None of a tube, which is as wide everywhere."""
 
     def __post_init__(self) -> None:
         for field in fields(self)[1:]:
             value = getattr(self, field.name)
-            if not (math.isfinite(value) and value > 0.0):
+            if value is not None and not (math.isfinite(value) and value > 0.0):
                 raise ValueError(
                     f"balloon {self.name}: {field.name} must be positive and finite, got {value}"
                 )
+
+    @classmethod
+    def round(cls, name: str, radius: float, neck: float, thickness: float) -> BalloonSize:
+        """Return a round balloon with a widest ring and a neck of some radii, m."""
+        return cls(name, radius, round_length(radius, neck), thickness, neck)
+
+    @property
+    def neck_radius(self) -> float:
+        """Unstressed radius at the knot, m."""
+        return self.radius if self.neck is None else self.neck
 
     @property
     def flat_width(self) -> float:
@@ -48,6 +66,8 @@ class BalloonSize:
     @property
     def rubber_volume(self) -> float:
         """Volume of the rubber itself, m3."""
+        if self.neck is not None:
+            return self.thickness * round_area(self.radius, self.neck)
         return 2.0 * math.pi * self.radius * self.thickness * self.length
 
     def with_overrides(
@@ -56,11 +76,16 @@ class BalloonSize:
         length: float | None = None,
         thickness: float | None = None,
     ) -> BalloonSize:
-        """Return this size with the given unstressed dimensions (m) instead of its own.
+        """Return this size with the given unstressed dimensions (m) instead of its own; a round balloon of
+        another radius is as long and has as wide a neck in proportion.
 
         Raises:
             ValueError: a given dimension is not a positive finite number.
         """
+        if self.neck is not None:
+            scale = 1.0 if radius is None else radius / self.radius
+            wall = self.thickness if thickness is None else thickness
+            return BalloonSize(self.name, scale * self.radius, scale * self.length, wall, scale * self.neck)
         return BalloonSize(
             self.name,
             radius=self.radius if radius is None else radius,
@@ -76,6 +101,8 @@ SIZES: tuple[BalloonSize, ...] = (
     BalloonSize("350", radius=6.73e-3, length=0.306, thickness=0.20e-3),
     BalloonSize("360", radius=6.73e-3, length=0.368, thickness=0.20e-3),
     BalloonSize("646", radius=13.5e-3, length=0.282, thickness=0.25e-3),
+    BalloonSize.round("R5", radius=13.0e-3, neck=6.0e-3, thickness=0.16e-3),
+    BalloonSize.round("R11", radius=28.0e-3, neck=9.0e-3, thickness=0.17e-3),
 )
 """Every size that a recipe can name."""
 

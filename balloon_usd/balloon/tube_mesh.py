@@ -1,9 +1,10 @@
-"""The closed all-quad mesh of a twisting balloon: lip, knot, tube and tip.
+"""The closed all-quad mesh of a twisting balloon: lip, knot, tube or round body, and tip.
 
 The flat tube lies along +x with the knot at x = 0 and the nozzle lip at negative x. Every ring has the same
 number of vertices; the two ends are closed by square grids, so that all faces are quads. The cross-section is
 the polygon circumscribed to the circle of radius R0: hoop and axial equilibrium of a pressurised polygonal
-tube then are exactly those of the round tube, at every level of detail.
+tube then are exactly those of the round tube, at every level of detail. The rings of a round balloon have
+more vertices, and lie closer.
 """
 
 from __future__ import annotations
@@ -27,6 +28,7 @@ from balloon_usd.balloon.ringed_faces import (
     ringed_texture,
     unit_circle,
 )
+from balloon_usd.balloon.round_outline import LAST, round_outline
 
 if TYPE_CHECKING:
     from balloon_usd.balloon.detail import Detail
@@ -38,6 +40,8 @@ LIP_LENGTH = 2.0
 """Length of the nozzle left behind the knot, in R0."""
 LIP_FLARE = 1.35
 """Radius of the lip's rim, in R0."""
+LIP_DOME = 0.075
+"""Height of the lid that closes the nozzle, in that of half a ball."""
 GRADING = 0.18
 """Growth of the axial spacing per distance from the nearest joint."""
 TORN_ROWS = 5
@@ -109,11 +113,12 @@ def ring_stations(
     Raises:
         ValueError: a joint lies outside the tube.
     """
-    last = size.length - size.radius
+    last = _last_ring(size)
     marks = sorted({0.0, *joints, last})
     if marks[0] < 0.0 or marks[-1] > last:
         raise ValueError(f"joints must lie between 0 and {last:.4f} m, got {joints}")
-    fine, coarse = detail.axial_at_joint * size.radius, detail.axial * size.radius
+    coarse = detail.axial * size.radius * (detail.around / around_of(size, detail))
+    fine = detail.axial_at_joint * size.neck_radius
     stations = [np.zeros(1)]
     for low, high in pairwise(marks):
         own = [guide for guide in guides if low < guide < high]
@@ -174,29 +179,32 @@ def tube_mesh(
     Raises:
         ValueError: a joint lies outside the tube.
     """
-    knot, lip = KNOT_LENGTH * size.radius, LIP_LENGTH * size.radius
+    knot, lip = KNOT_LENGTH * size.neck_radius, LIP_LENGTH * size.neck_radius
     behind = np.concatenate(
         [-knot - lip + lip * np.linspace(0, 1, 4), -knot + knot * np.linspace(0, 1, 5)[1:-1]]
     )
     along = np.concatenate([behind, ring_stations(detail, size, joints, guides, torn)])
-    rings, n = len(along), detail.around
-    radius = np.full(rings, size.radius / math.cos(math.pi / n))
+    rings, n = len(along), around_of(size, detail)
+    x, radius = _outline(size, along)
+    radius /= math.cos(math.pi / n)
     flare = np.clip((-knot - along) / lip, 0.0, 1.0)
     radius *= 1.0 + (LIP_FLARE - 1.0) * flare**2
     tube = np.empty((rings, n, 3))
-    tube[:, :, 0] = along[:, None]
+    tube[:, :, 0] = x[:, None]
     tube[:, :, 1:] = radius[:, None, None] * unit_circle(n)
-    lip_cap, tip_cap = _domed_cap(n, radius[0], 0.15), _domed_cap(n, radius[-1], 1.0)
-    lip_cap[:, 0] = along[0] - lip_cap[:, 0] * 0.5
-    tip_cap[:, 0] = along[-1] + tip_cap[:, 0] * size.radius / radius[-1]
+    ball = size.radius / math.cos(math.pi / n)
+    lip_cap, tip_cap = _domed_cap(n, radius[0], radius[0]), _domed_cap(n, radius[-1], ball)
+    lip_cap[:, 0] = along[0] - lip_cap[:, 0] * LIP_DOME
+    tip_cap[:, 0] = tip_cap[:, 0] * size.radius / ball
+    vertex_along = np.concatenate([lip_cap[:, 0], np.repeat(along, n), along[-1] + tip_cap[:, 0]])
+    tip_cap[:, 0] += x[-1]
     points = np.concatenate([lip_cap, tube.reshape(-1, 3), tip_cap]).astype(np.float32)
-    vertex_along = np.concatenate([lip_cap[:, 0], np.repeat(along, n), tip_cap[:, 0]]).astype(np.float32)
     mesh = BalloonMesh(
         points=points,
         quads=ringed_quads(n, rings),
         st=ringed_texture(n, (along - along[0]) / (along[-1] - along[0])),
         quad_bubble=ringed_bubbles(n, along, bubble_ends),
-        along=vertex_along,
+        along=vertex_along.astype(np.float32),
         around=n,
         ring_start=ring_starts(n, rings),
         ring_along=along,
@@ -206,8 +214,34 @@ def tube_mesh(
     return mesh
 
 
-def _domed_cap(around: int, radius: float, dome: float) -> NDArray[np.float64]:
-    """Inner points of a cap, ((around/4 - 1)^2, 3), m, lifted to a dome towards +x."""
+def around_of(size: BalloonSize, detail: Detail) -> int:
+    """Return how many vertices a ring of a balloon has."""
+    return detail.around if size.neck is None else detail.round_around
+
+
+def _last_ring(size: BalloonSize) -> float:
+    """Return where the last ring lies before the cap of the tip, m from the knot along the wall."""
+    if size.neck is None:
+        return size.length - size.radius
+    return float(round_outline(size.radius, size.neck, LAST).along[-1])
+
+
+def _outline(
+    size: BalloonSize, along: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return where rings lie along the axis, and their radii, (R,) each, m; behind the knot all is a tube."""
+    if size.neck is None:
+        return along, np.full(len(along), size.radius)
+    whole = round_outline(size.radius, size.neck)
+    x = np.where(along < 0.0, along, np.interp(along, whole.along, whole.x))
+    return x, np.interp(along, whole.along, whole.radius)
+
+
+def _domed_cap(around: int, radius: float, ball: float) -> NDArray[np.float64]:
+    """Inner points of a cap of a ball, ((around/4 - 1)^2, 3), m, lifted towards +x over its rim.
+
+    `radius`: of the rim; `ball`: of the ball.
+    """
     flat = cap_points(around, radius)
-    lift = dome * np.sqrt(np.maximum(radius**2 - np.sum(flat**2, axis=1), 0.0))
-    return np.column_stack([lift, flat])
+    height = np.sqrt(np.maximum(ball**2 - np.sum(flat**2, axis=1), 0.0))
+    return np.column_stack([height - math.sqrt(ball**2 - radius**2), flat])

@@ -59,6 +59,7 @@ class Aim(OnBalloon, Timed, WorksByBubble):
 
     word: ClassVar[str] = "aim"
     called: ClassVar[tuple[str, ...]] = ("turn", "point_to")
+    on_rounds: ClassVar[bool] = True
     example: ClassVar[str] = """\
 format: 1
 name: clover

@@ -81,6 +81,11 @@ class StepEntry:
         makes = any(BY_WORD[word].bubble_kind is not None for word in self.words) and unnamed
         place = Place(self.path, bench.balloon_of(self.path, self.balloon, makes=makes))
         for word in self.words:
+            on_round = not BY_WORD[word].on_rounds and bench.tells_round(
+                (*self.path, word), place.balloon if self.makes else None, self.uses
+            )
+            if on_round and not self.makes:
+                continue
             BY_WORD[word].check(self.entries[word], place, bench)
         bench.note_use(self.path, self.uses)
         bench.require_blown_up(place, place.balloon if self.makes else None, self.uses)
@@ -95,8 +100,10 @@ def steps_in(data: object) -> list[StepEntry]:
     return [StepEntry(("steps", at), step) for at, step in enumerate(entries) if isinstance(step, dict)]
 
 
-def workbench_of(balloons: Iterable[str], steps: Sequence[StepEntry]) -> Workbench:
-    """Return the workbench at which steps begin."""
+def workbench_of(
+    balloons: Iterable[str], steps: Sequence[StepEntry], rounds: Container[str] = ()
+) -> Workbench:
+    """Return the workbench at which steps begin; `rounds`: which of the balloons are round."""
     names = list(balloons)
     made_ever: dict[str, Path] = {}
     for step in steps:
@@ -106,7 +113,7 @@ def workbench_of(balloons: Iterable[str], steps: Sequence[StepEntry]) -> Workben
     for step in steps:
         pumped = step.pumped | pumped
     rests = _unnamed_rests(names, steps, made_ever)
-    return Workbench(names, made_ever, rests, pumped, _rows(names, steps))
+    return Workbench(names, made_ever, rests, pumped, _rows(names, steps), rounds)
 
 
 def _rows(balloons: Sequence[str], steps: Sequence[StepEntry]) -> dict[str, list[str]]:

@@ -39,6 +39,7 @@ class Inflate(Timed, Operation):
     word: ClassVar[str] = "inflate"
     called: ClassVar[tuple[str, ...]] = ("pump", "blow_up")
     whole: ClassVar[bool] = True
+    on_rounds: ClassVar[bool] = True
     keeps_time: ClassVar[bool] = True
     example: ClassVar[str] = """\
 format: 1

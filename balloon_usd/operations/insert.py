@@ -28,6 +28,7 @@ class Insert(Operation):
     word: ClassVar[str] = "insert"
     called: ClassVar[tuple[str, ...]] = ("stuff",)
     whole: ClassVar[bool] = True
+    on_rounds: ClassVar[bool] = True
     example: ClassVar[str] = """\
 format: 1
 name: cocoon

@@ -45,6 +45,7 @@ class Lock(OnBalloon, Pointed, Turned, Timed, Operation):
 
     word: ClassVar[str] = "lock"
     called: ClassVar[tuple[str, ...]] = ("link", "lock_twist", "connect")
+    on_rounds: ClassVar[bool] = True
     value_model: ClassVar[type[Entries] | None] = LockJoints
     example: ClassVar[str] = """\
 format: 1

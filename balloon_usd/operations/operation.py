@@ -60,6 +60,8 @@ class Operation(Entries):
     """Of the keys of its value, where that has any."""
     whole: ClassVar[bool] = False
     """Whether it works on whole balloons of any kind, also on those that are not twisted."""
+    on_rounds: ClassVar[bool] = False
+    """Whether it works on round balloons, too, which are one bubble each and neither twisted nor bent."""
     keeps_time: ClassVar[bool] = False
     """Whether its moves take the time that the recipe gives without being stretched."""
 

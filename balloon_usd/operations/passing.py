@@ -33,6 +33,12 @@ STUCK_IN_LOOP, STUCK_IN_RING = 0.9, 1.4
 of a 260 one of 7.5 cm stays in a loop of 18 and slips back out of one of 15, one of 6 stays in one of 15 and
 not in one of 12; and one of 8 goes between two of 6, one of 9 does not.
 """
+WIDE = 0.8
+"""Width beyond which a ball that is wider than the sides of its ring does not come through it, in its depth:
+in simulations one of 7.9 cm gets stuck in two 260 of 9.7, and one of 9 goes through two 350 of 14.5.
+"""
+WIDER = 1.2
+"""How much wider than the sides such a ball is at least."""
 MOST_SIDES = 64
 """Largest number of bubbles of a ring."""
 LEAST_SECONDS = 2.4
@@ -192,6 +198,14 @@ class Passing(OnBalloon, Pointed, Timed, Operation):
                 f"{self.bubble} ({cm(length)}) may not come through {all_of(self.ring)}",
                 f"the ring is {cm(depth)} deep, and it gets stuck at its far end",
                 f"make it {cm(most)} long, or less",
+            )
+        bubble, tube = layout.bubble(self.bubble), max(layout.bubble(name).width for name in self.ring)
+        if bubble.width > max(WIDE * depth, WIDER * tube):
+            yield Caution(
+                index,
+                f"{self.bubble} ({cm(bubble.width)} wide) may not come through {all_of(self.ring)}",
+                f"the ring is {cm(depth)} deep, and opens no wider",
+                f"blow it up to {cm(WIDE * depth)}, or less",
             )
 
     def brought(self, layout: Layout) -> tuple[str, ...]:

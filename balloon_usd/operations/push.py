@@ -38,6 +38,7 @@ class Push(Passing):
 
     word: ClassVar[ContactKind] = "push"
     called: ClassVar[tuple[str, ...]] = ("push_through", "pop_through")
+    on_rounds: ClassVar[bool] = True
     value_model: ClassVar[type[Entries] | None] = PushedBubble
     ring_key: ClassVar[str] = "through"
     beyond: ClassVar[float] = math.radians(40.0)

@@ -18,6 +18,7 @@ class Rest(OnBalloon, Timed, Operation):
 
     word: ClassVar[str] = "rest"
     called: ClassVar[tuple[str, ...]] = ("remainder", "tail")
+    on_rounds: ClassVar[bool] = True
     bubble_kind: ClassVar[BubbleKind | None] = "rest"
     example: ClassVar[str] = """\
 format: 1

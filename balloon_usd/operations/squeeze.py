@@ -31,6 +31,7 @@ class Squeeze(Pressing):
     """Squeeze a bubble between both hands, and let it go: a firm one yields little."""
 
     word: ClassVar[str] = "squeeze"
+    on_rounds: ClassVar[bool] = True
     value_model: ClassVar[type[Entries] | None] = SqueezedBubble
     example: ClassVar[str] = """\
 format: 1

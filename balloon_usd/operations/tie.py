@@ -38,6 +38,7 @@ class Tie(OnBalloon, Pointed, Timed, Operation):
 
     word: ClassVar[str] = "tie"
     called: ClassVar[tuple[str, ...]] = ("knot", "hook")
+    on_rounds: ClassVar[bool] = True
     value_model: ClassVar[type[Entries] | None] = TiedEnd
     across: ClassVar[bool] = True
     example: ClassVar[str] = """\

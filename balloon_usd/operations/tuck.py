@@ -63,6 +63,7 @@ class Tuck(Pointed, Timed, Operation):
     """Set a limb between two others, or into the hole of a loop, where their walls hold it."""
 
     word: ClassVar[ContactKind] = "tuck"
+    on_rounds: ClassVar[bool] = True
     value_model: ClassVar[type[Entries] | None] = TuckedBubble
     example: ClassVar[str] = """\
 format: 1

@@ -19,6 +19,7 @@ class Wait(Operation):
     word: ClassVar[str] = "wait"
     called: ClassVar[tuple[str, ...]] = ("hold", "pause")
     whole: ClassVar[bool] = True
+    on_rounds: ClassVar[bool] = True
     keeps_time: ClassVar[bool] = True
     example: ClassVar[str] = """\
 format: 1

@@ -13,7 +13,7 @@ from balloon_usd.operations.insertions import Insertions
 from balloon_usd.operations.workpiece import Workpiece
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping, Sequence
+    from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 
 
 @dataclass(frozen=True)
@@ -50,6 +50,7 @@ class Workbench:
         rests: Mapping[str, UnnamedRest],
         pumped: Mapping[str, Path],
         rows: Mapping[str, Sequence[str]],
+        rounds: Container[str] = (),
     ) -> None:
         """Begin with balloons of which nothing is made.
 
@@ -59,6 +60,7 @@ class Workbench:
             rests: what is left of balloons in the end, by the names that it gets.
             pumped: where each balloon is blown up that is not so from the beginning.
             rows: all bubbles that steps make of each balloon, from its knot on.
+            rounds: which of them are round.
         """
         self.complaints: list[Complaint] = []
         self._balloons = tuple(balloons)
@@ -74,8 +76,8 @@ class Workbench:
         self._tied_at: dict[str, Path] = {}
         """Where the tip behind a rest was tied."""
         self._made_ever, self._rests = made_ever, rests
-        self._pumped, self._rows = pumped, rows
-        self._insertions = Insertions(made_ever, pumped)
+        self._pumped, self._rows, self._rounds = pumped, rows, rounds
+        self._insertions = Insertions(made_ever, pumped, rounds)
         self._told_flat: set[str] = set()
         """Balloons of which was told that they are worked on while they are flat."""
 
@@ -125,6 +127,17 @@ class Workbench:
             self._told_flat.add(name)
             what = f"balloon {quoted(name)} is flat until {path_text(later)} blows it up"
             self.complain(place.path, f"{what}: expected this step after that one")
+
+    def tells_round(self, path: Path, balloon: str | None, bubbles: Iterable[str]) -> bool:
+        """Say whether a step works on a round balloon, or on the bubble that one is, and complain if so: only
+        tubes bear it.
+        """
+        worked_on = dict.fromkeys([balloon, *map(self._owner, bubbles)])
+        found = [str(name) for name in worked_on if name in self._rounds]
+        for name in found:
+            what = f"balloon {quoted(name)} is round, one bubble that is neither twisted nor bent"
+            self.complain(path, f"{what}, expected a tube")
+        return bool(found)
 
     def note_use(self, path: Path, bubbles: Iterable[str]) -> None:
         """Take note of the bubbles on which a step works: hands reach none that lies in another balloon."""
@@ -284,6 +297,9 @@ class Workbench:
         elif name in self._tied_at:
             at = path_text(self._tied_at[name])
             self.complain(path, f"the tip of {quoted(name)} was tied at {at}, expected each tip once")
+        elif self._owner(name) in self._rounds:
+            what = f"{name} is a round balloon, which has no flat tip"
+            self.complain(path, f"{what}, expected {name}.start, its nozzle")
         elif self.piece.is_merged([Joint(name, "end")]):
             what = f"{name}.end is joined to others before its tip is closed"
             self.complain(path, f"{what}, expected this step before that one")

@@ -95,7 +95,7 @@ class Budget:
     @property
     def gas_amount(self) -> float:
         """Gas blown in, mol, at room temperature."""
-        return _amount(self.pressure, self.volume)
+        return amount(self.pressure, self.volume)
 
     def _inflated(self, tail: float) -> float:
         return self.full_length * (1.0 - min(tail, self.flat_length) / self.flat_length)
@@ -108,7 +108,7 @@ def blown_up_pressure(strip: Strip) -> float:
 
 def blown_in(strip: Strip) -> float:
     """Return the gas that is blown into a tube, mol, at room temperature, without the rest of its budget."""
-    return _amount(blown_up_pressure(strip), inflated_tube(strip.size, strip.rubber, strip.tail).volume)
+    return amount(blown_up_pressure(strip), inflated_tube(strip.size, strip.rubber, strip.tail).volume)
 
 
 def budget_of(strip: Strip) -> Budget:
@@ -143,6 +143,6 @@ def budget_of(strip: Strip) -> Budget:
     )
 
 
-def _amount(pressure: float, volume: float) -> float:
+def amount(pressure: float, volume: float) -> float:
     """Return the gas in a volume (m3), mol: (atmosphere + gauge pressure) volume / (R T)."""
     return (ATMOSPHERE + pressure) * volume / (GAS_CONSTANT * ROOM_TEMPERATURE)

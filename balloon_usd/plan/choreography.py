@@ -15,6 +15,7 @@ from balloon_usd.operations.moves import (
     Loosen,
     Move,
     Pinch,
+    Weld,
 )
 from balloon_usd.operations.score import Score
 from balloon_usd.operations.tempo import PACES
@@ -73,7 +74,7 @@ def choreograph(recipe: Recipe, strips: Mapping[str, Strip], table: RingTable) -
     timed = {k for k, each in enumerate(recipe.steps) if getattr(each, "seconds", None) is not None}
     nets = nets_of(recipe.piece, strips, table)
     set_nets(score, nets, table, len(recipe.steps), timed)
-    held = any(isinstance(move, Pinch) for move in score.moves)
+    held = any(isinstance(move, (Pinch, Weld)) for move in score.moves)
     if held and not blown_up:
         while isinstance(score.moves[-1], LetGo):
             score.moves.pop()

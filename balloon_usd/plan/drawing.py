@@ -95,6 +95,8 @@ def _printed(shape: Shaped) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 
 
 def _thickness(strip: Strip) -> float:
+    if strip.is_round:
+        return 2.0 * strip.inflated_radius * SCALE
     return tube_diameter(strip.size, softened(strip.rubber)) * SCALE
 
 
@@ -107,13 +109,18 @@ def _strip_shapes(
 ) -> Iterator[str]:
     thick = _thickness(strip)
     middle = top + _ABOVE_TUBE + 0.5 * thick
-    filling = f"capsule of {cm(strip.capsule_length)}" if strip.capsule else f"leave {cm(strip.tail)} flat"
-    yield svg.text(f"{strip.balloon}: {strip.size.name}, {filling}", (MARGIN, top + 12.0))
+    yield svg.text(f"{strip.balloon}: {strip.size.name}, {_filling(strip)}", (MARGIN, top + 12.0))
     for bubble in bubbles:
         yield from _bubble_shapes(bubble, "" if bubble.name in popped else color, middle, thick)
     yield from _ruler(strip.bubbles[-1].end, middle + 0.5 * thick + 10.0)
     before = _capsule_shapes if strip.capsule else _flat_shapes
     yield from before(strip, middle + 0.5 * thick + 44.0)
+
+
+def _filling(strip: Strip) -> str:
+    if strip.is_round:
+        return f"blown up to a width of {cm(2.0 * strip.inflated_radius)}"
+    return f"capsule of {cm(strip.capsule_length)}" if strip.capsule else f"leave {cm(strip.tail)} flat"
 
 
 def _bubble_shapes(bubble: PlannedBubble, color: str, middle: float, thick: float) -> Iterator[str]:
@@ -138,6 +145,10 @@ def _ruler(length: float, y: float) -> Iterator[str]:
 
 def _flat_shapes(strip: Strip, top: float) -> Iterator[str]:
     height = strip.size.flat_width * SCALE
+    if strip.is_round:
+        wide = strip.size.length * SCALE
+        yield svg.rectangle((MARGIN, top), wide, height, "flat", rx=0.5 * min(height, wide))
+        return
     inflated = (strip.size.length - strip.tail) * SCALE
     yield svg.rectangle((MARGIN, top), inflated, height, "flat")
     yield svg.rectangle((MARGIN + inflated, top), strip.tail * SCALE, height, "empty")

@@ -17,6 +17,7 @@ from balloon_usd.operations.parting import torn_bubbles
 from balloon_usd.operations.thread import Thread
 from balloon_usd.operations.tie import LEAST_STRING, Tie
 from balloon_usd.plan.capsule import capsule_bubbles
+from balloon_usd.plan.laying_rounds import round_strip
 from balloon_usd.plan.laying_shapes import overlap_problems, shaped_strip
 from balloon_usd.plan.nesting import with_guests
 from balloon_usd.plan.nesting_fit import nesting_problems
@@ -35,7 +36,7 @@ from balloon_usd.plan.open_tube import (
 from balloon_usd.plan.strip import ALL, Made, PlannedBubble, Strip
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from balloon_usd.balloon.bubble_shape import BubbleShape
     from balloon_usd.balloon.rubber import Rubber
@@ -70,8 +71,7 @@ def lay_strips(recipe: Recipe, tubes: Mapping[str, BalloonSize]) -> dict[str, St
             if balloon.mesh:
                 strips[name] = shaped_strip(recipe, name, rubber)
             else:
-                lay = _tube if balloon.capsule is None else _capsule
-                strips[name] = lay(recipe, name, tubes[name], rubber)
+                strips[name] = _laying(recipe, name, tubes[name])(recipe, name, tubes[name], rubber)
         except RecipeError as error:
             problems.extend(error.problems)
     strips = {name: replace(strip, inside=recipe.piece.inside.get(name)) for name, strip in strips.items()}
@@ -81,6 +81,13 @@ def lay_strips(recipe: Recipe, tubes: Mapping[str, BalloonSize]) -> dict[str, St
     if problems:
         raise RecipeError(problems)
     return strips
+
+
+def _laying(recipe: Recipe, name: str, size: BalloonSize) -> Callable[..., Strip]:
+    """Return how a balloon of a size is laid."""
+    if size.neck is not None:
+        return round_strip
+    return _tube if recipe.balloons[name].capsule is None else _capsule
 
 
 def _rubber(recipe: Recipe) -> Rubber:

@@ -7,6 +7,7 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from balloon_usd.balloon.ball_pressure import ball_pressure
 from balloon_usd.balloon.closed_shape import ClosedShape
 from balloon_usd.balloon.sizes import BalloonSize
 from balloon_usd.language.lengths import cm
@@ -81,15 +82,6 @@ def shaped_strip(recipe: Recipe, name: str, rubber: Rubber) -> Strip:
         step=len(recipe.steps),
     )
     return Strip(name, size, rubber, 0.0, (bubble,), shape=shape)
-
-
-def ball_pressure(rubber: Rubber, swell: float, thinness: float) -> float:
-    """Return the gauge pressure (Pa) in a ball of rubber that is stretched so many times.
-
-    `thinness`: unstressed thickness of the wall over the unstressed radius.
-    """
-    stretch = max(swell, 1.0)
-    return float(2.0 * thinness * rubber.nominal_stress(stretch, stretch)[0] / stretch**2)
 
 
 def overlap_problems(recipe: Recipe, strips: Mapping[str, Strip]) -> Iterator[Problem]:

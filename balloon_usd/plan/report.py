@@ -9,6 +9,7 @@ from balloon_usd.language.lengths import at_least, at_most, cm
 from balloon_usd.operations.moves import LeadIn
 from balloon_usd.operations.parting import parts_of
 from balloon_usd.operations.workpiece import Contact, Joined, Popped
+from balloon_usd.plan.budget import amount
 from balloon_usd.plan.holding import friction_margin
 from balloon_usd.plan.parking import parked
 from balloon_usd.plan.pumping import pumped
@@ -40,6 +41,8 @@ def plan_text(plan: Plan) -> str:
             lines += ["", *_shape_lines(strip, strip.shape), *_stroke_lines(plan, name)]
         elif strip.capsule:
             lines += ["", *_capsule_lines(strip)]
+        elif strip.is_round:
+            lines += ["", *_round_lines(strip, popped), *_stroke_lines(plan, name)]
         else:
             lines += ["", *_strip_lines(strip, popped), *_budget_lines(plan, plan.budgets[name])]
             lines += _stroke_lines(plan, name)
@@ -94,6 +97,17 @@ def _capsule_lines(strip: Strip) -> Iterator[str]:
     if len(strip.bubbles) > 1:
         end = strip.bubbles[-1].end
         yield f"  its necks take {cm(length - end)}: twisted it is {cm(end)} long"
+
+
+def _round_lines(strip: Strip, popped: Container[str]) -> Iterator[str]:
+    size, bubble = strip.size, strip.bubbles[0]
+    yield f"balloon {strip.balloon}: {size.name}, round, {cm(2.0 * size.radius)} wide flat{_place(strip)}"
+    yield from bubble_lines(strip, strip.bubbles, popped)
+    pressure = bubble.pressure or 0.0
+    gas = (
+        f"{bubble.volume * 1e3:.2f} L at {pressure / 1e3:.1f} kPa, {amount(pressure, bubble.volume):.3f} mol"
+    )
+    yield f"  blow up until it is {cm(2.0 * strip.inflated_radius)} wide: {gas}"
 
 
 def _place(strip: Strip) -> str:
@@ -298,12 +312,16 @@ def _balloon_json(strip: Strip, budget: Budget | None) -> dict[str, Any]:
         "softening": strip.rubber.softening is not None,
         "capsule": strip.capsule,
         "tail": strip.tail,
-        "inflated_length": strip.capsule_length if budget is None else budget.inflated_length,
+        "inflated_length": _inflated_length(strip) if budget is None else budget.inflated_length,
         "inside": strip.inside,
         "shape": None if strip.shape is None else _shape_json(strip.shape),
         "bubbles": [asdict(bubble) | {"drawn": list(bubble.drawn)} for bubble in strip.bubbles],
         "budget": None if budget is None else _budget_json(budget),
     }
+
+
+def _inflated_length(strip: Strip) -> float:
+    return strip.bubbles[0].length if strip.is_round else strip.capsule_length
 
 
 def _shape_json(shape: Shaped) -> dict[str, Any]:

@@ -24,6 +24,8 @@ LEAST_APART = 0.5
 """Least unstressed distance of two places at which hands hold a bubble, in R0: rings stand two thirds of that
 apart beside joints in the coarsest mesh.
 """
+ROUND_GUIDES = (0.5,)
+"""Where hands hold a round balloon, as a share of its wall: near its widest ring."""
 BEYOND_FRONT = 0.3
 """Flat rubber that hands hold as they hold a tube that they wind, in that of the tube."""
 TIP_GUIDE = 3.0
@@ -135,6 +137,8 @@ def _guide_shares(bubble: PlannedBubble, strip: Strip, fronts_led: Sequence[floa
         ends = (round_end, 1.0 - round_end) if bubble.bent and round_end < SLENDER else ()
         evenly = [k / (bubble.places + 1) for k in range(1, bubble.places + 1)]
         return tuple(sorted([*own, *_parted([*ends, *evenly, *fronts], apart, 1.0 - apart, own)]))
+    if strip.is_round:
+        return ROUND_GUIDES
     stretch = 1.0 if strip.capsule else maxwell_state(strip.rubber).bulged.b
     share = min(REST_GUIDE / stretch / bubble.rest_length, 0.5)
     tip = max(1.0 - TIP_GUIDE * strip.size.radius / bubble.rest_length, 0.5 * (1.0 + share))

@@ -50,15 +50,17 @@ def settings_problems(recipe: Recipe, tubes: Mapping[str, BalloonSize]) -> list[
 
 def _thick_walls(recipe: Recipe, tubes: Mapping[str, BalloonSize]) -> Iterator[Problem]:
     for name, size in tubes.items():
-        if size.thickness > THICKEST * size.radius * (1.0 + 1e-9):
+        if size.thickness > THICKEST * size.neck_radius * (1.0 + 1e-9):
             key = "radius" if recipe.balloons[name].thickness is None else "thickness"
             # Rounded to hundredths of a millimetre, so that what is written works.
-            least = math.ceil(1e5 * size.thickness / THICKEST - 1e-6) / 100.0
-            most = math.floor(1e5 * size.radius * THICKEST + 1e-6) / 100.0
+            part = "tube" if size.neck is None else "neck"
+            wider = size.radius / size.neck_radius
+            least = math.ceil(1e5 * wider * size.thickness / THICKEST - 1e-6) / 100.0
+            most = math.floor(1e5 * size.neck_radius * THICKEST + 1e-6) / 100.0
             expected = f"at least {least:g} mm" if key == "radius" else f"at most {most:g} mm"
             text = (
-                f"a wall of {1e3 * size.thickness:g} mm is no thin skin round a tube of "
-                f"{1e3 * size.radius:g} mm radius, expected {expected}"
+                f"a wall of {1e3 * size.thickness:g} mm is no thin skin round a "
+                f"{part} of {1e3 * size.neck_radius:g} mm radius, expected {expected}"
             )
             yield recipe.problem(("balloons", name, key), text)
 
@@ -78,7 +80,7 @@ def _unscaled_masses(recipe: Recipe, tubes: Mapping[str, BalloonSize]) -> Iterat
     physics = recipe.physics
     if physics.mass_scaling != "none":
         return
-    radius = min(size.radius for size in tubes.values())
+    radius = min(size.neck_radius for size in tubes.values())
     needed = 50 * math.ceil(WAVE / radius / recipe.fps / 50.0)
     if (physics.substeps or 0) >= needed:
         return

@@ -141,10 +141,18 @@ class Strip:
     shape: Shaped | None = None
     """What a balloon from a mesh file is; None of others. Its size is that of a ball of the same wall."""
 
+    width: float | None = None
+    """Width to which a round balloon is blown up, m; None of others."""
+
     @property
     def has_tail(self) -> bool:
         """Whether it is a tube, of which twists use up a flat tail."""
-        return not self.capsule and self.shape is None
+        return not self.capsule and self.shape is None and not self.is_round
+
+    @property
+    def is_round(self) -> bool:
+        """Whether it is a round balloon, which is one bubble."""
+        return self.width is not None
 
     @property
     def tip_is_tied(self) -> bool:
@@ -159,7 +167,9 @@ class Strip:
 
     @property
     def inflated_radius(self) -> float:
-        """Radius of the blown-up tube or capsule, m."""
+        """Radius of the blown-up balloon, m."""
+        if self.width is not None:
+            return 0.5 * self.width
         return self.size.radius * maxwell_state(self.rubber).bulged.a
 
     @property
@@ -196,7 +206,7 @@ class Strip:
             necks = (bubble is not self.bubbles[0], not last)
             return bubble.rest_start + wall_place(at, bubble.length, self.inflated_radius, necks)
         taken = bubble.rest_length
-        if last:
+        if last and self.has_tail:
             # One end of it is rounded; what it does not fill is flat tail.
             tube = bubble.length + 0.5 * pinch_length(self.size, softened(self.rubber))
             taken = min(taken, tube / maxwell_state(self.rubber).bulged.b)

@@ -10,7 +10,7 @@ from balloon_usd.language.quantities import LONGEST, Between, FlatTail, Length, 
 from balloon_usd.operations.modifiers import Entries
 
 FinishName = Literal["latex", "clear", "chrome"]
-BalloonSizeName = Literal["160", "260", "321", "350", "360", "646"]
+BalloonSizeName = Literal["160", "260", "321", "350", "360", "646", "R5", "R11"]
 
 FILLINGS = ("tail", "inflated", "capsule")
 """Keys that say how far a balloon is blown up: exactly one of them."""
@@ -23,8 +23,13 @@ MESH_KEYS = ("mesh", *MESH_ONLY, "color", "finish", "thickness")
 USUAL_SWELL = 1.2
 """Size to which a balloon from a mesh is blown up: taut, and still of its own shape."""
 
+ROUNDS: tuple[BalloonSizeName, ...] = ("R5", "R11")
+"""Sizes of round balloons, which are one bubble each."""
+ROUND_KEYS = ("size", "inflated", "color", "finish", "radius", "thickness")
+"""Keys that a round balloon has."""
+
 _SIZE_CODES = get_args(BalloonSizeName)
-_SIZE_SCHEMA = {"enum": [*map(int, _SIZE_CODES), *_SIZE_CODES]}
+_SIZE_SCHEMA = {"enum": [*(int(code) for code in _SIZE_CODES if code.isdecimal()), *_SIZE_CODES]}
 
 
 Place = Annotated[float, LengthWithin(-LONGEST, LONGEST, low_included=True)]
@@ -75,3 +80,9 @@ def balloons_in(data: object) -> dict[str, object]:
     """Return the entries of `balloons` in the plain data of a recipe, as far as they are a mapping."""
     balloons = data.get("balloons") if isinstance(data, dict) else None
     return balloons if isinstance(balloons, dict) else {}
+
+
+def rounds_in(data: object) -> list[str]:
+    """Names of the round balloons in the plain data of a recipe."""
+    entries = balloons_in(data).items()
+    return [name for name, entry in entries if isinstance(entry, dict) and entry.get("size") in ROUNDS]

@@ -8,7 +8,7 @@ from balloon_usd.language.choices import one_of
 from balloon_usd.operations.entries import steps_in, workbench_of
 from balloon_usd.operations.workpiece import Workpiece
 
-from .balloons import FILLINGS, FLAT_ONLY, balloons_in
+from .balloons import FILLINGS, FLAT_ONLY, ROUND_KEYS, ROUNDS, Balloon, balloons_in, rounds_in
 from .facing import facing_complaints
 from .held_words import held_complaints
 from .mesh_words import mesh_complaints, meshes_in
@@ -34,7 +34,7 @@ class Meaning(NamedTuple):
 def meaning_of(data: object) -> Meaning:
     """Interpret the plain data of a recipe, of whatever shape it is."""
     balloons, meshes, steps = balloons_in(data), meshes_in(data), steps_in(data)
-    bench = workbench_of(balloons, steps)
+    bench = workbench_of(balloons, steps, rounds_in(data))
     for balloon, entry in balloons.items():
         if balloon not in meshes:
             _check_filling(balloon, entry, bench)
@@ -68,6 +68,9 @@ def _check_filling(balloon: str, entry: object, bench: Workbench) -> None:
     path: Path = ("balloons", balloon)
     if "size" not in entry:
         bench.complain((*path, "size"), "is missing, expected the size of the balloon, such as 260")
+    if entry.get("size") in ROUNDS:
+        _check_round(path, entry, bench)
+        return
     given = [key for key in FILLINGS if key in entry]
     if not given:
         kinds = "tail or inflated, or capsule in model kosaka"
@@ -80,3 +83,11 @@ def _check_filling(balloon: str, entry: object, bench: Workbench) -> None:
             if key in FLAT_ONLY:
                 what = "makes no sense with capsule, which is no flat tube, expected no such entry"
                 bench.complain((*path, key), what)
+
+
+def _check_round(path: Path, entry: dict[str, object], bench: Workbench) -> None:
+    """Complain of what a round balloon does not have."""
+    for key in entry:
+        if key in Balloon.model_fields and key not in ROUND_KEYS:
+            what = f"makes no sense with {entry['size']}, a round balloon, expected {one_of(ROUND_KEYS[1:])}"
+            bench.complain((*path, key), what)

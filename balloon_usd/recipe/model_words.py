@@ -27,7 +27,7 @@ from balloon_usd.operations.tulip import Tulip
 from balloon_usd.operations.tulip_link import TulipLink
 from balloon_usd.operations.wrap import Wrap
 
-from .balloons import balloons_in
+from .balloons import balloons_in, rounds_in
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -86,6 +86,9 @@ def model_complaints(data: object) -> Iterator[Complaint]:
             what = "makes no sense with model kosaka: its hands go as slowly as air particles follow"
             yield Complaint(("tempo",), f"{what}, expected no such line")
         yield from _kosaka_steps(data)
+        for balloon in rounds_in(data):
+            what = "makes no sense with model kosaka, whose balloons are tubes and capsules"
+            yield Complaint(("balloons", balloon, "size"), f"{what}, expected model: latex")
     elif model == "latex":
         if "kosaka" in physics:
             what = "stands beside model latex, which has no such constants, expected model: kosaka"

@@ -75,7 +75,7 @@ def recipe_text(entries: Mapping[str, object]) -> str:
 
 
 def _balloon_entries(balloon: Balloon, units: str | None) -> Entries:
-    entries: Entries = {"size": int(balloon.size)} if balloon.size is not None else {}
+    entries: Entries = {} if balloon.size is None else {"size": _size_entry(balloon.size)}
     entries |= balloon.model_dump(include={"mesh", "unit", "swell"}, exclude_none=True)
     if balloon.at is not None:
         entries["at"] = [length_entry(place, units) for place in balloon.at]
@@ -88,6 +88,10 @@ def _balloon_entries(balloon: Balloon, units: str | None) -> Entries:
         if length is not None:
             entries[key] = length_entry(length, units)
     return entries
+
+
+def _size_entry(size: str) -> int | str:
+    return int(size) if size.isdecimal() else size
 
 
 def step_entries(step: Operation, units: str | None) -> Entries:

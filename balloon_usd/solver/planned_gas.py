@@ -24,7 +24,7 @@ def shares_of_planned_gas(plan: Plan, meshes: Sequence[BalloonMesh], frame: Fram
     """
     # The plan counts round tubes.
     polygon = {
-        name: polygon_share(mesh.around) if strip.has_tail else 1.0
+        name: polygon_share(mesh.around) if strip.has_tail or strip.is_round else 1.0
         for (name, strip), mesh in zip(plan.strips.items(), meshes, strict=True)
     }
     found: dict[str, float] = {}

@@ -11,9 +11,11 @@ from balloon_usd.balloon.sizes import SIZES, size_named
 from balloon_usd.balloon.tube_theory import maxwell_state
 
 INCH = 0.0254
+TUBES = [size for size in SIZES if size.neck is None]
+ROUNDS = [size for size in SIZES if size.neck is not None]
 
 
-@pytest.mark.parametrize("size", SIZES, ids=lambda size: size.name)
+@pytest.mark.parametrize("size", TUBES, ids=lambda size: size.name)
 def test_every_size_inflates_to_the_inches_of_its_name(size):
     bulged = maxwell_state(rubber_named("ogden")).bulged
     assert 2.0 * bulged.a * size.radius / INCH == pytest.approx(int(size.name[0]), rel=0.01)
@@ -23,6 +25,23 @@ def test_every_size_inflates_to_the_inches_of_its_name(size):
 def test_a_260_weighs_about_two_grams():
     rubber = rubber_named("ogden")
     assert size_named("260").rubber_volume * rubber.density == pytest.approx(1.74e-3, rel=0.01)
+
+
+@pytest.mark.parametrize("size", ROUNDS, ids=lambda size: size.name)
+def test_a_round_balloon_stretched_five_times_is_as_wide_as_its_name_says(size):
+    assert 10.0 * size.radius / INCH == pytest.approx(int(size.name[1:]), rel=0.03)
+
+
+def test_round_balloons_weigh_what_real_ones_do():
+    rubber = rubber_named("ogden")
+    assert size_named("R5").rubber_volume * rubber.density == pytest.approx(0.55e-3, abs=0.05e-3)
+    assert size_named("R11").rubber_volume * rubber.density == pytest.approx(2.7e-3, rel=0.03)
+
+
+def test_a_round_balloon_of_another_radius_has_the_same_shape():
+    size, wider = size_named("R5"), size_named("R5").with_overrides(radius=26.0e-3)
+    assert (wider.length, wider.neck) == pytest.approx((2.0 * size.length, 2.0 * size.neck))
+    assert wider.thickness == size.thickness
 
 
 def test_a_260_lies_14_millimetres_wide_when_flat():

@@ -17,10 +17,15 @@ def dog_tube(detail="draft", size="260"):
     return tube_mesh(size_named(size), detail_named(detail), JOINTS, (*JOINTS, size_named(size).length))
 
 
+def round_balloon(detail="draft", size="R5"):
+    return tube_mesh(size_named(size), detail_named(detail), (), (size_named(size).length,))
+
+
 @pytest.mark.parametrize("size", [size.name for size in SIZES])
 @pytest.mark.parametrize("detail", list(DETAILS))
 def test_every_edge_of_every_size_is_shared_by_two_quads_in_opposite_directions(size, detail):
-    quads = dog_tube(detail, size).quads
+    made = dog_tube if size_named(size).neck is None else round_balloon
+    quads = made(detail, size).quads
     edges = np.concatenate([quads[:, [k, (k + 1) % 4]] for k in range(4)])
     there, back = {tuple(e) for e in edges}, {tuple(e[::-1]) for e in edges}
     assert len(there) == len(edges)
@@ -37,6 +42,25 @@ def test_the_surface_faces_outwards_and_holds_the_tubes_volume():
     mesh, size = dog_tube("full"), size_named("260")
     volume = volume_of(mesh.points, mesh.quads)
     assert volume == pytest.approx(np.pi * size.radius**2 * size.length, rel=0.08)
+
+
+@pytest.mark.parametrize("size", ["R5", "R11"])
+def test_a_round_balloon_is_as_wide_at_its_neck_and_at_its_widest_ring_as_its_size_says(size):
+    mesh, of = round_balloon("full", size), size_named(size)
+    apothem = np.linalg.norm(mesh.points[:, 1:], axis=1) * np.cos(np.pi / mesh.around)
+    rings = apothem[mesh.ring_start[:, None] + np.arange(mesh.around)]
+    assert rings[mesh.ring_at(0.0)] == pytest.approx(of.neck, rel=1e-5)
+    assert rings.max() == pytest.approx(of.radius, rel=0.01)
+    assert rings[-1].mean() < 0.9 * of.radius
+
+
+def test_the_wall_of_a_round_balloon_has_the_area_that_its_weight_is_reckoned_from():
+    mesh, of = round_balloon("full", "R11"), size_named("R11")
+    corners = mesh.points[mesh.quads[(mesh.along[mesh.quads] >= -1e-6).all(axis=1)]].astype(float)
+    areas = 0.5 * np.linalg.norm(
+        np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]), axis=1
+    )
+    assert areas.sum() == pytest.approx(of.rubber_volume / of.thickness, rel=0.02)
 
 
 def test_the_polygon_is_drawn_about_the_circle_of_the_tube():

@@ -166,7 +166,12 @@ def test_a_wrong_angle_is_found_at_its_value(angle: str, message: str) -> None:
 
 BALLOON = [
     ("size: 261", "size", 16, 'unknown balloon size "261", did you mean "321"?'),
-    ("size: 260.0", "size", 16, "260.0 is no balloon size, expected one of 160, 260, 321, 350, 360, 646"),
+    (
+        "size: 260.0",
+        "size",
+        16,
+        "260.0 is no balloon size, expected one of 160, 260, 321, 350, 360, 646, R5, R11",
+    ),
     (
         "size: 260, color: rde",
         "color",

@@ -8,13 +8,14 @@ import numpy as np
 import pytest
 
 from balloon_usd.balloon.air import ATMOSPHERE
+from balloon_usd.balloon.ball_pressure import ball_pressure
 from balloon_usd.balloon.closed_shape import ClosedShape
 from balloon_usd.balloon.detail import detail_named
 from balloon_usd.balloon.rubber import rubber_named
 from balloon_usd.operations.insert import Insert
 from balloon_usd.operations.moves import Sink
 from balloon_usd.plan import plan
-from balloon_usd.plan.laying_shapes import WALL, ball_pressure
+from balloon_usd.plan.laying_shapes import WALL
 from balloon_usd.plan.meshing import made_meshes
 from balloon_usd.plan.nesting_fit import MOST_GUESTS
 from balloon_usd.recipe import Recipe

@@ -8,11 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from balloon_usd.balloon.ball_pressure import ball_pressure
 from balloon_usd.balloon.closed_shape import ClosedShape, shape_of_faces
 from balloon_usd.balloon.rubber import rubber_named
 from balloon_usd.bench.pierced import pierced_triangles
 from balloon_usd.plan import plan
-from balloon_usd.plan.laying_shapes import WALL, ball_pressure
+from balloon_usd.plan.laying_shapes import WALL
 from balloon_usd.recipe import Recipe
 from balloon_usd.solver.corners import corner_table
 from balloon_usd.solver.flatten import _joined_corners

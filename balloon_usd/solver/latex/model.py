@@ -27,6 +27,7 @@ from balloon_usd.solver.latex.jams import Jams
 from balloon_usd.solver.latex.joint_forces import JointForces
 from balloon_usd.solver.latex.leak import Leak
 from balloon_usd.solver.latex.motions.table import LATEX_MOTIONS
+from balloon_usd.solver.latex.round_body import round_body
 from balloon_usd.solver.latex.scene import build_scene
 from balloon_usd.solver.latex.sculpture import LatexSculpture
 from balloon_usd.solver.latex.shape_body import shape_body
@@ -243,8 +244,11 @@ def _bodies(plan: Plan, meshes: Sequence[BalloonMesh]) -> list[LatexBody]:
 def _body(plan: Plan, strip: Strip, mesh: BalloonMesh) -> LatexBody:
     if strip.shape is not None:
         return shape_body(mesh, strip.rubber, strip.size.thickness)
-    pressure = SEALED_KNOT * maxwell_state(strip.rubber).p_star * strip.size.thickness / strip.size.radius
+    thinness = strip.size.thickness / strip.size.neck_radius
+    pressure = SEALED_KNOT * maxwell_state(strip.rubber).p_star * thinness
     guides = tuple(r.along for r in plan.table.rings if r.balloon == strip.balloon and not r.joint)
+    if strip.is_round:
+        return round_body(mesh, strip.rubber, strip.size, guides, pressure)
     return tube_body(
         mesh,
         strip.rubber,

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from balloon_usd.balloon.ringed_faces import polygon_share
 from balloon_usd.balloon.tube_theory import pressure_maximum
-from balloon_usd.plan.budget import blown_in
+from balloon_usd.plan.budget import amount, blown_in
 from balloon_usd.plan.nesting import room_left
 from balloon_usd.solver.latex.motions.strokes import MOST_FLOW, brought
 from balloon_usd.solver.latex.motions.tail import Tail
@@ -34,7 +34,9 @@ costs 30 % of the speed of a run; the hand keeps the tail taut.
 
 
 class Inflate(Motion):
-    """A pump at a balloon: at a tube, whose knot is held and whose flat tail is led, or at any shape."""
+    """A pump at a balloon: at a tube, whose knot is held and whose flat tail is led, at a round balloon,
+    whose knot is held, or at any shape.
+    """
 
     def __init__(self, move: moves.Inflate, sculpture: LatexSculpture) -> None:
         """Put the pump on."""
@@ -49,7 +51,9 @@ class Inflate(Motion):
         self._tail: Tail | None = None
         self._touches = False
         """Whether its walls touch for this only."""
-        if shape is None:
+        if sculpture.plan.strips[move.balloon].is_round:
+            self._pump_round(move.balloon)
+        elif shape is None:
             self._ramp = min(max(PUMP_RAMP, RAMP_SECONDS / move.seconds), 0.5)
             self._hold_tube(move.balloon)
             self._tail = Tail(sculpture, move.balloon)
@@ -75,6 +79,15 @@ class Inflate(Motion):
         if not hands.touching[b]:
             self._touches = True
             hands.touch([b])
+
+    def _pump_round(self, balloon: str) -> None:
+        scene, hands, b = self._sculpture.scene, self._sculpture.hands, self._body
+        bubble = self._sculpture.plan.strips[balloon].bubbles[0]
+        assert bubble.pressure is not None, "the plan knows the pressure of a round balloon"
+        share = polygon_share(scene.bodies[b].rings[0].around)
+        hands.pump_goal[b] = amount(bubble.pressure, bubble.volume) * share
+        hands.pump_limit[b] = scene.settings.atmosphere
+        hands.grip(int(scene.joint_start[b]) + 1, self._sculpture.frame.middle)
 
     def _pump_shape(self, shape: Shaped) -> None:
         scene, hands, b = self._sculpture.scene, self._sculpture.hands, self._body
