@@ -79,10 +79,11 @@ class StepEntry:
             bench.complain(self.path, f"no operation, expected {one_of(WORDS)}")
         unnamed = "balloon" not in self.entries
         makes = any(BY_WORD[word].bubble_kind is not None for word in self.words) and unnamed
-        place = Place(self.path, bench.balloon_of(self.path, self.balloon, makes=makes))
+        twists = makes and Rest.word not in self.words
+        place = Place(self.path, bench.balloon_of(self.path, self.balloon, makes=makes, twists=twists))
         for word in self.words:
             on_round = not BY_WORD[word].on_rounds and bench.tells_round(
-                (*self.path, word), place.balloon if self.makes else None, self.uses
+                word, self.path, place.balloon if self.makes else None, self.uses
             )
             if on_round and not self.makes:
                 continue

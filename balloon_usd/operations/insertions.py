@@ -10,7 +10,7 @@ from balloon_usd.language.joint import Joint
 from balloon_usd.language.problem import Complaint, Path, quoted
 
 if TYPE_CHECKING:
-    from collections.abc import Container, Iterable, Iterator, Mapping
+    from collections.abc import Iterable, Iterator, Mapping
 
     from balloon_usd.operations.workpiece import Workpiece
 
@@ -23,8 +23,6 @@ class Insertions:
     """Where each bubble is made that any step makes."""
     pumped: Mapping[str, Path]
     """Where each balloon is blown up that is not so from the beginning."""
-    rounds: Container[str] = ()
-    """Balloons that are round."""
     put_in: dict[str, tuple[str, Path]] = field(default_factory=dict)
     """The bubble into which each balloon is put, and where."""
     used: list[tuple[Path, str]] = field(default_factory=list)
@@ -53,9 +51,6 @@ class Insertions:
         elif made.balloon == balloon or self._lies(piece, made.balloon):
             what = "itself" if made.balloon == balloon else f"{made.balloon}, which lies in another"
             yield Complaint(path, f"lies in {what}, expected a bubble of a balloon that lies in none")
-        elif round_ones := [name for name in (balloon, made.balloon) if name in self.rounds]:
-            for name in round_ones:
-                yield Complaint(path, f"balloon {quoted(name)} is round, expected tubes, or meshes, alone")
         elif full := self._full_before(path, (balloon, made.balloon)):
             for name in full:
                 what = f"balloon {quoted(name)} is blown up by then"

@@ -61,7 +61,7 @@ class Operation(Entries):
     whole: ClassVar[bool] = False
     """Whether it works on whole balloons of any kind, also on those that are not twisted."""
     on_rounds: ClassVar[bool] = False
-    """Whether it works on round balloons, too, which are one bubble each and neither twisted nor bent."""
+    """Whether it works on round balloons, too, which are one bubble each."""
     keeps_time: ClassVar[bool] = False
     """Whether its moves take the time that the recipe gives without being stretched."""
 

@@ -43,7 +43,6 @@ class Press(Pressing):
 
     word: ClassVar[str] = "press"
     called: ClassVar[tuple[str, ...]] = ("dent", "poke")
-    on_rounds: ClassVar[bool] = True
     value_model: ClassVar[type[Entries] | None] = PressedBubble
     example: ClassVar[str] = """\
 format: 1

@@ -15,7 +15,7 @@ from balloon_usd.operations.caution import Caution
 from balloon_usd.operations.closing import LENIENCE
 from balloon_usd.operations.modifiers import Entries, Pointed, Timed
 from balloon_usd.operations.operation import Operation
-from balloon_usd.operations.passing import names_in, without_hole
+from balloon_usd.operations.passing import WIDER, names_in, without_hole
 from balloon_usd.operations.reach import SECONDS_PER_METRE, limb_reach
 from balloon_usd.operations.score import HAND_SPEED, SETTLE_SECONDS
 from balloon_usd.operations.workpiece import ContactKind
@@ -39,6 +39,11 @@ OPEN = 3.6
 FITS = 0.9
 """Width of the hole of a loop beyond which a limb slips out of it, in widths of its tube: an ear of 3 cm of a
 260 stays in a loop of 30 cm and slips out of one of 32.
+"""
+WIDE, WIDE_IN_LOOP = 0.85, 1.0 / 3.0
+"""Width of a ball that is wider than what it is set into, in the length of the shorter of two bubbles, or of
+a loop, beyond which it finds no place: in simulations one of 3.6 cm stays between two of 4.6 and one of 13
+slips out from between two of 6, one of 8 cm stays in a loop of 25 cm and one of 12 does not.
 """
 LOOP_IN_LOOP = 1.5
 """Length of a loop below which another one does not come into its hole, in the length of that: in simulations
@@ -145,6 +150,9 @@ steps:
     def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:
         """Warn of a loop whose hole its own wall closes, and of one whose hole is too narrow or too wide."""
         bubble, *between = (layout.bubble(name) for name in self.names)
+        if (caution := self._too_wide(index, bubble, between)) is not None:
+            yield caution
+            return
         if len(between) > 1:
             return
         name, into, loop = self.tuck.bubble, self.tuck.between[0], between[0]
@@ -163,9 +171,22 @@ steps:
             most_long = math.pi * (FITS * bubble.width + loop.width)
             what, why = (
                 f"{name} may slip out of {shown}",
-                f"its hole is about as wide as a {bubble.size}, or wider",
+                f"its hole is about as wide as {name}, or wider",
             )
             yield Caution(index, what, why, f"make {into} {at_most(most_long)} long, or less")
+
+    def _too_wide(self, index: int, bubble: PlacedBubble, between: Sequence[PlacedBubble]) -> Caution | None:
+        """Warn of a ball that is wider than what gives way between others."""
+        most = (WIDE_IN_LOOP if len(between) == 1 else WIDE) * min(each.length for each in between)
+        if bubble.width <= max(most, WIDER * max(each.width for each in between)):
+            return None
+        named = f"{self.tuck.bubble} ({cm(bubble.width)} wide)"
+        return Caution(
+            index,
+            f"{named} may find no place in {all_of(self.tuck.between)}",
+            "it is wider than what gives way between them",
+            f"blow it up to {cm(most)}, or less",
+        )
 
     def perform(self, score: Score, index: int) -> None:
         """Spread the others, bring it over them and in, and let them close on it."""

@@ -77,7 +77,7 @@ class Workbench:
         """Where the tip behind a rest was tied."""
         self._made_ever, self._rests = made_ever, rests
         self._pumped, self._rows, self._rounds = pumped, rows, rounds
-        self._insertions = Insertions(made_ever, pumped, rounds)
+        self._insertions = Insertions(made_ever, pumped)
         self._told_flat: set[str] = set()
         """Balloons of which was told that they are worked on while they are flat."""
 
@@ -90,13 +90,14 @@ class Workbench:
         """Note that something makes no sense."""
         self.complaints.append(Complaint(path, text))
 
-    def balloon_of(self, path: Path, named: str | None, *, makes: bool) -> str | None:
+    def balloon_of(self, path: Path, named: str | None, *, makes: bool, twists: bool = False) -> str | None:
         """Return the balloon a step works on; None when that cannot be known.
 
         Args:
             path: of the step.
             named: the balloon that it names.
             makes: whether it makes something and names no balloon at all.
+            twists: whether that is twisted off, as of tubes alone.
         """
         known = self._balloons
         if named is not None:
@@ -106,7 +107,8 @@ class Workbench:
                 self.complain((*path, "balloon"), unknown("balloon", named, known))
             return None
         if len(known) > 1 and makes:
-            self.complain(path, f"does not say on which balloon, expected balloon: {one_of(known)}")
+            may = [name for name in known if not (twists and name in self._rounds)] or known
+            self.complain(path, f"does not say on which balloon, expected balloon: {one_of(may)}")
         return known[0] if len(known) == 1 else None
 
     def blow_up(self, balloon: str, path: Path) -> None:
@@ -128,15 +130,17 @@ class Workbench:
             what = f"balloon {quoted(name)} is flat until {path_text(later)} blows it up"
             self.complain(place.path, f"{what}: expected this step after that one")
 
-    def tells_round(self, path: Path, balloon: str | None, bubbles: Iterable[str]) -> bool:
-        """Say whether a step works on a round balloon, or on the bubble that one is, and complain if so: only
-        tubes bear it.
-        """
+    def is_round(self, name: str) -> bool:
+        """Say whether a bubble is a round balloon."""
+        return self._owner(name) in self._rounds
+
+    def tells_round(self, word: str, path: Path, balloon: str | None, bubbles: Iterable[str]) -> bool:
+        """Say whether a step of a word works on a round balloon or its bubble, and complain if so."""
         worked_on = dict.fromkeys([balloon, *map(self._owner, bubbles)])
         found = [str(name) for name in worked_on if name in self._rounds]
         for name in found:
-            what = f"balloon {quoted(name)} is round, one bubble that is neither twisted nor bent"
-            self.complain(path, f"{what}, expected a tube")
+            what = f"takes no round balloon, and {quoted(name)} is one"
+            self.complain((*path, word), f"{what}, expected a tube")
         return bool(found)
 
     def note_use(self, path: Path, bubbles: Iterable[str]) -> None:
@@ -175,7 +179,8 @@ class Workbench:
         self._made_at[name] = path
         if balloon is None:
             return True
-        if balloon in self._ended:
+        # Of what is twisted off a round one is told that it cannot be.
+        if balloon in self._ended and (last or balloon not in self._rounds):
             end = path_text(self._ended[balloon])
             what = f"balloon {quoted(balloon)} has ended at {end}, expected nothing made of it after its rest"
             self.complain(path, what)
@@ -297,7 +302,7 @@ class Workbench:
         elif name in self._tied_at:
             at = path_text(self._tied_at[name])
             self.complain(path, f"the tip of {quoted(name)} was tied at {at}, expected each tip once")
-        elif self._owner(name) in self._rounds:
+        elif self.is_round(name):
             what = f"{name} is a round balloon, which has no flat tip"
             self.complain(path, f"{what}, expected {name}.start, its nozzle")
         elif self.piece.is_merged([Joint(name, "end")]):
@@ -323,6 +328,10 @@ class Workbench:
     def find_joint(self, end: Joint, path: Path) -> bool:
         """Say whether a joint is there by now on which more hangs than a popped bubble; complain if not."""
         if not self.find(end.bubble, path):
+            return False
+        if end.end == "end" and self.is_round(end.bubble):
+            what = f"{end} is the far side of a round balloon"
+            self.complain(path, f"{what}, expected {end.bubble}.start, its nozzle")
             return False
         if end.bubble not in self.piece.bubbles or end.bubble not in self._popped_at:
             return True
@@ -352,8 +361,15 @@ class Workbench:
             self.complain(path, f"{what}: expected this step after that one")
         elif is_name(name) and not self.full:
             # Of what is no name is told where it stands.
-            self.complain(path, unknown("bubble", name, [*self._made_at, *rests]))
+            self.complain(path, self._unknown(name, rests))
         return False
+
+    def _unknown(self, name: str, rests: Iterable[str]) -> str:
+        """Say that there is no bubble of a name, and what was meant."""
+        if name in self._balloons:
+            named = f"expected the name of a bubble of it, such as {{rest: NAME, balloon: {name}}} gives"
+            return f"{quoted(name)} is a balloon, {named}"
+        return unknown("bubble", name, [*self._made_at, *rests])
 
     def find_rest(self, name: str, place: Place, path: Path) -> None:
         """Complain unless a bubble is what is left of a balloon by now, and has its gas."""

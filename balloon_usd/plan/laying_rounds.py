@@ -74,6 +74,12 @@ def round_strip(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) ->
     return Strip(name, size, rubber, 0.0, (planned,), width=width)
 
 
+def round_volume(strip: Strip) -> float:
+    """Return the volume of a round balloon that is blown up, m3."""
+    share, _, _ = _shape_of(strip.inflated_radius / strip.size.radius)
+    return share * math.pi / 6.0 * (2.0 * strip.inflated_radius) ** 3
+
+
 def _shape_of(stretch: float) -> list[float]:
     """Return volume, height and pressure of a round balloon of a width, as in `SHAPES`."""
     known, *shapes = np.array(SHAPES).T

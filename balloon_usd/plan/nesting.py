@@ -8,7 +8,9 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from balloon_usd.balloon.bubble_shape import pinch_length
+from balloon_usd.balloon.round_outline import Outline, round_outline
 from balloon_usd.balloon.tube_theory import maxwell_state
+from balloon_usd.plan.laying_rounds import round_volume
 from balloon_usd.plan.open_tube import inflated_tube, softened
 
 if TYPE_CHECKING:
@@ -18,6 +20,8 @@ if TYPE_CHECKING:
 
 BRINGING_SPEED = 0.15
 """Speed at which hands bring a flat tube along in another, m/s. Judged."""
+NARROWER = 0.75
+"""Most radius of a flat balloon that goes into another, in that of the other. Judged."""
 NOZZLE = 4.0
 """How far knot and lip of a tube reach, in its flat radii."""
 
@@ -69,6 +73,8 @@ def blown_volume(strip: Strip) -> float:
     """Return the volume of a balloon that is blown up, m3."""
     if strip.shape is not None:
         return strip.shape.volume
+    if strip.is_round:
+        return round_volume(strip)
     return float(inflated_tube(strip.size, softened(strip.rubber), strip.tail).volume)
 
 
@@ -78,12 +84,35 @@ def room_to_sink(strips: Mapping[str, Strip]) -> float:
 
 
 def nozzle_length(strip: Strip) -> float:
-    """Return how far knot and lip of a tube reach, m."""
-    return NOZZLE * strip.size.radius
+    """Return how far knot and lip of a tube or a round balloon reach, m."""
+    return NOZZLE * strip.size.neck_radius
+
+
+def flat_length(strip: Strip) -> float:
+    """Return how long a tube or a round balloon is while it is flat, from its knot to its tip, m."""
+    return strip.size.length if strip.size.neck is None else float(_outline(strip).x[-1])
+
+
+def flat_room(owner: Strip, guest: Strip) -> tuple[float, float]:
+    """Return from where to where a balloon is wide enough for another, both flat, m from its knot."""
+    if owner.size.neck is None:
+        return owner.size.radius, owner.size.length - owner.size.radius
+    outline = _outline(owner)
+    wide = outline.x[outline.radius >= guest.size.radius / NARROWER]
+    if not len(wide):
+        return 0.0, 0.0
+    clear = guest.size.radius
+    return max(float(wide[0]), clear), min(float(wide[-1]), float(outline.x[-1]) - clear)
+
+
+def _outline(strip: Strip) -> Outline:
+    return round_outline(strip.size.radius, strip.size.neck_radius)
 
 
 def blown_length(strip: Strip) -> float:
-    """Return the length of a tube that is blown up and not twisted, m, from its knot to its flat tip."""
+    """Return the length of a tube that is blown up and not twisted, m, from its knot to its flat tip; or of a
+    round balloon.
+    """
     return strip.bubbles[-1].end + strip.tail
 
 
@@ -102,25 +131,27 @@ def _width(strip: Strip) -> float:
 
 
 def _guests_of(owner: Strip, strips: Mapping[str, Strip]) -> Iterator[tuple[str, Host]]:
-    """Yield what lies in a balloon. Flat tubes lie in it where they will, or as near to that as they have
-    room behind each other.
+    """Yield what lies in a balloon. Flat tubes and round balloons lie in it where they will, or as near to
+    that as they have room behind each other.
     """
     numbers = {bubble.name: number for number, bubble in enumerate(owner.bubbles)}
     inside = [(numbers[it.inside], it) for it in strips.values() if it.inside in numbers]
     inside.sort(key=lambda each: each[0])
     goals, places = [], []
-    free = owner.size.radius
+    free = 0.0
     for number, guest in inside:
         goal = 0.0
         if guest.shape is None:
             goal = _middle(owner, number) - 0.5 * (blown_length(guest) - nozzle_length(guest))
+            free = max(free, flat_room(owner, guest)[0])
         goals.append(goal)
         places.append(max(goal, free + nozzle_length(guest)) if guest.shape is None else 0.0)
-        free = places[-1] + guest.size.length + guest.size.radius
-    free = owner.size.length - owner.size.radius
+        free = places[-1] + (flat_length(guest) if guest.shape is None else 0.0) + guest.size.radius
+    free = math.inf
     for place, (_, guest) in reversed(list(enumerate(inside))):
         if guest.shape is None:
-            places[place] = min(places[place], free - guest.size.length)
+            free = min(free, flat_room(owner, guest)[1])
+            places[place] = min(places[place], free - flat_length(guest))
             free = places[place] - nozzle_length(guest) - guest.size.radius
     for goal, along, (number, guest) in zip(goals, places, inside, strict=True):
         yield guest.balloon, Host(owner.balloon, number, along, goal)
@@ -128,6 +159,8 @@ def _guests_of(owner: Strip, strips: Mapping[str, Strip]) -> Iterator[tuple[str,
 
 def _middle(owner: Strip, number: int) -> float:
     """Return where the middle of a bubble lies before anything is twisted off, m from the knot."""
+    if owner.is_round:
+        return 0.5 * owner.bubbles[0].length
     rubber = softened(owner.rubber)
     stretch, round_end = maxwell_state(rubber).bulged.b, 0.5 * pinch_length(owner.size, rubber)
     bubble = owner.bubbles[number]

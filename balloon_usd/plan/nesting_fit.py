@@ -11,7 +11,7 @@ from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.language.lengths import at_least, at_most, cm
 from balloon_usd.operations.inflate import Inflate
 from balloon_usd.operations.insert import Insert
-from balloon_usd.plan.nesting import blown_length, hosts_of, nozzle_length
+from balloon_usd.plan.nesting import NARROWER, blown_length, flat_length, flat_room, hosts_of, nozzle_length
 from balloon_usd.plan.open_tube import softened
 
 if TYPE_CHECKING:
@@ -20,11 +20,9 @@ if TYPE_CHECKING:
     from balloon_usd.language.problem import Problem
     from balloon_usd.plan.nesting import Host
     from balloon_usd.plan.shaped import Shaped
-    from balloon_usd.plan.strip import Strip
+    from balloon_usd.plan.strip import PlannedBubble, Strip
     from balloon_usd.recipe import Recipe
 
-NARROWER = 0.75
-"""Most radius of a flat tube that goes into another, in that of the other. Judged."""
 USUAL_SHARE = 0.8
 """Share of the room in a bubble that is advised for the blown-up part of what lies in it."""
 MOST_GUESTS = 8
@@ -74,37 +72,45 @@ def _blown_up_at(recipe: Recipe, balloon: str) -> int:
 
 
 def _too_large(guest: Strip, owner: Strip, host: Host) -> str:
-    """Say why a tube has no room in a bubble of another; nothing where it has."""
+    """Say why a tube or a round balloon has no room in a bubble of another; nothing where it has."""
     if guest.size.radius > NARROWER * owner.size.radius:
         text = f"is {cm(2.0 * guest.size.radius)} wide while it is flat, and {owner.balloon} "
         text += cm(2.0 * owner.size.radius)
-        return f"{text}, expected a tube of at most {at_most(2.0 * NARROWER * owner.size.radius)}"
+        what = "one" if guest.is_round else "a tube"
+        return f"{text}, expected {what} of at most {at_most(2.0 * NARROWER * owner.size.radius)}"
     bubble = owner.bubbles[host.bubble]
     if bubble.length == 0.0:
         return f"lies in {bubble.name}, which is flat for ever, expected a bubble with gas"
     if owner.inverted and host.bubble == 0:
         return f"lies in {bubble.name}, a tulip, whose own wall takes the room in it, expected another bubble"
+    if text := _too_long(guest, owner, bubble):
+        return text
+    short = flat_room(owner, guest)[0] + nozzle_length(guest) - host.along
+    if short > 0.0:
+        text = f"has no room in {owner.balloon}, which is {cm(flat_length(owner))} long while it is flat"
+        return f"{text}, expected it, or what lies behind it, shorter by {at_least(short)} while flat"
+    return ""
+
+
+def _too_long(guest: Strip, owner: Strip, bubble: PlannedBubble) -> str:
+    """Say why a tube or a round balloon is too long for a bubble when blown up; nothing if it is not."""
     nozzle, blown = nozzle_length(guest), blown_length(guest) - guest.tail
     whole = blown + guest.tail + nozzle
     wide = min(guest.inflated_radius / owner.inflated_radius, 1.0)
     narrowing = bubble.length * math.sqrt(1.0 - wide**2)
     text = ""
     if whole > bubble.length:
-        text = f"is {at_least(whole)} long with its nozzle and its flat tip"
+        text = f"is {at_least(whole)} long with its nozzle" + (" and its flat tip" * guest.has_tail)
         text += f", expected at most {at_most(bubble.length)} in {bubble.name}"
     elif blown > narrowing:
         text = f"is {at_least(blown)} long when blown up, expected at most {at_most(narrowing)}"
         text += f" between the ends of {bubble.name}"
-    if text:
+    if text and not guest.is_round:
         room = bubble.length - nozzle
         blown = min(blown, narrowing, USUAL_SHARE * room)
         flat = blown / maxwell_state(softened(guest.rubber)).bulged.b + min(guest.tail, room - blown)
         return f"{text}, such as inflated: {at_most(blown)}, length: {at_most(flat)}"
-    short = owner.size.radius + nozzle_length(guest) - host.along
-    if short > 0.0:
-        text = f"has no room in {owner.balloon}, which is {cm(owner.size.length)} long while it is flat"
-        return f"{text}, expected it, or what lies behind it, shorter by {at_least(short)} while flat"
-    return ""
+    return text
 
 
 def _misplaced(guest: Shaped, owner: Shaped, place: tuple[float, float, float]) -> str:

@@ -136,7 +136,7 @@ def _budget_lines(plan: Plan, budget: Budget) -> Iterator[str]:
     if budget.drawn > 0.0:
         each += f", and {cm(budget.drawn)} that turns draw in"
     counted = "1 twist" if twists == 1 else f"{twists} twists"
-    if budget.tail_used < budget.tail_needed - ROUND_OFF:
+    if budget.runs_out and budget.tail_used < budget.tail_needed - ROUND_OFF:
         needs = "needs" if twists == 1 else "need"
         short = f"({each}), and there are {cm(budget.tail_used)}"
         yield f"  {counted} {needs} {cm(budget.tail_needed)} of flat tail {short}"
@@ -161,7 +161,9 @@ def _stroke_lines(plan: Plan, balloon: str) -> Iterator[str]:
 def _graph_lines(plan: Plan) -> Iterator[str]:
     graph = plan.graph
     strokes = "one balloon" if graph.one_stroke else f"{graph.fewest_balloons} balloons"
-    yield f"{ring_line(graph)}; {strokes} could make it"
+    # No other balloon makes what a round one is.
+    rounds = any(strip.is_round for strip in plan.strips.values())
+    yield ring_line(graph) if rounds else f"{ring_line(graph)}; {strokes} could make it"
     led_in = _led_in(plan)
     firm = plan.piece_let_go.holding()
     for event in plan.recipe.piece.history:
@@ -313,6 +315,7 @@ def _balloon_json(strip: Strip, budget: Budget | None) -> dict[str, Any]:
         "capsule": strip.capsule,
         "tail": strip.tail,
         "inflated_length": _inflated_length(strip) if budget is None else budget.inflated_length,
+        "width": strip.width,
         "inside": strip.inside,
         "shape": None if strip.shape is None else _shape_json(strip.shape),
         "bubbles": [asdict(bubble) | {"drawn": list(bubble.drawn)} for bubble in strip.bubbles],

@@ -97,7 +97,7 @@ def _said_equal(
     recipe: Recipe, strips: Mapping[str, Strip], left: PlannedBubble, right: PlannedBubble
 ) -> bool:
     a, b = strips[left.balloon], strips[right.balloon]
-    rests = {a.bubbles[-1].name, b.bubbles[-1].name}
+    rests = {strip.bubbles[-1].name for strip in (a, b) if not strip.is_round}
     return (
         left.kind == right.kind
         and abs(left.length - right.length) < SAME_LENGTH

@@ -109,7 +109,7 @@ class _Followed(ABC):
     """Whether its way into the ring is followed, too."""
     into, out_of = "into its ring", "out of its ring"
     """Where it comes, and from where it slips, in words."""
-    if_stuck = "make the bubble shorter or the ring larger"
+    if_stuck = "make the bubble smaller or the ring larger"
     if_slipped = "make the ring smaller or the bubble larger"
     share: float = 0.0
     """How far it is through its ring."""

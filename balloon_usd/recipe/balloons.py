@@ -65,7 +65,7 @@ class Balloon(Entries):
     tail: FlatTail | None = None
     """Flat rubber left empty at the end; m in Python."""
     inflated: Length | None = None
-    """Length of the inflated part, instead of tail; m in Python."""
+    """Length of the inflated part, instead of tail; of a round balloon its width; m in Python."""
     capsule: Length | None = None
     """Length of a closed capsule before it is twisted, instead of one with knot and tail; m in Python."""
     radius: Annotated[float, LengthWithin(0.001, 0.1, low_included=True)] | None = None

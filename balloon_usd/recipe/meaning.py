@@ -8,7 +8,7 @@ from balloon_usd.language.choices import one_of
 from balloon_usd.operations.entries import steps_in, workbench_of
 from balloon_usd.operations.workpiece import Workpiece
 
-from .balloons import FILLINGS, FLAT_ONLY, ROUND_KEYS, ROUNDS, Balloon, balloons_in, rounds_in
+from .balloons import FILLINGS, FLAT_ONLY, MESH_ONLY, ROUND_KEYS, ROUNDS, Balloon, balloons_in, rounds_in
 from .facing import facing_complaints
 from .held_words import held_complaints
 from .mesh_words import mesh_complaints, meshes_in
@@ -68,7 +68,7 @@ def _check_filling(balloon: str, entry: object, bench: Workbench) -> None:
     path: Path = ("balloons", balloon)
     if "size" not in entry:
         bench.complain((*path, "size"), "is missing, expected the size of the balloon, such as 260")
-    if entry.get("size") in ROUNDS:
+    if str(entry.get("size")).upper() in ROUNDS:
         _check_round(path, entry, bench)
         return
     given = [key for key in FILLINGS if key in entry]
@@ -88,6 +88,7 @@ def _check_filling(balloon: str, entry: object, bench: Workbench) -> None:
 def _check_round(path: Path, entry: dict[str, object], bench: Workbench) -> None:
     """Complain of what a round balloon does not have."""
     for key in entry:
-        if key in Balloon.model_fields and key not in ROUND_KEYS:
+        # Of the others is told what they belong to.
+        if key in Balloon.model_fields and key not in (*ROUND_KEYS, *MESH_ONLY):
             what = f"makes no sense with {entry['size']}, a round balloon, expected {one_of(ROUND_KEYS[1:])}"
             bench.complain((*path, key), what)

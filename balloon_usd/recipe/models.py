@@ -34,7 +34,7 @@ class ModelTraits:
 
 MODELS: dict[ModelName, ModelTraits] = {
     "latex": ModelTraits(
-        version="latex 33",
+        version="latex 34",
         title="hyperelastic rubber and gas",
         has_weight=True,
         winds=True,

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import math
+import re
 
 import pytest
 
 from balloon_usd.operations.moves import Loosen
 from balloon_usd.plan import plan as plan_of
 from balloon_usd.plan.drawing import plan_svg
+from balloon_usd.plan.nesting import blown_volume, flat_length, flat_room, hosts_of, nozzle_length
 from balloon_usd.plan.parking import parked
 from balloon_usd.plan.report import plan_json, plan_text
+from balloon_usd.plan.twins import twins_of
 from balloon_usd.recipe import Recipe, RecipeError
 
 BALLS = """
@@ -42,6 +45,21 @@ steps:
   - {{rest: nose, balloon: ball}}
   - tie: {{end: nose.start, to: left.start}}
   - push: {{bubble: nose, through: [left, right]}}
+"""
+
+
+EGG = """
+format: 1
+name: egg
+units: cm
+balloons:
+  egg: {{size: R11, finish: clear}}
+  bird: {{size: {size}}}
+steps:
+  - insert: {{bird: shell}}
+  - inflate: egg
+  - inflate: bird
+  - {{rest: shell, balloon: egg}}
 """
 
 
@@ -103,3 +121,72 @@ def test_hands_loosen_their_grip_of_what_is_only_tied():
 def test_a_ball_that_is_too_wide_for_its_ring_is_cautioned(width, cautioned):
     told = [caution.what for caution in plan_of(Recipe.parse(PUSHED.format(width=width))).cautions]
     assert ("nose (8 cm wide) may not come through left and right" in told) == cautioned
+
+
+def egg(size):
+    return plan_of(Recipe.parse(EGG.format(size=size)))
+
+
+@pytest.mark.parametrize("size", ["R5, inflated: 8", "160, length: 3, tail: 1"])
+def test_one_that_is_put_into_another_lies_within_its_flat_wall_and_leaves_it_less_gas(size):
+    made, empty = egg(size), balls().strips["one"].bubbles[0].volume
+    strips = made.strips
+    host = hosts_of(strips)["bird"]
+    first, last = flat_room(strips["egg"], strips["bird"])
+    assert first + nozzle_length(strips["bird"]) <= host.along + 1e-9
+    assert host.along + flat_length(strips["bird"]) <= last + 1e-9
+    assert strips["egg"].bubbles[0].volume == pytest.approx(empty - blown_volume(strips["bird"]))
+
+
+@pytest.mark.parametrize(
+    ("size", "told"),
+    [
+        (
+            "R11, inflated: 9",
+            "is 5.6 cm wide while it is flat, and egg 5.6 cm, expected one of at most 4.2 cm",
+        ),
+        (
+            "260, length: 20, tail: 3",
+            "long with its nozzle and its flat tip, expected at most 32.6 cm in shell",
+        ),
+    ],
+)
+def test_what_does_not_fit_into_it_is_refused(size, told):
+    with pytest.raises(RecipeError, match=re.escape(told)):
+        egg(size)
+
+
+TUCKED = PUSHED.replace(
+    "push: {{bubble: nose, through: [left, right]}}", "tuck: {{bubble: nose, between: [left, right]}}"
+)
+
+
+@pytest.mark.parametrize(("width", "cautioned"), [(8, False), (9, True)])
+def test_a_ball_that_is_too_wide_for_what_it_is_tucked_into_is_cautioned(width, cautioned):
+    told = [caution.what for caution in plan_of(Recipe.parse(TUCKED.format(width=width))).cautions]
+    assert ("nose (9 cm wide) may find no place in left and right" in told) == cautioned
+
+
+EARS = """
+format: 1
+name: mouse
+units: cm
+balloons:
+  main: {size: 260, tail: 12}
+  one: {size: R5, inflated: 8}
+  other: {size: R5, inflated: 8}
+steps:
+  - bubbles: {nose: 5, left_cheek: 7, right_cheek: 7}
+    balloon: main
+  - lock: [left_cheek, right_cheek]
+  - {rest: left_ear, balloon: one}
+  - {rest: right_ear, balloon: other}
+  - tie: {end: left_ear.start, to: nose.end}
+  - tie: {end: right_ear.start, to: nose.end}
+  - aim: {left_ear: [up, left], right_ear: [up, right]}
+"""
+
+
+def test_two_of_them_are_twins_and_are_set_straight():
+    made = plan_of(Recipe.parse(EARS))
+    assert ("left_ear", "right_ear") in {(a.name, b.name) for a, b in twins_of(made.recipe, made.strips)}

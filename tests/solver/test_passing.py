@@ -141,7 +141,7 @@ def test_the_twist_behind_a_rolled_bubble_does_not_come_undone(rolled):
 @pytest.mark.long
 def test_a_nose_that_is_longer_than_its_ring_is_deep_gets_stuck_as_the_plan_warns():
     made = IntoRing(LOOP.format(nose=14, hair=15) + HELD)
-    assert made.stuck == ["nose did not come into its ring: make the bubble shorter or the ring larger"]
+    assert made.stuck == ["nose did not come into its ring: make the bubble smaller or the ring larger"]
     assert made.slipped == []
     assert made.result["slipped"] == ["nose"]
     (caution,) = made.plan.cautions
