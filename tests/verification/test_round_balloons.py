@@ -103,7 +103,7 @@ def test_its_wall_pulls_at_its_widest_ring_as_its_gas_pushes(verify, blown):
         verify("V41d", "pull of the wall at its widest ring, N", pull, push, 0.03)
 
 
-def test_it_is_tied_to_a_figure_and_no_wall_goes_through_another(verify):
+def test_it_is_tied_to_a_figure_and_no_wall_goes_through_another():
     made = plan(Recipe.parse(TIED))
     simulation = simulate_many([made], device="cpu")
     (meshes,) = simulation.meshes
@@ -113,7 +113,7 @@ def test_it_is_tied_to_a_figure_and_no_wall_goes_through_another(verify):
         if frame.time_code % 8 == 0 or frame.time_code == made.frame_count:
             most = max(most, counter.count(frame.points).count)
     assert frames == made.frame_count
-    verify("V41e", "edges through faces of a head tied to a body, in all frames", most, 0, 0)
+    assert most == 0
     ends = [next(r for r in made.table.rings if r.name == name) for name in ("body.knot", "skull.knot")]
     places = [
         rings(mesh, frame.points[k])[mesh.ring_at(end.along)].mean(axis=0)
