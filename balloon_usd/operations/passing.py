@@ -15,6 +15,7 @@ from balloon_usd.operations.modifiers import OnBalloon, Pointed, Timed
 from balloon_usd.operations.moves import Move, PassThrough
 from balloon_usd.operations.operation import Operation
 from balloon_usd.operations.score import HAND_SPEED, SETTLE_SECONDS
+from balloon_usd.operations.wide_balls import wide_ball
 from balloon_usd.operations.workpiece import ContactKind
 
 if TYPE_CHECKING:
@@ -37,8 +38,6 @@ WIDE = 0.8
 """Width beyond which a ball that is wider than the sides of its ring does not come through it, in its depth:
 in simulations one of 7.9 cm gets stuck in two 260 of 9.7, and one of 9 goes through two 350 of 14.5.
 """
-WIDER = 1.2
-"""How much wider than the sides such a ball is at least."""
 MOST_SIDES = 64
 """Largest number of bubbles of a ring."""
 LEAST_SECONDS = 2.4
@@ -199,14 +198,9 @@ class Passing(OnBalloon, Pointed, Timed, Operation):
                 f"the ring is {cm(depth)} deep, and it gets stuck at its far end",
                 f"make it {cm(most)} long, or less",
             )
-        bubble, tube = layout.bubble(self.bubble), max(layout.bubble(name).width for name in self.ring)
-        if bubble.width > max(WIDE * depth, WIDER * tube):
-            yield Caution(
-                index,
-                f"{self.bubble} ({cm(bubble.width)} wide) may not come through {all_of(self.ring)}",
-                f"the ring is {cm(depth)} deep, and opens no wider",
-                f"blow it up to {cm(WIDE * depth)}, or less",
-            )
+        ball = wide_ball(index, layout, self.bubble, self.ring, WIDE * depth, "not come through")
+        if ball is not None:
+            yield ball
 
     def brought(self, layout: Layout) -> tuple[str, ...]:
         """Return what goes through: the bubble, and what hangs on it."""

@@ -15,9 +15,10 @@ from balloon_usd.operations.caution import Caution
 from balloon_usd.operations.closing import LENIENCE
 from balloon_usd.operations.modifiers import Entries, Pointed, Timed
 from balloon_usd.operations.operation import Operation
-from balloon_usd.operations.passing import WIDER, names_in, without_hole
+from balloon_usd.operations.passing import names_in, without_hole
 from balloon_usd.operations.reach import SECONDS_PER_METRE, limb_reach
 from balloon_usd.operations.score import HAND_SPEED, SETTLE_SECONDS
+from balloon_usd.operations.wide_balls import wide_ball
 from balloon_usd.operations.workpiece import ContactKind
 
 if TYPE_CHECKING:
@@ -150,8 +151,10 @@ steps:
     def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:
         """Warn of a loop whose hole its own wall closes, and of one whose hole is too narrow or too wide."""
         bubble, *between = (layout.bubble(name) for name in self.names)
-        if (caution := self._too_wide(index, bubble, between)) is not None:
-            yield caution
+        room = (WIDE_IN_LOOP if len(between) == 1 else WIDE) * min(each.length for each in between)
+        ball = wide_ball(index, layout, self.tuck.bubble, self.tuck.between, room, "find no place in")
+        if ball is not None:
+            yield ball
             return
         if len(between) > 1:
             return
@@ -174,19 +177,6 @@ steps:
                 f"its hole is about as wide as {name}, or wider",
             )
             yield Caution(index, what, why, f"make {into} {at_most(most_long)} long, or less")
-
-    def _too_wide(self, index: int, bubble: PlacedBubble, between: Sequence[PlacedBubble]) -> Caution | None:
-        """Warn of a ball that is wider than what gives way between others."""
-        most = (WIDE_IN_LOOP if len(between) == 1 else WIDE) * min(each.length for each in between)
-        if bubble.width <= max(most, WIDER * max(each.width for each in between)):
-            return None
-        named = f"{self.tuck.bubble} ({cm(bubble.width)} wide)"
-        return Caution(
-            index,
-            f"{named} may find no place in {all_of(self.tuck.between)}",
-            "it is wider than what gives way between them",
-            f"blow it up to {cm(most)}, or less",
-        )
 
     def perform(self, score: Score, index: int) -> None:
         """Spread the others, bring it over them and in, and let them close on it."""

@@ -31,7 +31,8 @@ def bursts(figure):
 def test_no_figure_that_is_made_daily_may_burst(path):
     figure = plan(Recipe.load(path))
     assert bursts(figure) == []
-    assert max(loads_of(figure)) < 1.0
+    # Only tubes have a load, and one of the figures has none.
+    assert max(loads_of(figure), default=0.0) < 1.0
 
 
 def chain(tail, kind="bubbles", count=24, length=3):
