@@ -37,7 +37,7 @@ def operation_page(operation: type[Operation]) -> str:
 {table(("key", "values", "default", "meaning"), _key_rows(operation))}
 
 In Python, with lengths in metres: `{_call(operation.word)}`
-
+{_rounds(operation)}
 ## Example
 
 ```yaml
@@ -51,6 +51,20 @@ In Python, with lengths in metres: `{_call(operation.word)}`
 
 {sources}
 """
+
+
+def _rounds(operation: type[Operation]) -> str:
+    """Return whether an operation works on round balloons, in a paragraph; nothing of one that works on whole
+    balloons of any kind.
+    """
+    if operation.whole:
+        return ""
+    told = (
+        "What it works on may be a [round balloon](../recipe.md#round-balloons), too."
+        if operation.on_rounds
+        else ("It takes no [round balloon](../recipe.md#round-balloons).")
+    )
+    return f"\n{told}\n"
 
 
 def says(operation: type[Operation]) -> str:

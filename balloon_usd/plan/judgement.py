@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING
 from balloon_usd.balloon.bubble_shape import smallest_ball, softest_ball
 from balloon_usd.balloon.sizes import size_named
 from balloon_usd.balloon.wound_neck import PACKING_TURNS, holding_friction
-from balloon_usd.language.lengths import at_least, at_most, cm
+from balloon_usd.language.lengths import at_least, cm
 from balloon_usd.language.turns import turns_text
 from balloon_usd.operations.caution import Caution
 from balloon_usd.operations.modifiers import HOLDING_TURNS, Turned
 from balloon_usd.operations.workpiece import Joined
 from balloon_usd.plan.bent_chains import bends_onto_others
+from balloon_usd.plan.filling import emptier
 from balloon_usd.plan.holding import too_slippery
 from balloon_usd.plan.long_sides import long_sides
 from balloon_usd.plan.open_tube import MILLIMETRE, roomy_share, shortened, softened, tail_range
@@ -176,17 +177,13 @@ def _tail(recipe: Recipe, strip: Strip, budget: Budget) -> Iterator[Caution]:
 def _more_tail(recipe: Recipe, strip: Strip, budget: Budget) -> str:
     """What to do about a balloon whose twists use up its tail, in the words in which it is filled."""
     bubbles = [bubble.twisted for bubble in strip.bubbles[:-1]]
-    full, needed = budget.longest_inflation, budget.tail_needed
-    remedy = ""
+    remedy, needed = "", budget.tail_needed
     if needed + MILLIMETRE > budget.most_tail:
         share = roomy_share(strip.size, strip.rubber, bubbles)
         shorter, bubbles = shortened(bubbles, share)
         needed = tail_range(strip.size, strip.rubber, bubbles).least
-        full = budget.full_length * (1.0 - needed / budget.flat_length)
         remedy = f"make the bubbles shorter by {at_least(shorter)} in all, and "
-    if recipe.balloons[strip.balloon].inflated is not None:
-        return f"{remedy}write inflated: at most {at_most(full)}"
-    return f"{remedy}leave a tail of at least {at_least(needed)}"
+    return remedy + emptier(recipe.balloons[strip.balloon], strip.size, strip.rubber, needed)
 
 
 def _burst(recipe: Recipe, strip: Strip, budget: Budget, graph: SculptureGraph) -> Iterator[Caution]:

@@ -17,6 +17,7 @@ from balloon_usd.operations.parting import torn_bubbles
 from balloon_usd.operations.thread import Thread
 from balloon_usd.operations.tie import LEAST_STRING, Tie
 from balloon_usd.plan.capsule import capsule_bubbles
+from balloon_usd.plan.filling import fuller
 from balloon_usd.plan.laying_rounds import round_strip
 from balloon_usd.plan.laying_shapes import overlap_problems, shaped_strip
 from balloon_usd.plan.nesting import with_guests
@@ -36,7 +37,7 @@ from balloon_usd.plan.open_tube import (
 from balloon_usd.plan.strip import ALL, Made, PlannedBubble, Strip
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Mapping, Sequence
 
     from balloon_usd.balloon.bubble_shape import BubbleShape
     from balloon_usd.balloon.rubber import Rubber
@@ -71,7 +72,7 @@ def lay_strips(recipe: Recipe, tubes: Mapping[str, BalloonSize]) -> dict[str, St
             if balloon.mesh:
                 strips[name] = shaped_strip(recipe, name, rubber)
             else:
-                strips[name] = _laying(recipe, name, tubes[name])(recipe, name, tubes[name], rubber)
+                strips[name] = _laid(recipe, name, tubes[name], rubber)
         except RecipeError as error:
             problems.extend(error.problems)
     strips = {name: replace(strip, inside=recipe.piece.inside.get(name)) for name, strip in strips.items()}
@@ -83,11 +84,11 @@ def lay_strips(recipe: Recipe, tubes: Mapping[str, BalloonSize]) -> dict[str, St
     return strips
 
 
-def _laying(recipe: Recipe, name: str, size: BalloonSize) -> Callable[..., Strip]:
-    """Return how a balloon of a size is laid."""
+def _laid(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> Strip:
     if size.neck is not None:
-        return round_strip
-    return _tube if recipe.balloons[name].capsule is None else _capsule
+        return round_strip(recipe, name, size, rubber)
+    lay = _tube if recipe.balloons[name].capsule is None else _capsule
+    return lay(recipe, name, size, rubber)
 
 
 def _rubber(recipe: Recipe) -> Rubber:
@@ -154,12 +155,16 @@ def _tail(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> float
             text = _beyond_full(balloon.inflated, size, full)
             raise RecipeError([recipe.problem(("balloons", name, "inflated"), text)])
         return max(size.length * (1.0 - balloon.inflated / full), 0.0)
-    tail, most = balloon.tail or 0.0, size.length - end_rest_length(size, softened(rubber))
+    key, tail = "tail", balloon.tail or 0.0
+    if balloon.filled is not None:
+        key, tail = "filled", size.length * (1.0 - 0.01 * balloon.filled)
+    most = size.length - end_rest_length(size, softened(rubber))
     if tail >= most:
         fitting = fitting_tail(size, rubber, _wanted(recipe, name, size, rubber))
         most = most if fitting is None else min(fitting, most)
-        text = f"a tail of {cm(tail)} leaves nothing of a {size.name}, expected at most {at_most(most)}"
-        raise RecipeError([recipe.problem(("balloons", name, "tail"), text)])
+        expected = f"at most {at_most(most)}" if key == "tail" else fuller(balloon, size, rubber, most)
+        text = f"a tail of {cm(tail)} leaves nothing of a {size.name}, expected {expected}"
+        raise RecipeError([recipe.problem(("balloons", name, key), text)])
     return tail
 
 
@@ -260,33 +265,25 @@ def _misfit(recipe: Recipe, made: Made, tube: OpenTube) -> str:
     text = f"{quoted(made.bubble)} of {cm(made.length)} does not fit: {left}"
     wanted = _wanted(recipe, name, tube.size, tube.rubber)
     fitting = fitting_tail(tube.size, tube.rubber, wanted)
-    inflated = recipe.balloons[name].inflated
-    if fitting is not None and inflated is None:
-        return f"{text}, expected a tail of at most {at_most(fitting)}"
-    full = tube.size.length * maxwell_state(tube.rubber).bulged.b
+    balloon = recipe.balloons[name]
     if fitting is not None:
-        least = full * (1.0 - fitting / tube.size.length)
-        return f"{text}, expected inflated: at least {at_least(least)}"
+        return f"{text}, expected {fuller(balloon, tube.size, tube.rubber, fitting)}"
     tail = _tail(recipe, name, tube.size, tube.rubber)
-    return f"{text}, expected {_shorter(tube.size, tube.rubber, tail, wanted, by_tail=inflated is None)}"
+    return f"{text}, expected {_shorter(balloon, tube.size, tube.rubber, tail, wanted)}"
 
 
 def _shorter(
-    size: BalloonSize, rubber: Rubber, tail: float, wanted: Sequence[Twisted], *, by_tail: bool
+    balloon: Balloon, size: BalloonSize, rubber: Rubber, tail: float, wanted: Sequence[Twisted]
 ) -> str:
-    """What to do about bubbles that fit with no tail; `by_tail`: whether the recipe tells the tail."""
+    """What to do about bubbles that fit with no tail."""
     share, filling = fitting_share(size, rubber, tail, wanted), ""
     if share < LEAST_SHARE:
         share = roomy_share(size, rubber, wanted)
         fitting = fitting_tail(size, rubber, shortened(wanted, share)[1])
         if share < LEAST_SHARE or fitting is None:
             return "fewer bubbles"
-        least = size.length * maxwell_state(rubber).bulged.b * (1.0 - fitting / size.length)
-        filled = (
-            f"a tail of at most {at_most(fitting)}" if by_tail else f"inflated: at least {at_least(least)}"
-        )
-        filling = f", and {filled}"
-    elif by_tail:
+        filling = f", and {fuller(balloon, size, rubber, fitting)}"
+    elif balloon.inflated is None:
         longer = fitting_length(size, rubber, tail, wanted)
         filling = f", or a balloon with length: at least {at_least(longer)}"
     return f"bubbles shorter by {at_least(shortened(wanted, share)[0])} in all{filling}"

@@ -34,10 +34,9 @@ SHAPES = (
     (4.82, 1.164, 1.151, 0.83),
     (5.04, 1.185, 1.171, 0.815),
 )
-"""Shapes of one by its width (in that of the flat one): volume and pressure in those of a ball of that width,
-and the height in its width: volume, height, pressure. Measured in simulations of both sizes, which differ by
-2 % from these. Rubber of three times the width gives way least where it is widest, so that one is rounder
-half full than full, when it is a pear.
+"""Shapes of one by its width, in that of the flat one: its volume, in that of a ball as wide, its height, in
+its width, and its pressure, in that of such a ball. Measured in simulations of both sizes in `preview`, which
+differ from these by 2 %. It is a pear at first, nearly a ball when half full, and a pear again when full.
 """
 FLAT_VOLUME = 1.9
 """Volume of a flat one that is not pressed together, in that of a ball of its width."""
@@ -51,11 +50,14 @@ def round_strip(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) ->
     """
     flat = 2.0 * size.radius
     full = FULL * flat
-    width = full if (given := recipe.balloons[name].inflated) is None else given
+    balloon = recipe.balloons[name]
+    key, width = "inflated", full if balloon.inflated is None else balloon.inflated
+    if balloon.filled is not None:
+        key, width = "filled", 0.01 * balloon.filled * full
     if not LEAST * flat <= width <= BEYOND_FULL * full:
         text = f"a round balloon {cm(flat)} wide while it is flat is not blown up to {cm(width)}"
         text += f", expected a width of {at_least(LEAST * flat)} to {at_most(full)}"
-        raise RecipeError([recipe.problem(("balloons", name, "inflated"), text)])
+        raise RecipeError([recipe.problem(("balloons", name, key), text)])
     volume, height, pressure = _shape_of(width / flat)
     bubble = recipe.piece.row(name)[-1]
     planned = PlannedBubble(

@@ -6,13 +6,21 @@ from pydantic import BeforeValidator, ConfigDict, Field, WithJsonSchema
 
 from balloon_usd.language.colors import ColorEntry, color
 from balloon_usd.language.names import Text
-from balloon_usd.language.quantities import LONGEST, Between, FlatTail, Length, LengthWithin, Units
+from balloon_usd.language.quantities import (
+    LONGEST,
+    Between,
+    FlatTail,
+    Length,
+    LengthWithin,
+    PercentWithin,
+    Units,
+)
 from balloon_usd.operations.modifiers import Entries
 
 FinishName = Literal["latex", "clear", "chrome"]
 BalloonSizeName = Literal["160", "260", "321", "350", "360", "646", "R5", "R11"]
 
-FILLINGS = ("tail", "inflated", "capsule")
+FILLINGS = ("tail", "inflated", "filled", "capsule")
 """Keys that say how far a balloon is blown up: exactly one of them."""
 FLAT_ONLY = ("length", "thickness")
 """Keys of a flat tube that a capsule does not have."""
@@ -25,7 +33,7 @@ USUAL_SWELL = 1.2
 
 ROUNDS: tuple[BalloonSizeName, ...] = ("R5", "R11")
 """Sizes of round balloons, which are one bubble each."""
-ROUND_KEYS = ("size", "inflated", "color", "finish", "radius", "thickness")
+ROUND_KEYS = ("size", "inflated", "filled", "color", "finish", "radius", "thickness")
 """Keys that a round balloon has."""
 
 _SIZE_CODES = get_args(BalloonSizeName)
@@ -42,7 +50,7 @@ def _size_text(value: object) -> object:
 class Balloon(Entries):
     """One balloon of the recipe: a tube of some size, or any closed shape from a mesh file.
 
-    Of a tube, `tail`, `inflated` or `capsule` says how far it is blown up.
+    Of a tube, `tail`, `inflated`, `filled` or `capsule` says how far it is blown up.
     """
 
     model_config = ConfigDict(
@@ -66,6 +74,8 @@ class Balloon(Entries):
     """Flat rubber left empty at the end; m in Python."""
     inflated: Length | None = None
     """Length of the inflated part, instead of tail; of a round balloon its width; m in Python."""
+    filled: Annotated[float, PercentWithin(1.0, 100.0)] | None = None
+    """Share of its full length, or of a round balloon of its full width, instead of tail; percent."""
     capsule: Length | None = None
     """Length of a closed capsule before it is twisted, instead of one with knot and tail; m in Python."""
     radius: Annotated[float, LengthWithin(0.001, 0.1, low_included=True)] | None = None

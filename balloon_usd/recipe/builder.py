@@ -76,6 +76,7 @@ class RecipeBuilder:
         finish: FinishName | None = None,
         tail: LengthLike | None = None,
         inflated: LengthLike | None = None,
+        filled: float | str | None = None,
         capsule: LengthLike | None = None,
         radius: LengthLike | None = None,
         length: LengthLike | None = None,
@@ -84,8 +85,8 @@ class RecipeBuilder:
         swell: float | None = None,
         at: Sequence[LengthLike] | None = None,
     ) -> Self:
-        """Take a balloon of a size; give `tail` (flat), `inflated` or `capsule`, m. Or take one of a `mesh`
-        file, in this `unit`, blown up to `swell`, its origin `at` a place (3,), m.
+        """Take a balloon of a size; give `tail` (flat), `inflated` or `capsule`, m, or `filled`, percent. Or
+        take one of a `mesh` file, in this `unit`, blown up to `swell`, its origin `at` a place (3,), m.
 
         Raises:
             ValueError: there is a balloon of this name.
@@ -104,7 +105,9 @@ class RecipeBuilder:
         written = {key: self._length(value) for key, value in lengths.items() if value is not None}
         place = None if at is None else [self._length(value) for value in at]
         shape = {"mesh": mesh, "unit": unit, "swell": swell, "at": place}
-        self._balloons[name] = _given({"size": code, **shape, "color": color, "finish": finish}) | written
+        self._balloons[name] = (
+            _given({"size": code, **shape, "color": color, "finish": finish, "filled": filled}) | written
+        )
         return self
 
     def add(self, step: str | Operation, /, *what: Any, **keys: Any) -> Self:

@@ -73,7 +73,7 @@ def _check_filling(balloon: str, entry: object, bench: Workbench) -> None:
         return
     given = [key for key in FILLINGS if key in entry]
     if not given:
-        kinds = "tail or inflated, or capsule in model kosaka"
+        kinds = "tail, inflated or filled, or capsule in model kosaka"
         bench.complain(path, f"does not say how far it is blown up, expected {kinds}")
     for extra in given[1:]:
         what = f"stands beside {given[0]}, expected exactly {one_of(FILLINGS)}"
@@ -87,6 +87,8 @@ def _check_filling(balloon: str, entry: object, bench: Workbench) -> None:
 
 def _check_round(path: Path, entry: dict[str, object], bench: Workbench) -> None:
     """Complain of what a round balloon does not have."""
+    for extra in [key for key in FILLINGS if key in entry and key in ROUND_KEYS][1:]:
+        bench.complain((*path, extra), "stands beside inflated, expected one of inflated, filled")
     for key in entry:
         # Of the others is told what they belong to.
         if key in Balloon.model_fields and key not in (*ROUND_KEYS, *MESH_ONLY):

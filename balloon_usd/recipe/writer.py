@@ -83,7 +83,9 @@ def _balloon_entries(balloon: Balloon, units: str | None) -> Entries:
         entries["color"] = balloon.model_dump(include={"color"})["color"]
     if balloon.finish != "latex":
         entries["finish"] = balloon.finish
-    for key in (*FILLINGS, "radius", "length", "thickness"):
+    if balloon.filled is not None:
+        entries["filled"] = balloon.filled
+    for key in (*(key for key in FILLINGS if key != "filled"), "radius", "length", "thickness"):
         length = getattr(balloon, key)
         if length is not None:
             entries[key] = length_entry(length, units)

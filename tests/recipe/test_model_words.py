@@ -191,7 +191,9 @@ def test_a_capsule_is_refused_with_latex() -> None:
 def test_a_capsule_stands_alone() -> None:
     text = CAPSULE.replace("capsule: 20", "inflated: 20, capsule: 20") + "  - wait: 1\n" + KOSAKA
     (found,) = messages(text)
-    assert found.endswith("capsule: stands beside inflated, expected exactly one of tail, inflated, capsule")
+    assert found.endswith(
+        "capsule: stands beside inflated, expected exactly one of tail, inflated, filled, capsule"
+    )
 
 
 @pytest.mark.parametrize("entry", ["length: 30", "thickness: 0.2 mm"])

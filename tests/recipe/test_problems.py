@@ -209,7 +209,7 @@ BALLOON = [
         "size: 260, inflated: 5",
         "inflated",
         31,
-        "stands beside tail, expected exactly one of tail, inflated, capsule",
+        "stands beside tail, expected exactly one of tail, inflated, filled, capsule",
     ),
     ("size: 260, colour: red", "colour", 29, 'unknown key "colour", did you mean "color"?'),
 ]
@@ -232,7 +232,7 @@ def test_a_wrong_balloon_entry_is_found_at_its_place(
         (
             "{size: 260}",
             3,
-            "balloons.m: does not say how far it is blown up, expected tail or inflated, or capsule in model kosaka",
+            "balloons.m: does not say how far it is blown up, expected tail, inflated or filled, or capsule in model kosaka",
         ),
         ("{tail: 1}", 3, "balloons.m.size: is missing, expected the size of the balloon, such as 260"),
         (
