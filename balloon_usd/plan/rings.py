@@ -24,8 +24,10 @@ LEAST_APART = 0.5
 """Least unstressed distance of two places at which hands hold a bubble, in R0: rings stand two thirds of that
 apart beside joints in the coarsest mesh.
 """
-ROUND_GUIDES = (0.5,)
-"""Where hands hold a round balloon, as a share of its wall: near its widest ring."""
+ROUND_GUIDES = (0.5, 0.75)
+"""Where hands hold a round balloon, as shares of its wall: near its widest ring, and at its last one before
+the tip. Swung by the first alone, three balls of nine did not come into their rings.
+"""
 BEYOND_FRONT = 0.3
 """Flat rubber that hands hold as they hold a tube that they wind, in that of the tube."""
 TIP_GUIDE = 3.0

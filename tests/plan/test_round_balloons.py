@@ -117,10 +117,10 @@ def test_hands_loosen_their_grip_of_what_is_only_tied():
     assert any(isinstance(move, Loosen) for move in balls().choreography.moves)
 
 
-@pytest.mark.parametrize(("width", "cautioned"), [(7, False), (8, True)])
+@pytest.mark.parametrize(("width", "cautioned"), [(8, False), (9, True)])
 def test_a_ball_that_is_too_wide_for_its_ring_is_cautioned(width, cautioned):
     told = [caution.what for caution in plan_of(Recipe.parse(PUSHED.format(width=width))).cautions]
-    assert ("nose (8 cm wide) may not come through left and right" in told) == cautioned
+    assert ("nose (9 cm wide) may not come through left and right" in told) == cautioned
 
 
 def egg(size):
