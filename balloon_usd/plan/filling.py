@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 def fuller(balloon: Balloon, size: BalloonSize, rubber: Rubber, tail: float) -> str:
     """Say that a flat tail may be so long (m) at most: `a tail of at most 6 cm`."""
     if balloon.filled is not None:
-        return f"filled: at least {math.ceil(_percent(size, tail))} %"
+        return f"filled: at least {math.ceil(100.0 * _share(size, tail))} %"
     if balloon.inflated is not None:
         return f"inflated: at least {at_least(_inflated(size, rubber, tail))}"
     return f"a tail of at most {at_most(tail)}"
@@ -26,15 +26,15 @@ def fuller(balloon: Balloon, size: BalloonSize, rubber: Rubber, tail: float) -> 
 def emptier(balloon: Balloon, size: BalloonSize, rubber: Rubber, tail: float) -> str:
     """Say that a flat tail has to be so long (m) at least: `leave a tail of at least 9 cm`."""
     if balloon.filled is not None:
-        return f"write filled: at most {math.floor(_percent(size, tail))} %"
+        return f"write filled: at most {math.floor(100.0 * _share(size, tail))} %"
     if balloon.inflated is not None:
         return f"write inflated: at most {at_most(_inflated(size, rubber, tail))}"
     return f"leave a tail of at least {at_least(tail)}"
 
 
-def _percent(size: BalloonSize, tail: float) -> float:
-    return 100.0 * (1.0 - min(tail, size.length) / size.length)
+def _share(size: BalloonSize, tail: float) -> float:
+    return 1.0 - min(tail, size.length) / size.length
 
 
 def _inflated(size: BalloonSize, rubber: Rubber, tail: float) -> float:
-    return size.length * maxwell_state(rubber).bulged.b * (1.0 - min(tail, size.length) / size.length)
+    return size.length * maxwell_state(rubber).bulged.b * _share(size, tail)

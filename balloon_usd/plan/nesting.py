@@ -90,12 +90,12 @@ def nozzle_length(strip: Strip) -> float:
 
 def flat_length(strip: Strip) -> float:
     """Return how long a tube or a round balloon is while it is flat, from its knot to its tip, m."""
-    return strip.size.length if strip.size.neck is None else float(_outline(strip).x[-1])
+    return float(_outline(strip).x[-1]) if strip.is_round else strip.size.length
 
 
 def flat_room(owner: Strip, guest: Strip) -> tuple[float, float]:
     """Return from where to where a balloon is wide enough for another, both flat, m from its knot."""
-    if owner.size.neck is None:
+    if not owner.is_round:
         return owner.size.radius, owner.size.length - owner.size.radius
     outline = _outline(owner)
     wide = outline.x[outline.radius >= guest.size.radius / NARROWER]

@@ -71,13 +71,10 @@ def _check_filling(balloon: str, entry: object, bench: Workbench) -> None:
     if str(entry.get("size")).upper() in ROUNDS:
         _check_round(path, entry, bench)
         return
-    given = [key for key in FILLINGS if key in entry]
+    given = _told_once(path, entry, FILLINGS, bench)
     if not given:
         kinds = "tail, inflated or filled, or capsule in model kosaka"
         bench.complain(path, f"does not say how far it is blown up, expected {kinds}")
-    for extra in given[1:]:
-        what = f"stands beside {given[0]}, expected exactly {one_of(FILLINGS)}"
-        bench.complain((*path, extra), what)
     if given == ["capsule"]:
         for key in entry:
             if key in FLAT_ONLY:
@@ -85,10 +82,17 @@ def _check_filling(balloon: str, entry: object, bench: Workbench) -> None:
                 bench.complain((*path, key), what)
 
 
+def _told_once(path: Path, entry: dict[str, object], ways: Sequence[str], bench: Workbench) -> list[str]:
+    """Return the keys that say how far a balloon is blown up, and complain of all but the first."""
+    given = [key for key in ways if key in entry]
+    for extra in given[1:]:
+        bench.complain((*path, extra), f"stands beside {given[0]}, expected exactly {one_of(ways)}")
+    return given
+
+
 def _check_round(path: Path, entry: dict[str, object], bench: Workbench) -> None:
     """Complain of what a round balloon does not have."""
-    for extra in [key for key in FILLINGS if key in entry and key in ROUND_KEYS][1:]:
-        bench.complain((*path, extra), "stands beside inflated, expected one of inflated, filled")
+    _told_once(path, entry, [key for key in FILLINGS if key in ROUND_KEYS], bench)
     for key in entry:
         # Of the others is told what they belong to.
         if key in Balloon.model_fields and key not in (*ROUND_KEYS, *MESH_ONLY):

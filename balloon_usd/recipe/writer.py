@@ -11,7 +11,6 @@ from balloon_usd.language.quantities import duration_entry, length_entry, short_
 from balloon_usd.language.scalars import plain_scalar
 from balloon_usd.operations.modifiers import MODIFIERS
 
-from .balloons import FILLINGS
 from .kosaka import kosaka_entries
 
 if TYPE_CHECKING:
@@ -76,16 +75,14 @@ def recipe_text(entries: Mapping[str, object]) -> str:
 
 def _balloon_entries(balloon: Balloon, units: str | None) -> Entries:
     entries: Entries = {} if balloon.size is None else {"size": _size_entry(balloon.size)}
-    entries |= balloon.model_dump(include={"mesh", "unit", "swell"}, exclude_none=True)
+    entries |= balloon.model_dump(include={"mesh", "unit", "swell", "filled"}, exclude_none=True)
     if balloon.at is not None:
         entries["at"] = [length_entry(place, units) for place in balloon.at]
     if "color" in balloon.model_fields_set:
         entries["color"] = balloon.model_dump(include={"color"})["color"]
     if balloon.finish != "latex":
         entries["finish"] = balloon.finish
-    if balloon.filled is not None:
-        entries["filled"] = balloon.filled
-    for key in (*(key for key in FILLINGS if key != "filled"), "radius", "length", "thickness"):
+    for key in ("tail", "inflated", "capsule", "radius", "length", "thickness"):
         length = getattr(balloon, key)
         if length is not None:
             entries[key] = length_entry(length, units)
