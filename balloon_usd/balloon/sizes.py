@@ -1,4 +1,4 @@
-"""Balloon sizes: the flat, unstressed wall of each code, of tubes and of round balloons.
+"""Balloon sizes: the flat, unstressed wall of each code, of tubes, round balloons and hearts.
 
 No published measurement of these tubes was found. Radii and lengths are the nominal inflated sizes (the
 first digit is the diameter in inches, the rest the length in inches) divided by the stretches at which latex
@@ -7,14 +7,16 @@ is chosen to give a plausible weight. Uncertainty: radius 15 %, length 20 %, thi
 
 Round balloons are as wide as their names say, in inches, when their widest ring is stretched five times.
 Their walls are as thick as their weights need: 2.7 g were measured of one of 10.5 inches, and 0.5 to 0.6 g
-are told of one of 5. Their necks are judged. Uncertainty: radius 10 %, neck and thickness 30 %.
+are told of one of 5. Their necks are judged. Uncertainty: radius 10 %, neck and thickness 30 %. Hearts are as
+wide as their names say when they are four times as wide as flat; their walls are judged, 30 %.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 
+from balloon_usd.balloon.heart_surface import heart_surface
 from balloon_usd.balloon.round_outline import round_area, round_length
 
 NECK_REACH = 1.0
@@ -39,11 +41,13 @@ class BalloonSize:
     """Unstressed wall thickness h0, m."""
     neck: float | None = None
     """Unstressed radius at the knot of a round balloon, m; None of a tube, which is as wide everywhere."""
+    heart: bool = False
+    """Whether a round balloon has two lobes: its radius is half of its width then."""
 
     def __post_init__(self) -> None:
         for field in fields(self)[1:]:
             value = getattr(self, field.name)
-            if value is not None and not (math.isfinite(value) and value > 0.0):
+            if value is not None and value is not False and not (math.isfinite(value) and value > 0.0):
                 raise ValueError(
                     f"balloon {self.name}: {field.name} must be positive and finite, got {value}"
                 )
@@ -52,6 +56,11 @@ class BalloonSize:
     def round(cls, name: str, radius: float, neck: float, thickness: float) -> BalloonSize:
         """Return a round balloon with a widest ring and a neck of some radii, m."""
         return cls(name, radius, round_length(radius, neck), thickness, neck)
+
+    @classmethod
+    def with_lobes(cls, name: str, radius: float, neck: float, thickness: float) -> BalloonSize:
+        """Return a heart of half a width and a neck of some radius, m."""
+        return cls(name, radius, heart_surface(radius, neck).length, thickness, neck, heart=True)
 
     @property
     def neck_radius(self) -> float:
@@ -67,7 +76,8 @@ class BalloonSize:
     def rubber_volume(self) -> float:
         """Volume of the rubber itself, m3."""
         if self.neck is not None:
-            return self.thickness * round_area(self.radius, self.neck)
+            heart, egg = heart_surface(self.radius, self.neck), round_area(self.radius, self.neck)
+            return self.thickness * (heart.area if self.heart else egg)
         return 2.0 * math.pi * self.radius * self.thickness * self.length
 
     def with_overrides(
@@ -85,7 +95,13 @@ class BalloonSize:
         if self.neck is not None:
             scale = 1.0 if radius is None else radius / self.radius
             wall = self.thickness if thickness is None else thickness
-            return BalloonSize(self.name, scale * self.radius, scale * self.length, wall, scale * self.neck)
+            return replace(
+                self,
+                radius=scale * self.radius,
+                length=scale * self.length,
+                thickness=wall,
+                neck=scale * self.neck,
+            )
         return BalloonSize(
             self.name,
             radius=self.radius if radius is None else radius,
@@ -103,6 +119,8 @@ SIZES: tuple[BalloonSize, ...] = (
     BalloonSize("646", radius=13.5e-3, length=0.282, thickness=0.25e-3),
     BalloonSize.round("R5", radius=13.0e-3, neck=6.0e-3, thickness=0.16e-3),
     BalloonSize.round("R11", radius=28.0e-3, neck=9.0e-3, thickness=0.17e-3),
+    BalloonSize.with_lobes("H6", radius=18.5e-3, neck=6.8e-3, thickness=0.13e-3),
+    BalloonSize.with_lobes("H11", radius=34.0e-3, neck=12.5e-3, thickness=0.14e-3),
 )
 """Every size that a recipe can name."""
 

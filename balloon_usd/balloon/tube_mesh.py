@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from balloon_usd.balloon.heart_surface import heart_surface
 from balloon_usd.balloon.ringed_faces import (
     Ints,
     cap_points,
@@ -185,19 +186,11 @@ def tube_mesh(
     )
     along = np.concatenate([behind, ring_stations(detail, size, joints, guides, torn)])
     rings, n = len(along), around_of(size, detail)
-    x, radius = _outline(size, along)
-    radius /= math.cos(math.pi / n)
-    flare = np.clip((-knot - along) / lip, 0.0, 1.0)
-    radius *= 1.0 + (LIP_FLARE - 1.0) * flare**2
-    tube = np.empty((rings, n, 3))
-    tube[:, :, 0] = x[:, None]
-    tube[:, :, 1:] = radius[:, None, None] * unit_circle(n)
-    ball = size.radius / math.cos(math.pi / n)
-    lip_cap, tip_cap = _domed_cap(n, radius[0], radius[0]), _domed_cap(n, radius[-1], ball)
+    tube = _wall(size, along, n)
+    lip_cap = _domed_cap(n, float(tube[0, 0, 1]), float(tube[0, 0, 1]))
     lip_cap[:, 0] = along[0] - lip_cap[:, 0] * LIP_DOME
-    tip_cap[:, 0] = tip_cap[:, 0] * size.radius / ball
-    vertex_along = np.concatenate([lip_cap[:, 0], np.repeat(along, n), along[-1] + tip_cap[:, 0]])
-    tip_cap[:, 0] += x[-1]
+    tip_cap, beyond = _tip(size, along[-1], tube[-1])
+    vertex_along = np.concatenate([lip_cap[:, 0], np.repeat(along, n), along[-1] + beyond])
     points = np.concatenate([lip_cap, tube.reshape(-1, 3), tip_cap]).astype(np.float32)
     mesh = BalloonMesh(
         points=points,
@@ -223,7 +216,52 @@ def _last_ring(size: BalloonSize) -> float:
     """Return where the last ring lies before the cap of the tip, m from the knot along the wall."""
     if size.neck is None:
         return size.length - size.radius
+    if size.heart:
+        return heart_surface(size.radius, size.neck).last
     return float(round_outline(size.radius, size.neck, LAST).along[-1])
+
+
+def _wall(size: BalloonSize, along: NDArray[np.float64], around: int) -> NDArray[np.float64]:
+    """Return the corners of rings drawn about the wall, (R, around, 3), m, by their places along it."""
+    x, radius = _outline(size, along)
+    knot, lip = KNOT_LENGTH * size.neck_radius, LIP_LENGTH * size.neck_radius
+    radius /= math.cos(math.pi / around)
+    radius *= 1.0 + (LIP_FLARE - 1.0) * np.clip((-knot - along) / lip, 0.0, 1.0) ** 2
+    wall = np.empty((len(along), around, 3))
+    wall[:, :, 0] = x[:, None]
+    wall[:, :, 1:] = radius[:, None, None] * unit_circle(around)
+    if size.heart:
+        turn = math.tau * np.arange(around) / around
+        before = int(np.searchsorted(along, 0.0))
+        heart = heart_surface(size.radius, size.neck_radius)
+        wall[before:] = _drawn_about(heart.points(along[before:, None], turn), around)
+    return wall
+
+
+def _tip(
+    size: BalloonSize, along: float, rim: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the inner points of the cap behind the last ring, (K, 3), m, and how far behind it along the
+    balloon they lie, (K,), m.
+
+    `along`, `rim`: distance from the knot (m) and corners, (around, 3), of that ring.
+    """
+    around = len(rim)
+    if size.heart:
+        heart, flat = heart_surface(size.radius, size.neck_radius), cap_points(around, 1.0)
+        beyond = (1.0 - np.hypot(*flat.T)) * (heart.length - along)
+        return _drawn_about(heart.points(along + beyond, np.arctan2(flat[:, 1], flat[:, 0])), around), beyond
+    ball = size.radius / math.cos(math.pi / around)
+    cap = _domed_cap(around, float(rim[0, 1]), ball)
+    beyond = cap[:, 0] * size.radius / ball
+    cap[:, 0] = beyond + rim[0, 0]
+    return cap, beyond
+
+
+def _drawn_about(points: NDArray[np.float64], around: int) -> NDArray[np.float64]:
+    """Return points of a wall, (..., 3), where the corners of a polygon are that is drawn about it."""
+    out = 1.0 / math.cos(math.pi / around)
+    return np.asarray(points * np.array([1.0, out, out]))
 
 
 def _outline(

@@ -1,13 +1,14 @@
-"""Round balloons: one bubble each, blown up to a width."""
+"""Round balloons and hearts: one bubble each, blown up to a width."""
 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from balloon_usd.balloon.ball_pressure import ball_pressure
+from balloon_usd.balloon.heart_surface import heart_surface
 from balloon_usd.language.lengths import at_least, at_most, cm
 from balloon_usd.language.problem import RecipeError
 from balloon_usd.plan.strip import PlannedBubble, Strip
@@ -17,48 +18,83 @@ if TYPE_CHECKING:
     from balloon_usd.balloon.sizes import BalloonSize
     from balloon_usd.recipe import Recipe
 
-FULL = 5.0
-"""Width of a full round balloon, in that of the flat one: one of 5 inches is 13 cm wide."""
 BEYOND_FULL = 1.02
 """A width beyond the full one by this share means full: nominal widths are rounded."""
-LEAST = 1.3
-"""Least width to which one is blown up, in that of the flat one: below, its wall is hardly stretched."""
-SHAPES = (
-    (1.34, 1.40, 1.38, 0.72),
-    (1.84, 1.14, 1.155, 0.93),
-    (2.38, 1.017, 1.043, 1.00),
-    (2.93, 0.994, 1.010, 1.005),
-    (3.44, 1.020, 1.020, 0.975),
-    (3.90, 1.074, 1.058, 0.925),
-    (4.36, 1.122, 1.105, 0.873),
-    (4.82, 1.164, 1.151, 0.83),
-    (5.04, 1.185, 1.171, 0.815),
-)
-"""Shapes of one by its width, in that of the flat one: its volume, in that of a ball as wide, its height, in
-its width, and its pressure, in that of such a ball. Measured in simulations of both sizes in `preview`, which
-differ from these by 2 %. It is a pear at first, nearly a ball when half full, and a pear again when full.
-"""
 FLAT_VOLUME = 1.9
-"""Volume of a flat one that is not pressed together, in that of a ball of its width."""
+"""Volume of a flat round one that is not pressed together, in that of a ball of its width."""
+
+
+class Growth(NamedTuple):
+    """How round balloons of a form grow; widths are in that of the flat one."""
+
+    least: float
+    """Least width to which one is blown up: below, its wall is hardly stretched."""
+    full: float
+    """Width of a full one."""
+    shapes: tuple[tuple[float, float, float, float], ...]
+    """Shapes by width: the volume, in that of a ball as wide, the height, in the width, and the pressure, in
+    that of such a ball. Measured in simulations of both sizes in `preview`, which differ from these by 2 %.
+    """
+
+
+EGG = Growth(
+    1.3,
+    5.0,
+    (
+        (1.34, 1.40, 1.38, 0.72),
+        (1.84, 1.14, 1.155, 0.93),
+        (2.38, 1.017, 1.043, 1.00),
+        (2.93, 0.994, 1.010, 1.005),
+        (3.44, 1.020, 1.020, 0.975),
+        (3.90, 1.074, 1.058, 0.925),
+        (4.36, 1.122, 1.105, 0.873),
+        (4.82, 1.164, 1.151, 0.83),
+        (5.04, 1.185, 1.171, 0.815),
+    ),
+)
+"""A pear at first, nearly a ball when half full, and a pear again when full; 5 inches are 13 cm."""
+HEART = Growth(
+    1.6,
+    4.1,
+    (
+        (1.54, 0.873, 1.040, 1.254),
+        (1.75, 0.841, 0.998, 1.300),
+        (1.97, 0.833, 0.967, 1.396),
+        (2.26, 0.802, 0.927, 1.560),
+        (2.57, 0.757, 0.891, 1.745),
+        (2.89, 0.731, 0.874, 1.916),
+        (3.19, 0.727, 0.880, 2.060),
+        (3.42, 0.739, 0.900, 2.150),
+        (3.56, 0.748, 0.921, 2.193),
+        (3.80, 0.702, 0.923, 2.240),
+        (4.06, 0.667, 0.931, 2.273),
+        (4.30, 0.647, 0.938, 2.300),
+    ),
+)
+"""A ball with a dent at first; its lobes part from two thirds of its full width on. In its cleft a full one
+is stretched to nine tenths of what bursts it.
+"""
 
 
 def round_strip(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> Strip:
-    """Return the strip of a round balloon: one bubble, as wide as the recipe says.
+    """Return the strip of a round balloon or a heart: one bubble, as wide as the recipe says.
 
     Raises:
         RecipeError: it cannot be blown up to that width.
     """
     flat = 2.0 * size.radius
-    full = FULL * flat
+    growth = _growth(size)
+    full = growth.full * flat
     balloon = recipe.balloons[name]
     key, width = "inflated", full if balloon.inflated is None else balloon.inflated
     if balloon.filled is not None:
         key, width = "filled", 0.01 * balloon.filled * full
-    if not LEAST * flat <= width <= BEYOND_FULL * full:
-        text = f"a round balloon {cm(flat)} wide while it is flat is not blown up to {cm(width)}"
-        text += f", expected a width of {at_least(LEAST * flat)} to {at_most(full)}"
+    if not growth.least * flat <= width <= BEYOND_FULL * full:
+        what = "heart" if size.heart else "round balloon"
+        text = f"a {what} {cm(flat)} wide while it is flat is not blown up to {cm(width)}"
+        text += f", expected a width of {at_least(growth.least * flat)} to {at_most(full)}"
         raise RecipeError([recipe.problem(("balloons", name, key), text)])
-    volume, height, pressure = _shape_of(width / flat)
+    volume, height, pressure = _shape_of(growth, width / flat)
     bubble = recipe.piece.row(name)[-1]
     planned = PlannedBubble(
         name=bubble,
@@ -78,11 +114,22 @@ def round_strip(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) ->
 
 def round_volume(strip: Strip) -> float:
     """Return the volume of a round balloon that is blown up, m3."""
-    share, _, _ = _shape_of(strip.inflated_radius / strip.size.radius)
+    share, _, _ = _shape_of(_growth(strip.size), strip.inflated_radius / strip.size.radius)
     return share * math.pi / 6.0 * (2.0 * strip.inflated_radius) ** 3
 
 
-def _shape_of(stretch: float) -> list[float]:
-    """Return volume, height and pressure of a round balloon of a width, as in `SHAPES`."""
-    known, *shapes = np.array(SHAPES).T
+def flat_volume(size: BalloonSize) -> float:
+    """Return the volume of a flat round balloon or heart that is not pressed together, m3."""
+    if size.heart:
+        return heart_surface(size.radius, size.neck_radius).volume
+    return FLAT_VOLUME * 4.0 / 3.0 * math.pi * size.radius**3
+
+
+def _growth(size: BalloonSize) -> Growth:
+    return HEART if size.heart else EGG
+
+
+def _shape_of(growth: Growth, stretch: float) -> list[float]:
+    """Return volume, height and pressure of a round balloon of a width, as a growth has them."""
+    known, *shapes = np.array(growth.shapes).T
     return [float(np.interp(stretch, known, shape)) for shape in shapes]

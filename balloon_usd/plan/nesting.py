@@ -8,6 +8,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from balloon_usd.balloon.bubble_shape import pinch_length
+from balloon_usd.balloon.heart_surface import HeartSurface, heart_surface
 from balloon_usd.balloon.round_outline import Outline, round_outline
 from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.plan.laying_rounds import round_volume
@@ -16,6 +17,7 @@ from balloon_usd.plan.open_tube import inflated_tube, softened
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
+    from balloon_usd.balloon.sizes import BalloonSize
     from balloon_usd.plan.strip import Strip
 
 BRINGING_SPEED = 0.15
@@ -90,23 +92,33 @@ def nozzle_length(strip: Strip) -> float:
 
 def flat_length(strip: Strip) -> float:
     """Return how long a tube or a round balloon is while it is flat, from its knot to its tip, m."""
+    if strip.size.heart:
+        return _heart(strip.size).height
     return float(_outline(strip).x[-1]) if strip.is_round else strip.size.length
 
 
 def flat_room(owner: Strip, guest: Strip) -> tuple[float, float]:
-    """Return from where to where a balloon is wide enough for another, both flat, m from its knot."""
+    """Return from where to where a balloon is wide enough for another, both flat, m from its knot; the neck
+    of a heart may lie before that.
+    """
     if not owner.is_round:
         return owner.size.radius, owner.size.length - owner.size.radius
     outline = _outline(owner)
     wide = outline.x[outline.radius >= guest.size.radius / NARROWER]
     if not len(wide):
         return 0.0, 0.0
-    clear = guest.size.radius
-    return max(float(wide[0]), clear), min(float(wide[-1]), float(outline.x[-1]) - clear)
+    heart = _heart(guest.size) if guest.size.heart else None
+    clear = guest.size.radius if heart is None else heart.lobe
+    before = float(wide[0]) - (0.0 if heart is None else heart.shoulder)
+    return max(before, clear), min(float(wide[-1]), float(outline.x[-1]) - clear)
 
 
 def _outline(strip: Strip) -> Outline:
     return round_outline(strip.size.radius, strip.size.neck_radius)
+
+
+def _heart(size: BalloonSize) -> HeartSurface:
+    return heart_surface(size.radius, size.neck_radius)
 
 
 def blown_length(strip: Strip) -> float:

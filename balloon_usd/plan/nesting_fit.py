@@ -81,8 +81,10 @@ def _too_large(guest: Strip, owner: Strip, host: Host) -> str:
     bubble = owner.bubbles[host.bubble]
     if bubble.length == 0.0:
         return f"lies in {bubble.name}, which is flat for ever, expected a bubble with gas"
-    if owner.inverted and host.bubble == 0:
-        return f"lies in {bubble.name}, a tulip, whose own wall takes the room in it, expected another bubble"
+    full = owner.size.heart or (owner.inverted and host.bubble == 0)
+    if full:
+        what = "a heart, whose lobes leave" if owner.size.heart else "a tulip, whose own wall leaves"
+        return f"lies in {bubble.name}, {what} no room in it, expected another bubble"
     if text := _too_long(guest, owner, bubble):
         return text
     short = flat_room(owner, guest)[0] + nozzle_length(guest) - host.along

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from balloon_usd.balloon.air import ATMOSPHERE
 from balloon_usd.operations.moves import Inflate
-from balloon_usd.plan.laying_rounds import FLAT_VOLUME
+from balloon_usd.plan.laying_rounds import flat_volume
 
 if TYPE_CHECKING:
     from balloon_usd.plan.model import Plan
@@ -32,7 +32,7 @@ def pumped(plan: Plan, balloon: str) -> Pumping | None:
         pressure, volume, flat = strip.shape.pressure, strip.shape.volume, strip.shape.surface.volume
     elif strip.is_round:
         pressure, volume = strip.bubbles[0].pressure or 0.0, strip.bubbles[0].volume
-        flat = FLAT_VOLUME * 4.0 / 3.0 * math.pi * strip.size.radius**3
+        flat = flat_volume(strip.size)
     else:
         pressure, volume = plan.budgets[balloon].pressure, plan.budgets[balloon].volume
         flat = math.pi * strip.size.radius**2 * strip.size.length

@@ -101,7 +101,8 @@ def _capsule_lines(strip: Strip) -> Iterator[str]:
 
 def _round_lines(strip: Strip, popped: Container[str]) -> Iterator[str]:
     size, bubble = strip.size, strip.bubbles[0]
-    yield f"balloon {strip.balloon}: {size.name}, round, {cm(2.0 * size.radius)} wide flat{_place(strip)}"
+    form = "heart" if size.heart else "round"
+    yield f"balloon {strip.balloon}: {size.name}, {form}, {cm(2.0 * size.radius)} wide flat{_place(strip)}"
     yield from bubble_lines(strip, strip.bubbles, popped)
     pressure = bubble.pressure or 0.0
     gas = (

@@ -18,7 +18,7 @@ from balloon_usd.language.quantities import (
 from balloon_usd.operations.modifiers import Entries
 
 FinishName = Literal["latex", "clear", "chrome"]
-BalloonSizeName = Literal["160", "260", "321", "350", "360", "646", "R5", "R11"]
+BalloonSizeName = Literal["160", "260", "321", "350", "360", "646", "R5", "R11", "H6", "H11"]
 
 FILLINGS = ("tail", "inflated", "filled", "capsule")
 """Keys that say how far a balloon is blown up: exactly one of them."""
@@ -31,7 +31,7 @@ MESH_KEYS = ("mesh", *MESH_ONLY, "color", "finish", "thickness")
 USUAL_SWELL = 1.2
 """Size to which a balloon from a mesh is blown up: taut, and still of its own shape."""
 
-ROUNDS: tuple[BalloonSizeName, ...] = ("R5", "R11")
+ROUNDS: tuple[BalloonSizeName, ...] = ("R5", "R11", "H6", "H11")
 """Sizes of round balloons, which are one bubble each."""
 ROUND_KEYS = ("size", "inflated", "filled", "color", "finish", "radius", "thickness")
 """Keys that a round balloon has."""

@@ -95,7 +95,7 @@ def test_the_plan_tells_what_lies_where_and_asks_for_no_lock(planned):
 
 def test_nothing_lies_in_a_tulip_whose_own_wall_takes_the_room():
     head = POD.replace("bubbles: {a: 9, b: 9, c: 9}", "tulip: {a: 9}\n    balloon: pod\n  - bubbles: {c: 9}")
-    with pytest.raises(RecipeError, match="lies in a, a tulip, whose own wall takes the room in it"):
+    with pytest.raises(RecipeError, match="lies in a, a tulip, whose own wall leaves no room in it"):
         plan(Recipe.parse(HEAD + head))
 
 

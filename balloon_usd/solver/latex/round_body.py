@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from balloon_usd.balloon.heart_surface import heart_surface
 from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.solver.latex.body import ARC_OFFSET, LatexBody, tube_body
 
@@ -25,8 +26,13 @@ def round_body(
     beforehand.
     """
     tied = tube_body(mesh, rubber, size.neck_radius, size.thickness, (), guides, knot_pressure)
+    wall = tied.thickness
+    if size.heart and size.neck is not None:
+        middles = mesh.points[mesh.quads].mean(axis=1)
+        wall = wall * heart_surface(size.radius, size.neck).wall(middles)
     return replace(
         tied,
+        thickness=wall,
         worked=np.zeros(len(mesh.quads)),
         contact_arc=ARC_OFFSET / (8.0 * maxwell_state(rubber).bulged.b * size.radius),
     )
