@@ -136,7 +136,9 @@ def _distance(points: Floats, neck: float) -> Floats:
     """Return how far points, (..., 3), are from the wall, those within below 0: of two cones with round ends
     the nearer, and where both are as near less (the smooth minimum of Quilez 2013).
     """
-    one, other = (_cone(points, np.array([HIGH, side * (1.0 - LOBE), 0.0]), neck) for side in (1.0, -1.0))
+    # Where they melt into each other, both are a quarter of that thicker.
+    start, out = neck - 0.25 * MELTING, 1.0 - LOBE
+    one, other = (_cone(points, np.array([HIGH, side * out, 0.0]), start) for side in (1.0, -1.0))
     share = np.clip(0.5 + 0.5 * (other - one) / MELTING, 0.0, 1.0)
     return np.asarray(other + (one - other) * share - MELTING * share * (1.0 - share))
 

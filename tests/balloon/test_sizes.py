@@ -13,6 +13,8 @@ from balloon_usd.balloon.tube_theory import maxwell_state
 INCH = 0.0254
 TUBES = [size for size in SIZES if size.neck is None]
 ROUNDS = [size for size in SIZES if size.neck is not None]
+WIDER = {False: 5.0, True: 4.1}
+"""How many times as wide as flat a full round balloon is, or a heart."""
 
 
 @pytest.mark.parametrize("size", TUBES, ids=lambda size: size.name)
@@ -28,8 +30,8 @@ def test_a_260_weighs_about_two_grams():
 
 
 @pytest.mark.parametrize("size", ROUNDS, ids=lambda size: size.name)
-def test_a_round_balloon_stretched_five_times_is_as_wide_as_its_name_says(size):
-    assert 10.0 * size.radius / INCH == pytest.approx(int(size.name[1:]), rel=0.03)
+def test_a_full_round_balloon_or_heart_is_as_wide_as_its_name_says(size):
+    assert WIDER[size.heart] * 2.0 * size.radius / INCH == pytest.approx(int(size.name[1:]), rel=0.03)
 
 
 def test_round_balloons_weigh_what_real_ones_do():
@@ -42,6 +44,13 @@ def test_a_round_balloon_of_another_radius_has_the_same_shape():
     size, wider = size_named("R5"), size_named("R5").with_overrides(radius=26.0e-3)
     assert (wider.length, wider.neck) == pytest.approx((2.0 * size.length, 2.0 * size.neck))
     assert wider.thickness == size.thickness
+
+
+def test_a_heart_of_another_radius_is_a_heart_of_the_same_shape():
+    size, wider = size_named("H6"), size_named("H6").with_overrides(radius=37.0e-3)
+    assert wider.heart
+    assert (wider.length, wider.neck) == pytest.approx((2.0 * size.length, 2.0 * size.neck))
+    assert wider.rubber_volume == pytest.approx(4.0 * size.rubber_volume)
 
 
 def test_a_260_lies_14_millimetres_wide_when_flat():

@@ -63,6 +63,16 @@ def test_the_wall_of_a_round_balloon_has_the_area_that_its_weight_is_reckoned_fr
     assert areas.sum() == pytest.approx(of.rubber_volume / of.thickness, rel=0.02)
 
 
+def test_the_lobes_of_a_heart_lie_to_both_sides_and_its_cap_in_the_cleft():
+    mesh, of = round_balloon("full", "H6"), size_named("H6")
+    body = mesh.points[mesh.along > 0.0]
+    assert np.ptp(body[:, 1]) == pytest.approx(2.0 * of.radius, rel=0.03)
+    left, right = body[body[:, 1] > 0.0, 0].max(), body[body[:, 1] < 0.0, 0].max()
+    assert left == pytest.approx(right, rel=1e-5)
+    cap = mesh.points[mesh.along > mesh.ring_along[-1], 0]
+    assert np.sort(cap)[len(cap) // 2] < 0.9 * left
+
+
 def test_the_polygon_is_drawn_about_the_circle_of_the_tube():
     mesh, size = dog_tube(), size_named("260")
     ring = mesh.points[mesh.ring_start[mesh.ring_at(0.05)] :][: mesh.around, 1:]

@@ -12,6 +12,7 @@ from balloon_usd.plan import plan as plan_of
 from balloon_usd.plan.drawing import plan_svg
 from balloon_usd.plan.nesting import blown_volume, flat_length, flat_room, hosts_of, nozzle_length
 from balloon_usd.plan.parking import parked
+from balloon_usd.plan.pumping import pumped
 from balloon_usd.plan.report import plan_json, plan_text
 from balloon_usd.plan.twins import twins_of
 from balloon_usd.recipe import Recipe, RecipeError
@@ -165,6 +166,66 @@ TUCKED = PUSHED.replace(
 def test_a_ball_that_is_too_wide_for_what_it_is_tucked_into_is_cautioned(width, cautioned):
     told = [caution.what for caution in plan_of(Recipe.parse(TUCKED.format(width=width))).cautions]
     assert ("nose (9 cm wide) may find no place in left and right" in told) == cautioned
+
+
+HEART = """
+format: 1
+name: love
+units: cm
+balloons:
+  {balloons}
+steps:
+  {steps}
+"""
+
+
+def heart(filled="", balloons="", steps="- {rest: heart, balloon: love}"):
+    lines = "\n  ".join(filter(None, [f"love: {{size: H6{filled}}}", balloons]))
+    return plan_of(Recipe.parse(HEART.format(balloons=lines, steps=steps)))
+
+
+def test_a_heart_is_as_wide_as_its_name_says_and_nearly_as_high():
+    strip = heart().strips["love"]
+    assert 2.0 * strip.inflated_radius == pytest.approx(0.152, rel=0.01)
+    assert strip.bubbles[0].length == pytest.approx(0.93 * 0.152, rel=0.01)
+    assert "balloon love: H6, heart, 3.7 cm wide flat" in plan_text(heart())
+
+
+@pytest.mark.parametrize("width", [5, 16])
+def test_a_width_that_a_heart_cannot_have_is_refused_with_those_that_it_can(width):
+    told = "a heart 3.7 cm wide while it is flat is not blown up to .*, expected a width of 6 cm to 15.1 cm"
+    with pytest.raises(RecipeError, match=told):
+        heart(f", inflated: {width}")
+
+
+def test_strokes_of_a_pump_bring_what_a_flat_heart_does_not_hold():
+    made = heart(steps="- {inflate: love, strokes: 3}\n  - {rest: heart, balloon: love}")
+    assert (given := pumped(made, "love")) is not None
+    bubble = made.strips["love"].bubbles[0]
+    assert 3.0 * given.air == pytest.approx(1.04 * bubble.volume, rel=0.02)
+
+
+IN_A_BALL = """- insert: {{{guest}}}
+  - inflate: ball
+  - inflate: love
+  - {{rest: heart, balloon: love}}
+  - {{rest: clear, balloon: ball}}"""
+
+
+def test_a_heart_lies_in_a_round_balloon_its_neck_where_that_is_narrow():
+    if_flat = "ball: {size: R11, finish: clear}"
+    steps = IN_A_BALL.format(guest="love: clear").replace("  - {rest: heart, balloon: love}\n", "")
+    strips = heart(", inflated: 9", if_flat, steps).strips
+    host = hosts_of(strips)["love"]
+    first, last = flat_room(strips["ball"], strips["love"])
+    assert first + nozzle_length(strips["love"]) <= host.along + 1e-9
+    assert host.along + flat_length(strips["love"]) <= last + 1e-9
+
+
+def test_nothing_lies_in_a_heart():
+    steps = "- insert: {ball: heart}\n  - inflate: love\n  - inflate: ball\n  - {rest: heart, balloon: love}"
+    with pytest.raises(RecipeError, match="lies in heart, a heart, whose lobes leave no room in it"):
+        heart("", "ball: {size: R5, radius: 0.9, inflated: 4}", steps)
 
 
 EARS = """

@@ -170,7 +170,7 @@ BALLOON = [
         "size: 260.0",
         "size",
         16,
-        "260.0 is no balloon size, expected one of 160, 260, 321, 350, 360, 646, R5, R11",
+        "260.0 is no balloon size, expected one of 160, 260, 321, 350, 360, 646, R5, R11, H6, H11",
     ),
     (
         "size: 260, color: rde",

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from balloon_usd.solver.latex.led_limb import LedLimb, hold_figure
+from balloon_usd.solver.latex.motions.heart_face import HeartFace
 from balloon_usd.solver.motions.motion import Motion
 from balloon_usd.solver.motions.smooth import smooth
 from balloon_usd.solver.placement import turn_about, turn_between
@@ -35,8 +36,15 @@ class Aim(Motion):
         arm = self._limb.way_to(own)
         self._arm, self._spin = arm, move.spin
         self._axis, self._angle = turn_between(arm, np.array(move.toward))
+        self._face: HeartFace | None = None
+        if sculpture.plan.strips[piece.bubbles[move.bubble].balloon].size.heart:
+            turn, toward = turn_about(self._axis, self._angle), np.array(move.toward)
+            self._face = HeartFace(sculpture, move.bubble, base, turn, toward, move.spin)
 
     def advance(self, share: float) -> None:
         """Lead it on about its joint."""
         gone = smooth(share)
-        self._limb.turn(turn_about(self._axis, gone * self._angle) @ turn_about(self._arm, gone * self._spin))
+        turn = turn_about(self._axis, gone * self._angle)
+        self._limb.turn(turn @ turn_about(self._arm, gone * self._spin))
+        if self._face is not None:
+            self._face.advance(share, turn, turn @ self._arm)
