@@ -209,6 +209,8 @@ def tube_mesh(
 
 def around_of(size: BalloonSize, detail: Detail) -> int:
     """Return how many vertices a ring of a balloon has."""
+    if size.heart:
+        return detail.heart_around
     return detail.around if size.neck is None else detail.round_around
 
 
