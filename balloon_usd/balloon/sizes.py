@@ -119,8 +119,8 @@ SIZES: tuple[BalloonSize, ...] = (
     BalloonSize("646", radius=13.5e-3, length=0.282, thickness=0.25e-3),
     BalloonSize.round("R5", radius=13.0e-3, neck=6.0e-3, thickness=0.16e-3),
     BalloonSize.round("R11", radius=28.0e-3, neck=9.0e-3, thickness=0.17e-3),
-    BalloonSize.with_lobes("H6", radius=18.5e-3, neck=6.8e-3, thickness=0.13e-3),
-    BalloonSize.with_lobes("H11", radius=34.0e-3, neck=12.5e-3, thickness=0.14e-3),
+    BalloonSize.with_lobes("H6", radius=18.6e-3, neck=6.8e-3, thickness=0.13e-3),
+    BalloonSize.with_lobes("H11", radius=34.2e-3, neck=12.5e-3, thickness=0.14e-3),
 )
 """Every size that a recipe can name."""
 

@@ -54,7 +54,7 @@ EGG = Growth(
 )
 """A pear at first, nearly a ball when half full, and a pear again when full; 5 inches are 13 cm."""
 HEART = Growth(
-    1.62,
+    1.6,
     4.1,
     (
         (1.64, 0.811, 1.012, 1.342),

@@ -36,8 +36,9 @@ ROUNDS: tuple[BalloonSizeName, ...] = ("R5", "R11", "H6", "H11")
 ROUND_KEYS = ("size", "inflated", "filled", "color", "finish", "radius", "thickness")
 """Keys that a round balloon has."""
 
-_SIZE_CODES = get_args(BalloonSizeName)
-_SIZE_SCHEMA = {"enum": [*(int(code) for code in _SIZE_CODES if code.isdecimal()), *_SIZE_CODES]}
+SIZE_CODES: tuple[str, ...] = get_args(BalloonSizeName)
+"""Codes of all sizes."""
+_SIZE_SCHEMA = {"enum": [*(int(code) for code in SIZE_CODES if code.isdecimal()), *SIZE_CODES]}
 
 
 Place = Annotated[float, LengthWithin(-LONGEST, LONGEST, low_included=True)]

@@ -8,7 +8,17 @@ from balloon_usd.language.choices import one_of
 from balloon_usd.operations.entries import steps_in, workbench_of
 from balloon_usd.operations.workpiece import Workpiece
 
-from .balloons import FILLINGS, FLAT_ONLY, MESH_ONLY, ROUND_KEYS, ROUNDS, Balloon, balloons_in, rounds_in
+from .balloons import (
+    FILLINGS,
+    FLAT_ONLY,
+    MESH_ONLY,
+    ROUND_KEYS,
+    ROUNDS,
+    SIZE_CODES,
+    Balloon,
+    balloons_in,
+    rounds_in,
+)
 from .facing import facing_complaints
 from .held_words import held_complaints
 from .mesh_words import mesh_complaints, meshes_in
@@ -72,7 +82,8 @@ def _check_filling(balloon: str, entry: object, bench: Workbench) -> None:
         _check_round(path, entry, bench)
         return
     given = _told_once(path, entry, FILLINGS, bench)
-    if not given:
+    # Of a size that is none is told where it stands.
+    if not given and str(entry.get("size")) in SIZE_CODES:
         kinds = "tail, inflated or filled, or capsule in model kosaka"
         bench.complain(path, f"does not say how far it is blown up, expected {kinds}")
     if given == ["capsule"]:

@@ -47,7 +47,7 @@ def test_a_round_balloon_of_another_radius_has_the_same_shape():
 
 
 def test_a_heart_of_another_radius_is_a_heart_of_the_same_shape():
-    size, wider = size_named("H6"), size_named("H6").with_overrides(radius=37.0e-3)
+    size, wider = size_named("H6"), size_named("H6").with_overrides(radius=37.2e-3)
     assert wider.heart
     assert (wider.length, wider.neck) == pytest.approx((2.0 * size.length, 2.0 * size.neck))
     assert wider.rubber_volume == pytest.approx(4.0 * size.rubber_volume)

@@ -186,14 +186,14 @@ def heart(filled="", balloons="", steps="- {rest: heart, balloon: love}"):
 
 def test_a_heart_is_as_wide_as_its_name_says_and_nearly_as_high():
     strip = heart().strips["love"]
-    assert 2.0 * strip.inflated_radius == pytest.approx(0.152, rel=0.01)
-    assert strip.bubbles[0].length == pytest.approx(0.93 * 0.152, rel=0.01)
+    assert 2.0 * strip.inflated_radius == pytest.approx(0.1525, rel=0.005)
+    assert strip.bubbles[0].length == pytest.approx(0.937 * 0.1525, rel=0.01)
     assert "balloon love: H6, heart, 3.7 cm wide flat" in plan_text(heart())
 
 
 @pytest.mark.parametrize("width", [5, 16])
 def test_a_width_that_a_heart_cannot_have_is_refused_with_those_that_it_can(width):
-    told = "a heart 3.7 cm wide while it is flat is not blown up to .*, expected a width of 6 cm to 15.1 cm"
+    told = "a heart 3.7 cm wide while it is flat is not blown up to .*, expected a width of 6 cm to 15.2 cm"
     with pytest.raises(RecipeError, match=told):
         heart(f", inflated: {width}")
 
