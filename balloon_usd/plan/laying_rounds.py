@@ -87,15 +87,15 @@ def round_strip(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) ->
     """
     flat = 2.0 * size.radius
     growth = _growth(size)
-    full = growth.full * flat
+    least, full = widths_of(size)
     balloon = recipe.balloons[name]
     key, width = "inflated", full if balloon.inflated is None else balloon.inflated
     if balloon.filled is not None:
         key, width = "filled", 0.01 * balloon.filled * full
-    if not growth.least * flat <= width <= BEYOND_FULL * full:
+    if not least <= width <= BEYOND_FULL * full:
         what = "heart" if size.heart else "round balloon"
         text = f"a {what} {cm(flat)} wide while it is flat is not blown up to {cm(width)}"
-        text += f", expected a width of {at_least(growth.least * flat)} to {at_most(full)}"
+        text += f", expected a width of {at_least(least)} to {at_most(full)}"
         raise RecipeError([recipe.problem(("balloons", name, key), text)])
     volume, height, pressure = _shape_of(growth, width / flat)
     bubble = recipe.piece.row(name)[-1]
@@ -119,6 +119,18 @@ def round_volume(strip: Strip) -> float:
     """Return the volume of a round balloon that is blown up, m3."""
     share, _, _ = _shape_of(_growth(strip.size), strip.inflated_radius / strip.size.radius)
     return share * math.pi / 6.0 * (2.0 * strip.inflated_radius) ** 3
+
+
+def widths_of(size: BalloonSize) -> tuple[float, float]:
+    """Return the least width to which a round balloon or heart is blown up, and that of a full one, m."""
+    growth = _growth(size)
+    return 2.0 * growth.least * size.radius, 2.0 * growth.full * size.radius
+
+
+def round_height(size: BalloonSize, width: float) -> float:
+    """Return how high a round balloon or heart is that is blown up to a width, both m."""
+    _, height, _ = _shape_of(_growth(size), 0.5 * width / size.radius)
+    return height * width
 
 
 def flat_volume(size: BalloonSize) -> float:

@@ -11,6 +11,7 @@ from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.language.lengths import at_least, at_most, cm
 from balloon_usd.operations.inflate import Inflate
 from balloon_usd.operations.insert import Insert
+from balloon_usd.plan.laying_rounds import round_height, widths_of
 from balloon_usd.plan.nesting import NARROWER, blown_length, flat_length, flat_room, hosts_of, nozzle_length
 from balloon_usd.plan.open_tube import softened
 
@@ -27,6 +28,8 @@ USUAL_SHARE = 0.8
 """Share of the room in a bubble that is advised for the blown-up part of what lies in it."""
 MOST_GUESTS = 8
 """Most balloons that lie in one: hands bring no more to their places at a time."""
+STEPS = 200
+"""Widths of a round balloon of which the widest is found that fits into another."""
 LEAST_TESTED = 500
 """Points of a balloon from a mesh that are tested at least, on its finer faces."""
 MOST_TESTED = 4000
@@ -59,10 +62,12 @@ def _misfit(recipe: Recipe, strips: Mapping[str, Strip], hosts: Mapping[str, Hos
     if beside:
         bubble = owner.bubbles[host.bubble].name
         return f"{bubble} holds {beside[0].balloon} as well, expected a bubble for each"
+    if text := _too_large(guest, owner, host):
+        return text
     if _blown_up_at(recipe, name) <= _blown_up_at(recipe, owner.balloon):
         text = f"is not blown up after {owner.balloon}, which would drag it along as it grows"
         return f"{text}, expected inflate: {owner.balloon} in a step before"
-    return _too_large(guest, owner, host)
+    return ""
 
 
 def _blown_up_at(recipe: Recipe, balloon: str) -> int:
@@ -85,7 +90,7 @@ def _too_large(guest: Strip, owner: Strip, host: Host) -> str:
     if full:
         what = "a heart, whose lobes leave" if owner.size.heart else "a tulip, whose own wall leaves"
         return f"lies in {bubble.name}, {what} no room in it, expected another bubble"
-    if text := _too_long(guest, owner, bubble):
+    if text := (_too_wide if guest.is_round else _too_long)(guest, owner, bubble):
         return text
     short = flat_room(owner, guest)[0] + nozzle_length(guest) - host.along
     if short > 0.0:
@@ -94,20 +99,44 @@ def _too_large(guest: Strip, owner: Strip, host: Host) -> str:
     return ""
 
 
+def _too_wide(guest: Strip, owner: Strip, bubble: PlannedBubble) -> str:
+    """Say that a round balloon is too large for a bubble when blown up, and how wide it may be; nothing if it
+    is not.
+    """
+    width, room = 2.0 * guest.inflated_radius, 2.0 * owner.inflated_radius
+    if _has_room(guest, width, room, bubble):
+        return ""
+    widths = np.linspace(*widths_of(guest.size), STEPS)
+    fitting = [each for each in widths.tolist() if _has_room(guest, each, room, bubble)]
+    long = at_least(round_height(guest.size, width) + nozzle_length(guest))
+    text = f"is {cm(width)} wide when blown up and {long} long with its nozzle, too large for {bubble.name}"
+    if fitting:
+        return f"{text}, expected inflated: {at_most(fitting[-1])}, or less"
+    return f"{text}, expected a wider {owner.balloon}"
+
+
+def _has_room(guest: Strip, width: float, room: float, bubble: PlannedBubble) -> bool:
+    """Say whether a round balloon of a width fits into a bubble of another of a width (`room`), m."""
+    high = round_height(guest.size, width)
+    # Its ends are round.
+    narrowing = bubble.length * math.sqrt(max(1.0 - (width / room) ** 2, 0.0))
+    return high + nozzle_length(guest) <= bubble.length and high <= narrowing
+
+
 def _too_long(guest: Strip, owner: Strip, bubble: PlannedBubble) -> str:
-    """Say why a tube or a round balloon is too long for a bubble when blown up; nothing if it is not."""
+    """Say why a tube is too long for a bubble when blown up; nothing if it is not."""
     nozzle, blown = nozzle_length(guest), blown_length(guest) - guest.tail
     whole = blown + guest.tail + nozzle
     wide = min(guest.inflated_radius / owner.inflated_radius, 1.0)
     narrowing = bubble.length * math.sqrt(1.0 - wide**2)
     text = ""
     if whole > bubble.length:
-        text = f"is {at_least(whole)} long with its nozzle" + (" and its flat tip" * guest.has_tail)
+        text = f"is {at_least(whole)} long with its nozzle and its flat tip"
         text += f", expected at most {at_most(bubble.length)} in {bubble.name}"
     elif blown > narrowing:
         text = f"is {at_least(blown)} long when blown up, expected at most {at_most(narrowing)}"
         text += f" between the ends of {bubble.name}"
-    if text and not guest.is_round:
+    if text:
         room = bubble.length - nozzle
         blown = min(blown, narrowing, USUAL_SHARE * room)
         flat = blown / maxwell_state(softened(guest.rubber)).bulged.b + min(guest.tail, room - blown)

@@ -222,8 +222,21 @@ def test_a_heart_lies_in_a_round_balloon_its_neck_where_that_is_narrow():
     assert host.along + flat_length(strips["love"]) <= last + 1e-9
 
 
+def test_a_round_one_that_is_too_wide_for_another_is_told_how_wide_it_may_be():
+    steps = IN_A_BALL.format(guest="love: clear").replace("  - {rest: heart, balloon: love}\n", "")
+    ball = "ball: {size: R11, finish: clear, inflated: 14}"
+    with pytest.raises(
+        RecipeError, match=r"too large for clear, expected inflated: ([\d.]+) cm, or less"
+    ) as told:
+        heart(", inflated: 12", ball, steps)
+    most = re.search(r"inflated: ([\d.]+) cm", str(told.value)).group(1)
+    assert heart(f", inflated: {most}", ball, steps)
+    with pytest.raises(RecipeError, match="too large for clear"):
+        heart(f", inflated: {float(most) + 0.2}", ball, steps)
+
+
 def test_nothing_lies_in_a_heart():
-    steps = "- insert: {ball: heart}\n  - inflate: love\n  - inflate: ball\n  - {rest: heart, balloon: love}"
+    steps = "- insert: {ball: heart}\n  - inflate: ball\n  - inflate: love\n  - {rest: heart, balloon: love}"
     with pytest.raises(RecipeError, match="lies in heart, a heart, whose lobes leave no room in it"):
         heart("", "ball: {size: R5, radius: 0.9, inflated: 4}", steps)
 
