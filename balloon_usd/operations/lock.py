@@ -44,7 +44,7 @@ class Lock(OnBalloon, Pointed, Turned, Timed, Operation):
     """Fold these neighbouring bubbles and twist the start of the first to the end of the last."""
 
     word: ClassVar[str] = "lock"
-    called: ClassVar[tuple[str, ...]] = ("link", "lock_twist", "connect")
+    called: ClassVar[tuple[str, ...]] = ("link", "lock_twist", "connect", "join")
     on_rounds: ClassVar[bool] = True
     value_model: ClassVar[type[Entries] | None] = LockJoints
     example: ClassVar[str] = """\

@@ -84,6 +84,13 @@ BY_WORD: dict[str, type[Operation]] = {operation.word: operation for operation i
 WORDS: tuple[str, ...] = tuple(BY_WORD)
 CALLED: dict[str, str] = {name: each.word for each in OPERATIONS for name in each.called}
 """Words of operations by what makers call them, too."""
+NOT_THERE: dict[str, str] = {
+    "raisin": "a bump twisted off the side of a bubble, expected an ear, or a balloon tied to a joint",
+    "overblow": "blowing a balloon up too far, and letting air out again, expected a balloon as it comes",
+    "stretch": "stretching a balloon before it is blown up, expected a balloon as it comes",
+    "string": "a string between two joints, expected tie, which brings them together",
+}
+"""What makers do that no operation does, by its word, and what there is instead."""
 BY_KIND = {each.bubble_kind: each for each in reversed(OPERATIONS) if each.bubble_kind is not None}
 """Operations that make bubbles, by the kind of these: the first of the table, where several do."""
 

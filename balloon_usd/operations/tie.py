@@ -37,7 +37,7 @@ class Tie(OnBalloon, Pointed, Timed, Operation):
     """Tie an end of a balloon to a joint, by its nozzle or by its flat tip."""
 
     word: ClassVar[str] = "tie"
-    called: ClassVar[tuple[str, ...]] = ("knot", "hook")
+    called: ClassVar[tuple[str, ...]] = ("knot", "hook", "attach")
     on_rounds: ClassVar[bool] = True
     value_model: ClassVar[type[Entries] | None] = TiedEnd
     across: ClassVar[bool] = True

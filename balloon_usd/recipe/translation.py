@@ -10,7 +10,7 @@ from balloon_usd.language.choices import one_of, unknown
 from balloon_usd.language.problem import PROBLEMS_SHOWN, Complaint, Path, quoted
 from balloon_usd.language.quantities import UnitMissingError
 from balloon_usd.operations.modifiers import MODIFIERS
-from balloon_usd.operations.table import BY_WORD, CALLED, WORDS, words_in
+from balloon_usd.operations.table import BY_WORD, CALLED, NOT_THERE, WORDS, words_in
 
 from .balloons import Balloon
 from .held_words import MUST_HOLD
@@ -142,6 +142,8 @@ def _unknown_in_step(key: str, root: type[BaseModel]) -> str:
     """Say what is meant by a key of a step that is none, or where it stands."""
     if key in CALLED:
         return f"unknown key {quoted(key)}, did you mean {quoted(CALLED[key])}?"
+    if key in NOT_THERE:
+        return f"{quoted(key)} is not in format 1: {NOT_THERE[key]}"
     if key in root.model_fields:
         return f"{quoted(key)} is said of the whole figure, expected it at the top of the recipe"
     if key in Balloon.model_fields:

@@ -377,6 +377,12 @@ def test_lengths_without_a_unit_are_reported_once_with_the_remedy() -> None:
     [
         ("twist: {nose: 5}", 'steps[0].twist: unknown key "twist", did you mean "bubbles"?'),
         ("pinch_twist: {nose: 5}", 'steps[0].pinch_twist: unknown key "pinch_twist", did you mean "ear"?'),
+        ("join: [nose, tail]", 'steps[0].join: unknown key "join", did you mean "lock"?'),
+        (
+            "string: 20 cm",
+            'steps[0].string: "string" is not in format 1: a string between two joints, '
+            "expected tie, which brings them together",
+        ),
         ("apple: {nose: 5}", 'steps[0].apple: unknown key "apple", did you mean "tulip"?'),
         (
             "mirror: true",
