@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from balloon_usd.balloon.detail import DETAILS, detail_named
-from balloon_usd.balloon.heart_surface import heart_surface
+from balloon_usd.balloon.heart_surface import SEEN_FROM, heart_surface
 from balloon_usd.balloon.sizes import size_named
 from balloon_usd.balloon.tube_mesh import tube_mesh
 
@@ -61,7 +61,7 @@ def test_rings_follow_each_other_along_the_wall_without_a_fold():
     outwards = np.cross(about, along)
     area = np.linalg.norm(outwards, axis=-1)
     # From a place on the axis all of it is seen, from inside.
-    eye = np.array([0.73 * HALF, 0.0, 0.0])
+    eye = np.array([SEEN_FROM * HALF, 0.0, 0.0])
     facing = np.einsum("nki,nki->nk", outwards, inner - eye)
     assert (facing > 0.0).all() or (facing < 0.0).all()
     assert (area > 0.0).all()
@@ -93,5 +93,5 @@ def test_no_face_of_its_mesh_is_thin_or_folded(detail):
     longest = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2).max(axis=1)
     assert (0.5 * np.linalg.norm(normal, axis=1) / longest**2).min() > 0.12
     body = corners[:, :, 0].min(axis=1) > 0.0
-    middle = corners.mean(axis=1) - [0.73 * HALF, 0.0, 0.0]
+    middle = corners.mean(axis=1) - [SEEN_FROM * HALF, 0.0, 0.0]
     assert (np.einsum("qi,qi->q", normal, middle)[body] > 0.0).all()
