@@ -29,7 +29,7 @@ LAST = 0.9 * math.pi
 POOLED, POOL = 2.7, 0.45
 """By how much the wall is thicker in the cleft, in what it is elsewhere, and the distance within which that
 fades: latex gathers there on a form that is dipped. Without it gas fills the cleft, and the heart becomes a
-ball. Of 300 forms these keep the deepest cleft of those that bear to be blown up to four times their width.
+ball. Of a hundred forms this is one with a deep cleft that bears to be blown up to four times its width.
 """
 _ANGLES, _TURNS = 61, 16
 _HALVINGS = 24
