@@ -46,6 +46,8 @@ class HeartSurface(NamedTuple):
     """Mean distances from the knot along the wall, (N,), m."""
     angle: Floats
     """Angles from the neck that belong to them, (N,), rad."""
+    grid: Floats
+    """Points of the wall at these angles, (N, turns, 3), m."""
 
     @property
     def length(self) -> float:
@@ -88,24 +90,17 @@ class HeartSurface(NamedTuple):
     @property
     def area(self) -> float:
         """Area of the wall, each place as many times as it is thick, m2."""
-        first, second = self._spans()
-        thick = self.wall(self._grid()[:-1])
-        return float(np.sum(thick * np.linalg.norm(np.cross(first, second), axis=-1)))
+        return float(np.sum(self.wall(self.grid[:-1]) * np.linalg.norm(self._faces(), axis=-1)))
 
     @property
     def volume(self) -> float:
         """Volume inside, m3."""
-        first, second = self._spans()
-        return float(np.abs(np.sum(self._grid()[:-1] * np.cross(first, second))) / 3.0)
+        return float(np.abs(np.sum(self.grid[:-1] * self._faces())) / 3.0)
 
-    def _grid(self) -> Floats:
-        turn = math.tau * np.arange(_TURNS) / _TURNS
-        return self.points(self.along[:, None], turn[None, :])
-
-    def _spans(self) -> tuple[Floats, Floats]:
-        """Edges of the faces of a grid, along the wall and round it, (N - 1, turns, 3), m."""
-        points = self._grid()
-        return np.diff(points, axis=0), (np.roll(points, -1, axis=1) - points)[:-1]
+    def _faces(self) -> Floats:
+        """Vector areas of the faces of the grid, (N - 1, turns, 3), m2."""
+        along, about = np.diff(self.grid, axis=0), np.roll(self.grid, -1, axis=1) - self.grid
+        return np.cross(along, about[:-1])
 
 
 @lru_cache(maxsize=16)
@@ -116,7 +111,7 @@ def heart_surface(radius: float, neck: float) -> HeartSurface:
     seen, about = np.broadcast_arrays(angle[:, None], turn)
     points = radius * _seen_at(seen, about, neck / radius)
     steps = np.linalg.norm(np.diff(points, axis=0), axis=-1).mean(axis=1)
-    return HeartSurface(radius, neck, np.concatenate([[0.0], np.cumsum(steps)]), angle)
+    return HeartSurface(radius, neck, np.concatenate([[0.0], np.cumsum(steps)]), angle, points)
 
 
 def _seen_at(angle: Floats, turn: Floats, neck: float) -> Floats:

@@ -18,7 +18,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from balloon_usd.balloon.heart_surface import heart_surface
 from balloon_usd.balloon.ringed_faces import (
     Ints,
     cap_points,
@@ -180,7 +179,7 @@ def tube_mesh(
     Raises:
         ValueError: a joint lies outside the tube.
     """
-    knot, lip = KNOT_LENGTH * size.neck_radius, LIP_LENGTH * size.neck_radius
+    knot, lip = _nozzle(size)
     behind = np.concatenate(
         [-knot - lip + lip * np.linspace(0, 1, 4), -knot + knot * np.linspace(0, 1, 5)[1:-1]]
     )
@@ -214,19 +213,24 @@ def around_of(size: BalloonSize, detail: Detail) -> int:
     return detail.around if size.neck is None else detail.round_around
 
 
+def _nozzle(size: BalloonSize) -> tuple[float, float]:
+    """Return how long the knot and the lip behind it are, m."""
+    return KNOT_LENGTH * size.neck_radius, LIP_LENGTH * size.neck_radius
+
+
 def _last_ring(size: BalloonSize) -> float:
     """Return where the last ring lies before the cap of the tip, m from the knot along the wall."""
     if size.neck is None:
         return size.length - size.radius
     if size.heart:
-        return heart_surface(size.radius, size.neck).last
+        return size.heart_wall.last
     return float(round_outline(size.radius, size.neck, LAST).along[-1])
 
 
 def _wall(size: BalloonSize, along: NDArray[np.float64], around: int) -> NDArray[np.float64]:
     """Return the corners of rings drawn about the wall, (R, around, 3), m, by their places along it."""
     x, radius = _outline(size, along)
-    knot, lip = KNOT_LENGTH * size.neck_radius, LIP_LENGTH * size.neck_radius
+    knot, lip = _nozzle(size)
     radius /= math.cos(math.pi / around)
     radius *= 1.0 + (LIP_FLARE - 1.0) * np.clip((-knot - along) / lip, 0.0, 1.0) ** 2
     wall = np.empty((len(along), around, 3))
@@ -235,8 +239,7 @@ def _wall(size: BalloonSize, along: NDArray[np.float64], around: int) -> NDArray
     if size.heart:
         turn = math.tau * np.arange(around) / around
         before = int(np.searchsorted(along, 0.0))
-        heart = heart_surface(size.radius, size.neck_radius)
-        wall[before:] = _drawn_about(heart.points(along[before:, None], turn), around)
+        wall[before:] = _drawn_about(size.heart_wall.points(along[before:, None], turn), around)
     return wall
 
 
@@ -250,7 +253,7 @@ def _tip(
     """
     around = len(rim)
     if size.heart:
-        heart, flat = heart_surface(size.radius, size.neck_radius), cap_points(around, 1.0)
+        heart, flat = size.heart_wall, cap_points(around, 1.0)
         beyond = (1.0 - np.hypot(*flat.T)) * (heart.length - along)
         return _drawn_about(heart.points(along + beyond, np.arctan2(flat[:, 1], flat[:, 0])), around), beyond
     ball = size.radius / math.cos(math.pi / around)

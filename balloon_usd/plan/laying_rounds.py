@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from balloon_usd.balloon.ball_pressure import ball_pressure
-from balloon_usd.balloon.heart_surface import heart_surface
 from balloon_usd.language.lengths import at_least, at_most, cm
 from balloon_usd.language.problem import RecipeError
 from balloon_usd.plan.strip import PlannedBubble, Strip
@@ -136,7 +135,7 @@ def round_height(size: BalloonSize, width: float) -> float:
 def flat_volume(size: BalloonSize) -> float:
     """Return the volume of a flat round balloon or heart that is not pressed together, m3."""
     if size.heart:
-        return heart_surface(size.radius, size.neck_radius).volume
+        return size.heart_wall.volume
     return FLAT_VOLUME * 4.0 / 3.0 * math.pi * size.radius**3
 
 

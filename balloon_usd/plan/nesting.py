@@ -8,7 +8,6 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from balloon_usd.balloon.bubble_shape import pinch_length
-from balloon_usd.balloon.heart_surface import HeartSurface, heart_surface
 from balloon_usd.balloon.round_outline import Outline, round_outline
 from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.plan.laying_rounds import round_volume
@@ -17,7 +16,6 @@ from balloon_usd.plan.open_tube import inflated_tube, softened
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from balloon_usd.balloon.sizes import BalloonSize
     from balloon_usd.plan.strip import Strip
 
 BRINGING_SPEED = 0.15
@@ -93,7 +91,7 @@ def nozzle_length(strip: Strip) -> float:
 def flat_length(strip: Strip) -> float:
     """Return how long a tube or a round balloon is while it is flat, from its knot to its tip, m."""
     if strip.size.heart:
-        return _heart(strip.size).height
+        return strip.size.heart_wall.height
     return float(_outline(strip).x[-1]) if strip.is_round else strip.size.length
 
 
@@ -107,18 +105,14 @@ def flat_room(owner: Strip, guest: Strip) -> tuple[float, float]:
     wide = outline.x[outline.radius >= guest.size.radius / NARROWER]
     if not len(wide):
         return 0.0, 0.0
-    heart = _heart(guest.size) if guest.size.heart else None
-    clear = guest.size.radius if heart is None else heart.lobe
-    before = float(wide[0]) - (0.0 if heart is None else heart.shoulder)
+    clear, before = guest.size.radius, float(wide[0])
+    if guest.size.heart:
+        clear, before = guest.size.heart_wall.lobe, before - guest.size.heart_wall.shoulder
     return max(before, clear), min(float(wide[-1]), float(outline.x[-1]) - clear)
 
 
 def _outline(strip: Strip) -> Outline:
     return round_outline(strip.size.radius, strip.size.neck_radius)
-
-
-def _heart(size: BalloonSize) -> HeartSurface:
-    return heart_surface(size.radius, size.neck_radius)
 
 
 def blown_length(strip: Strip) -> float:

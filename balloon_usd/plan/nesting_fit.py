@@ -118,17 +118,19 @@ def _too_wide(guest: Strip, owner: Strip, bubble: PlannedBubble) -> str:
 def _has_room(guest: Strip, width: float, room: float, bubble: PlannedBubble) -> bool:
     """Say whether a round balloon of a width fits into a bubble of another of a width (`room`), m."""
     high = round_height(guest.size, width)
-    # Its ends are round.
-    narrowing = bubble.length * math.sqrt(max(1.0 - (width / room) ** 2, 0.0))
-    return high + nozzle_length(guest) <= bubble.length and high <= narrowing
+    return high + nozzle_length(guest) <= bubble.length and high <= _between_ends(bubble, width / room)
+
+
+def _between_ends(bubble: PlannedBubble, wide: float) -> float:
+    """Return how long what lies between the round ends of a bubble may be, m; `wide`: in its width."""
+    return bubble.length * math.sqrt(1.0 - min(wide, 1.0) ** 2)
 
 
 def _too_long(guest: Strip, owner: Strip, bubble: PlannedBubble) -> str:
     """Say why a tube is too long for a bubble when blown up; nothing if it is not."""
     nozzle, blown = nozzle_length(guest), blown_length(guest) - guest.tail
     whole = blown + guest.tail + nozzle
-    wide = min(guest.inflated_radius / owner.inflated_radius, 1.0)
-    narrowing = bubble.length * math.sqrt(1.0 - wide**2)
+    narrowing = _between_ends(bubble, guest.inflated_radius / owner.inflated_radius)
     text = ""
     if whole > bubble.length:
         text = f"is {at_least(whole)} long with its nozzle and its flat tip"

@@ -46,6 +46,12 @@ def test_a_round_balloon_of_another_radius_has_the_same_shape():
     assert wider.thickness == size.thickness
 
 
+@pytest.mark.parametrize("code", ["H6", "H11"])
+def test_a_heart_is_as_long_as_its_wall_is_in_the_mean(code):
+    size = size_named(code)
+    assert size.length == pytest.approx(size.heart_wall.length, rel=1e-6)
+
+
 def test_a_heart_of_another_radius_is_a_heart_of_the_same_shape():
     size, wider = size_named("H6"), size_named("H6").with_overrides(radius=37.2e-3)
     assert wider.heart

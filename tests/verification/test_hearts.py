@@ -5,33 +5,17 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from balloon_usd.plan import plan
-from balloon_usd.recipe import Recipe
 from balloon_usd.solver.latex.membrane_data import membrane_data
 from balloon_usd.solver.latex.round_body import round_body
-from balloon_usd.solver.simulation import simulate_many
+from tests.verification.blown_up import blown_up
 
-HEART = """
-format: 1
-name: heart
-units: cm
-balloons:
-  love: {{size: H6, inflated: {width}}}
-steps:
-  - {{rest: heart, balloon: love}}
-physics: {{hold: 0.5}}
-"""
 WIDTHS = (8, 12, 15)
 
 
 @pytest.fixture(scope="module")
 def blown():
     """Plans, meshes and last frames of one heart, blown up to several widths."""
-    plans = [plan(Recipe.parse(HEART.format(width=width))) for width in WIDTHS]
-    simulation = simulate_many(plans, detail="preview", device="cpu")
-    meshes = [each[0] for each in simulation.meshes]
-    *_, last = simulation.frames()
-    return list(zip(plans, meshes, last, strict=True))
+    return blown_up("H6", WIDTHS)
 
 
 def body_of(mesh, frame):
@@ -51,7 +35,7 @@ def cleft_of(mesh, frame):
 
 def work_of_wall_and_gas(made, mesh, frame):
     """Work of the wall and of the gas while all grows alike, J: Clapeyron's theorem, 3 p V of the gas."""
-    strip = made.strips["love"]
+    strip = made.strips["one"]
     body = round_body(mesh, strip.rubber, strip.size, (), 1.0)
     data = membrane_data(body, 1e-4, 1e5, scale_mass=False)
     corners = frame.points[0].astype(float)[mesh.quads]
@@ -68,7 +52,7 @@ def work_of_wall_and_gas(made, mesh, frame):
 def test_it_is_as_wide_and_as_high_as_the_plan_says(verify, blown):
     for made, mesh, frame in blown:
         bubble, points = made.bubbles[0], body_of(mesh, frame)
-        asked = 2.0 * made.strips["love"].inflated_radius
+        asked = 2.0 * made.strips["one"].inflated_radius
         wide, high = np.ptp(points[:, 1]), np.ptp(points[:, 0])
         verify("V42a", f"heart of {100.0 * asked:.0f} cm, width, cm", 100.0 * wide, 100.0 * asked, 0.03)
         verify("V42b", "its height, cm", 100.0 * high, 100.0 * bubble.length, 0.04)

@@ -11,17 +11,8 @@ from balloon_usd.quality.walls import walls_of
 from balloon_usd.recipe import Recipe
 from balloon_usd.solver.latex.round_body import round_body
 from balloon_usd.solver.simulation import simulate_many
+from tests.verification.blown_up import blown_up
 
-BALL = """
-format: 1
-name: ball
-units: cm
-balloons:
-  ball: {{size: R5, inflated: {width}}}
-steps:
-  - {{rest: bubble, balloon: ball}}
-physics: {{hold: 0.5}}
-"""
 WIDTHS = (6, 9, 13)
 TIED = """
 format: 1
@@ -43,11 +34,7 @@ steps:
 @pytest.fixture(scope="module")
 def blown():
     """Plans, meshes and last frames of one balloon, blown up to several widths."""
-    plans = [plan(Recipe.parse(BALL.format(width=width))) for width in WIDTHS]
-    simulation = simulate_many(plans, detail="preview", device="cpu")
-    meshes = [each[0] for each in simulation.meshes]
-    *_, last = simulation.frames()
-    return list(zip(plans, meshes, last, strict=True))
+    return blown_up("R5", WIDTHS)
 
 
 def rings(mesh, points):
@@ -66,7 +53,7 @@ def test_it_is_as_wide_and_as_high_as_the_plan_says(verify, blown):
     for made, mesh, frame in blown:
         bubble, points = made.bubbles[0], frame.points[0]
         width = 2.0 * apothem(mesh, points)[mesh.ring_along > 0.0].max()
-        asked = 2.0 * made.strips["ball"].inflated_radius
+        asked = 2.0 * made.strips["one"].inflated_radius
         verify(
             "V41a", f"round balloon of {100.0 * asked:.0f} cm, width, cm", 100.0 * width, 100.0 * asked, 0.03
         )
@@ -82,7 +69,7 @@ def test_it_has_the_pressure_of_the_plan(verify, blown):
 
 def pull_and_push(made, mesh, frame, row):
     """Pull of the wall along its meridian through a row of faces, and push of the gas on that cut, N."""
-    strip = made.strips["ball"]
+    strip = made.strips["one"]
     unstressed = round_body(mesh, strip.rubber, strip.size, (), 1.0).rest
     sides = [np.stack([rings(mesh, x)[row], rings(mesh, x)[row + 1]]) for x in (frame.points[0], unstressed)]
     hoop = [np.linalg.norm(np.roll(x, -1, axis=1) - x, axis=2).mean(axis=0) for x in sides]

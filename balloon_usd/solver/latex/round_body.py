@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from balloon_usd.balloon.heart_surface import heart_surface
 from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.solver.latex.body import ARC_OFFSET, LatexBody, tube_body
 
@@ -27,9 +26,8 @@ def round_body(
     """
     tied = tube_body(mesh, rubber, size.neck_radius, size.thickness, (), guides, knot_pressure)
     wall = tied.thickness
-    if size.heart and size.neck is not None:
-        middles = mesh.points[mesh.quads].mean(axis=1)
-        wall = wall * heart_surface(size.radius, size.neck).wall(middles)
+    if size.heart:
+        wall = wall * size.heart_wall.wall(mesh.points[mesh.quads].mean(axis=1))
     return replace(
         tied,
         thickness=wall,

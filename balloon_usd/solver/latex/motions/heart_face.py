@@ -41,8 +41,7 @@ class HeartFace:
         """
         self._sculpture, self._base = sculpture, base
         body = sculpture.body[sculpture.plan.recipe.piece.bubbles[bubble].balloon]
-        start = sculpture.scene.vertex_start
-        self._vertices = VertexSet(slice(int(start[body]), int(start[body + 1])))
+        self._vertices = VertexSet(sculpture.scene.vertices_of(body))
         self._ring = sculpture.joints[sculpture.plan.table.guides(bubble)[0]]
         across = turn_about(toward, spin) @ np.cross(toward, faced(toward))
         self._across: Floats = turn.T @ across
