@@ -59,12 +59,11 @@ def _rounds(operation: type[Operation]) -> str:
     """
     if operation.whole:
         return ""
-    told = (
-        "What it works on may be a [round balloon](../recipe.md#round-balloons), too."
-        if operation.on_rounds
-        else ("It takes no [round balloon](../recipe.md#round-balloons).")
-    )
-    return f"\n{told}\n"
+    kind = "[round balloon](../recipe.md#round-balloons)"
+    if not operation.on_rounds:
+        return f"\nIt takes no {kind}.\n"
+    hearts = "" if operation.on_hearts else ", but no heart"
+    return f"\nWhat it works on may be a {kind}, too{hearts}.\n"
 
 
 def says(operation: type[Operation]) -> str:

@@ -42,6 +42,8 @@ LIP_FLARE = 1.35
 """Radius of the lip's rim, in R0."""
 LIP_DOME = 0.075
 """Height of the lid that closes the nozzle, in that of half a ball."""
+BEFORE_CAP = 0.5
+"""Share of the wall behind the last joint of a round balloon that is no cap, at least."""
 GRADING = 0.18
 """Growth of the axial spacing per distance from the nearest joint."""
 TORN_ROWS = 5
@@ -113,7 +115,7 @@ def ring_stations(
     Raises:
         ValueError: a joint lies outside the tube.
     """
-    last = _last_ring(size)
+    last = last_ring(size, max(joints, default=0.0))
     marks = sorted({0.0, *joints, last})
     if marks[0] < 0.0 or marks[-1] > last:
         raise ValueError(f"joints must lie between 0 and {last:.4f} m, got {joints}")
@@ -218,13 +220,17 @@ def _nozzle(size: BalloonSize) -> tuple[float, float]:
     return KNOT_LENGTH * size.neck_radius, LIP_LENGTH * size.neck_radius
 
 
-def _last_ring(size: BalloonSize) -> float:
-    """Return where the last ring lies before the cap of the tip, m from the knot along the wall."""
+def last_ring(size: BalloonSize, last_joint: float) -> float:
+    """Return where the last ring lies before the cap of the tip, m from the knot along the wall.
+
+    `last_joint`: the same of the last joint, which in a round balloon may lie near the tip.
+    """
     if size.neck is None:
         return size.length - size.radius
     if size.heart:
         return size.heart_wall.last
-    return float(round_outline(size.radius, size.neck, LAST).along[-1])
+    cap = float(round_outline(size.radius, size.neck, LAST).along[-1])
+    return max(cap, last_joint + BEFORE_CAP * (size.length - last_joint))
 
 
 def _wall(size: BalloonSize, along: NDArray[np.float64], around: int) -> NDArray[np.float64]:

@@ -16,6 +16,8 @@ class Bubbles(Turned, TwistsOff):
 
     word: ClassVar[str] = "bubbles"
     called: ClassVar[tuple[str, ...]] = ("twist", "bubble", "sausage", "basic_twist")
+    on_rounds: ClassVar[bool] = True
+    on_hearts: ClassVar[bool] = False
     bubble_kind: ClassVar[BubbleKind | None] = "bubble"
     example: ClassVar[str] = """\
 format: 1

@@ -17,7 +17,7 @@ from balloon_usd.operations.table import BY_WORD, WORDS, words_in
 from balloon_usd.operations.workbench import Place, UnnamedRest, Workbench
 
 if TYPE_CHECKING:
-    from collections.abc import Container, Iterable, Iterator, Sequence
+    from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 
     from balloon_usd.language.problem import Path
 
@@ -79,15 +79,18 @@ class StepEntry:
             bench.complain(self.path, f"no operation, expected {one_of(WORDS)}")
         unnamed = "balloon" not in self.entries
         makes = any(BY_WORD[word].bubble_kind is not None for word in self.words) and unnamed
-        twists = makes and Rest.word not in self.words
+        twists = makes and not all(BY_WORD[word].on_rounds for word in self.words)
         place = Place(self.path, bench.balloon_of(self.path, self.balloon, makes=makes, twists=twists))
         for word in self.words:
-            on_round = not BY_WORD[word].on_rounds and bench.tells_round(
-                word, self.path, place.balloon if self.makes else None, self.uses
-            )
-            if on_round and not self.makes:
+            operation, balloon = BY_WORD[word], place.balloon if self.makes else None
+            rounds = bench.rounds_among(balloon, self.uses)
+            refused = {
+                name: heart for name, heart in rounds.items() if not operation.takes_round(heart=heart)
+            }
+            bench.refuse_rounds(word, self.path, refused)
+            if refused and not self.makes:
                 continue
-            BY_WORD[word].check(self.entries[word], place, bench)
+            operation.check(self.entries[word], place, bench)
         bench.note_use(self.path, self.uses)
         bench.require_blown_up(place, place.balloon if self.makes else None, self.uses)
         if not any(BY_WORD[word].across for word in self.words):
@@ -102,9 +105,11 @@ def steps_in(data: object) -> list[StepEntry]:
 
 
 def workbench_of(
-    balloons: Iterable[str], steps: Sequence[StepEntry], rounds: Container[str] = ()
+    balloons: Iterable[str], steps: Sequence[StepEntry], rounds: Mapping[str, bool] | None = None
 ) -> Workbench:
-    """Return the workbench at which steps begin; `rounds`: which of the balloons are round."""
+    """Return the workbench at which steps begin; `rounds`: which of the balloons are round, and whether they
+    are hearts.
+    """
     names = list(balloons)
     made_ever: dict[str, Path] = {}
     for step in steps:
@@ -114,7 +119,7 @@ def workbench_of(
     for step in steps:
         pumped = step.pumped | pumped
     rests = _unnamed_rests(names, steps, made_ever)
-    return Workbench(names, made_ever, rests, pumped, _rows(names, steps), rounds)
+    return Workbench(names, made_ever, rests, pumped, _rows(names, steps), rounds or {})
 
 
 def _rows(balloons: Sequence[str], steps: Sequence[StepEntry]) -> dict[str, list[str]]:

@@ -193,7 +193,7 @@ def _check_neighbours(names: Sequence[str], path: Path, bench: Workbench) -> Non
     if not bench.knows(names):
         return
     made = bench.piece.bubbles
-    last = Joint(names[-1], "start" if bench.is_round(names[-1]) else "end")
+    last = Joint(names[-1], "start" if bench.is_round_end(names[-1]) else "end")
     joints = f"lock: {{joints: [{names[0]}.start, {last}]}}"
     balloons = list(dict.fromkeys(made[name].balloon for name in names))
     if len(balloons) > 1:

@@ -61,12 +61,19 @@ class Operation(Entries):
     whole: ClassVar[bool] = False
     """Whether it works on whole balloons of any kind, also on those that are not twisted."""
     on_rounds: ClassVar[bool] = False
-    """Whether it works on round balloons, too, which are one bubble each."""
+    """Whether it works on round balloons, too."""
+    on_hearts: ClassVar[bool] = True
+    """Whether it works on hearts, too, where it does on round balloons."""
     keeps_time: ClassVar[bool] = False
     """Whether its moves take the time that the recipe gives without being stretched."""
 
     note: Text | None = None
     """A remark for the reader."""
+
+    @classmethod
+    def takes_round(cls, *, heart: bool) -> bool:
+        """Say whether it works on round balloons, or on hearts."""
+        return cls.on_rounds and (cls.on_hearts or not heart)
 
     @classmethod
     def modifiers(cls) -> tuple[str, ...]:

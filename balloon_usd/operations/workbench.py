@@ -13,7 +13,7 @@ from balloon_usd.operations.insertions import Insertions
 from balloon_usd.operations.workpiece import Workpiece
 
 if TYPE_CHECKING:
-    from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ class Workbench:
         rests: Mapping[str, UnnamedRest],
         pumped: Mapping[str, Path],
         rows: Mapping[str, Sequence[str]],
-        rounds: Container[str] = (),
+        rounds: Mapping[str, bool],
     ) -> None:
         """Begin with balloons of which nothing is made.
 
@@ -60,7 +60,7 @@ class Workbench:
             rests: what is left of balloons in the end, by the names that it gets.
             pumped: where each balloon is blown up that is not so from the beginning.
             rows: all bubbles that steps make of each balloon, from its knot on.
-            rounds: which of them are round.
+            rounds: which of them are round, and whether they are hearts.
         """
         self.complaints: list[Complaint] = []
         self._balloons = tuple(balloons)
@@ -77,6 +77,8 @@ class Workbench:
         """Where the tip behind a rest was tied."""
         self._made_ever, self._rests = made_ever, rests
         self._pumped, self._rows, self._rounds = pumped, rows, rounds
+        self._told_round: set[Path] = set()
+        """Steps of which is told that they take no round balloon."""
         self._insertions = Insertions(made_ever, pumped)
         self._told_flat: set[str] = set()
         """Balloons of which was told that they are worked on while they are flat."""
@@ -130,18 +132,22 @@ class Workbench:
             what = f"balloon {quoted(name)} is flat until {path_text(later)} blows it up"
             self.complain(place.path, f"{what}: expected this step after that one")
 
-    def is_round(self, name: str) -> bool:
-        """Say whether a bubble is a round balloon."""
-        return self._owner(name) in self._rounds
+    def is_round_end(self, name: str) -> bool:
+        """Say whether a bubble is a round balloon, or what twists leave of one: its end is no joint."""
+        made = self.piece.bubbles.get(name)
+        return self._owner(name) in self._rounds and (made is None or made.last)
 
-    def tells_round(self, word: str, path: Path, balloon: str | None, bubbles: Iterable[str]) -> bool:
-        """Say whether a step of a word works on a round balloon or its bubble, and complain if so."""
-        worked_on = dict.fromkeys([balloon, *map(self._owner, bubbles)])
-        found = [str(name) for name in worked_on if name in self._rounds]
-        for name in found:
-            what = f"takes no round balloon, and {quoted(name)} is one"
+    def rounds_among(self, balloon: str | None, bubbles: Iterable[str]) -> dict[str, bool]:
+        """Return those of a balloon, and of some bubbles, that are round, and whether they are hearts."""
+        owners = dict.fromkeys([balloon, *map(self._owner, bubbles)])
+        return {name: self._rounds[name] for name in owners if name is not None and name in self._rounds}
+
+    def refuse_rounds(self, word: str, path: Path, refused: Mapping[str, bool]) -> None:
+        """Complain of a step of a word that takes no such round balloons; told is whether they are hearts."""
+        for name, heart in refused.items():
+            what = f"takes no {'heart' if heart else 'round balloon'}, and {quoted(name)} is one"
             self.complain((*path, word), f"{what}, expected a tube")
-        return bool(found)
+            self._told_round.add(path)
 
     def note_use(self, path: Path, bubbles: Iterable[str]) -> None:
         """Take note of the bubbles on which a step works: hands reach none that lies in another balloon."""
@@ -179,8 +185,8 @@ class Workbench:
         self._made_at[name] = path
         if balloon is None:
             return True
-        # Of what is twisted off a round one is told that it cannot be.
-        if balloon in self._ended and (last or balloon not in self._rounds):
+        # Of what cannot be made of a round one is told that alone.
+        if balloon in self._ended and path[:2] not in self._told_round:
             end = path_text(self._ended[balloon])
             what = f"balloon {quoted(balloon)} has ended at {end}, expected nothing made of it after its rest"
             self.complain(path, what)
@@ -302,9 +308,9 @@ class Workbench:
         elif name in self._tied_at:
             at = path_text(self._tied_at[name])
             self.complain(path, f"the tip of {quoted(name)} was tied at {at}, expected each tip once")
-        elif self.is_round(name):
+        elif self.is_round_end(name):
             what = f"{name} is a round balloon, which has no flat tip"
-            self.complain(path, f"{what}, expected {name}.start, its nozzle")
+            self.complain(path, f"{what}, expected {self._round_start(name)}")
         elif self.piece.is_merged([Joint(name, "end")]):
             what = f"{name}.end is joined to others before its tip is closed"
             self.complain(path, f"{what}, expected this step before that one")
@@ -329,9 +335,9 @@ class Workbench:
         """Say whether a joint is there by now on which more hangs than a popped bubble; complain if not."""
         if not self.find(end.bubble, path):
             return False
-        if end.end == "end" and self.is_round(end.bubble):
+        if end.end == "end" and self.is_round_end(end.bubble):
             what = f"{end} is the far side of a round balloon"
-            self.complain(path, f"{what}, expected {end.bubble}.start, its nozzle")
+            self.complain(path, f"{what}, expected {self._round_start(end.bubble)}")
             return False
         if end.bubble not in self.piece.bubbles or end.bubble not in self._popped_at:
             return True
@@ -448,6 +454,12 @@ class Workbench:
             if (owner := self._owner(name)) and owner != balloon:
                 what = f"bubble {quoted(name)} is on balloon {quoted(owner)}, expected no other balloon named"
                 self.complain((*path, "balloon"), what)
+
+    def _round_start(self, name: str) -> str:
+        """The joint at which a round balloon, or what twists leave of one, begins."""
+        owner = self._owner(name)
+        twisted = owner is not None and self._rows[owner][:1] != [name]
+        return f"{name}.start" if twisted else f"{name}.start, its nozzle"
 
     def _owner(self, name: str) -> str | None:
         if made := self.piece.bubbles.get(name):

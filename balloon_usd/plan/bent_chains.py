@@ -92,7 +92,7 @@ def _rows(recipe: Recipe, strips: Mapping[str, Strip], graph: SculptureGraph) ->
             begin = row[-1].along[-1] if row else 0.0
             along = begin + np.linspace(0.0, bubble.length, SIDES + 1)
             middle = np.stack([along, np.zeros_like(along), np.zeros_like(along)], axis=1)
-            row.append(_Link(bubble, min(bubble.length, 2.0 * strip.inflated_radius), middle, along))
+            row.append(_Link(bubble, min(bubble.length, strip.width_of(bubble)), middle, along))
         yield row
 
 

@@ -148,6 +148,7 @@ def _flat_shapes(strip: Strip, top: float) -> Iterator[str]:
     if strip.is_round:
         wide = strip.size.length * SCALE
         yield svg.rectangle((MARGIN, top), wide, height, "flat", rx=0.5 * min(height, wide))
+        yield from _marks(strip, top, height)
         return
     inflated = (strip.size.length - strip.tail) * SCALE
     yield svg.rectangle((MARGIN, top), inflated, height, "flat")

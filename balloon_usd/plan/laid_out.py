@@ -52,7 +52,7 @@ class _Placed:
 
     @property
     def width(self) -> float:
-        return 2.0 * self.strip.inflated_radius
+        return self.strip.width_of(self.planned)
 
     @property
     def size(self) -> str:

@@ -86,7 +86,7 @@ def lay_strips(recipe: Recipe, tubes: Mapping[str, BalloonSize]) -> dict[str, St
 
 def _laid(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> Strip:
     if size.neck is not None:
-        return round_strip(recipe, name, size, rubber)
+        return round_strip(recipe, name, size, rubber, _made(recipe, name))
     lay = _tube if recipe.balloons[name].capsule is None else _capsule
     return lay(recipe, name, size, rubber)
 

@@ -1,24 +1,42 @@
-"""Round balloons and hearts: one bubble each, blown up to a width."""
+"""Round balloons and hearts, blown up to a width, and what twists make of round ones."""
 
 from __future__ import annotations
 
+import contextlib
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from dataclasses import replace
+from functools import lru_cache
+from typing import TYPE_CHECKING, NamedTuple, TypedDict
 
 import numpy as np
 
 from balloon_usd.balloon.ball_pressure import ball_pressure
+from balloon_usd.balloon.open_round import OpenRound
 from balloon_usd.language.lengths import at_least, at_most, cm
-from balloon_usd.language.problem import RecipeError
-from balloon_usd.plan.strip import PlannedBubble, Strip
+from balloon_usd.language.problem import RecipeError, quoted
+from balloon_usd.plan.blown import NECK_AT_KNOT
+from balloon_usd.plan.strip import BlownRound, PlannedBubble, Strip
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from balloon_usd.balloon.lobe_shape import Lobe
     from balloon_usd.balloon.rubber import Rubber
     from balloon_usd.balloon.sizes import BalloonSize
+    from balloon_usd.language.problem import Path
+    from balloon_usd.plan.strip import Made
     from balloon_usd.recipe import Recipe
 
 BEYOND_FULL = 1.02
 """A width beyond the full one by this share means full: nominal widths are rounded."""
+MOST_FLAT = 1.45
+"""Width of the flattest lobe that is made, in its height. In simulations all lobes up to 1.49 are as planned,
+and all from 1.53 on wind up to a bundle: one whose wall is slack round it is 1.67 times as wide as high.
+"""
+LEAST_RANGE = 2e-3
+"""Range of heights of which none is told, m."""
+LOBES = 9
+"""Lobes of which the lowest and the highest that can be made is told."""
 FLAT_VOLUME = 1.9
 """Volume of a flat round one that is not pressed together, in that of a ball of its width."""
 
@@ -78,14 +96,44 @@ is stretched to nine tenths of what bursts it.
 """
 
 
-def round_strip(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> Strip:
-    """Return the strip of a round balloon or a heart: one bubble, as wide as the recipe says.
+def round_strip(
+    recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber, twisted: Sequence[Made]
+) -> Strip:
+    """Return the strip of a round balloon or a heart, as wide as the recipe says, and what is twisted off it.
 
     Raises:
-        RecipeError: it cannot be blown up to that width.
+        RecipeError: it cannot be blown up to that width, or what is twisted off does not fit.
     """
+    blown = _blown(recipe, name, size, rubber)
+    bubble = recipe.piece.row(name)[-1]
+    rest = PlannedBubble(
+        name=bubble,
+        balloon=name,
+        kind="rest",
+        length=blown.height,
+        start=0.0,
+        end=blown.height,
+        rest_start=0.0,
+        rest_end=size.length,
+        volume=blown.volume,
+        step=recipe.piece.bubbles[bubble].step,
+        pressure=blown.pressure,
+    )
+    bubbles: tuple[PlannedBubble, ...] = (rest,)
+    if twisted:
+        wall = OpenWall(size, rubber, blown.volume)
+        try:
+            twisted_round(*wall, ())
+        except ValueError:
+            text = f"what twists make of a {size.name} of these dimensions is not found, expected its own"
+            raise RecipeError([recipe.problem(("balloons", name), text)]) from None
+        bubbles = _lobes(recipe, rest, wall, twisted)
+    return Strip(name, size, rubber, 0.0, bubbles, blown=blown)
+
+
+def _blown(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> BlownRound:
+    """What a round balloon or a heart is blown up to."""
     flat = 2.0 * size.radius
-    growth = _growth(size)
     least, full = widths_of(size)
     balloon = recipe.balloons[name]
     key, width = "inflated", full if balloon.inflated is None else balloon.inflated
@@ -96,22 +144,103 @@ def round_strip(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) ->
         text = f"a {what} {cm(flat)} wide while it is flat is not blown up to {cm(width)}"
         text += f", expected a width of {at_least(least)} to {at_most(full)}"
         raise RecipeError([recipe.problem(("balloons", name, key), text)])
-    volume, height, pressure = _shape_of(growth, width / flat)
-    bubble = recipe.piece.row(name)[-1]
-    planned = PlannedBubble(
-        name=bubble,
-        balloon=name,
-        kind="rest",
-        length=height * width,
-        start=0.0,
-        end=height * width,
-        rest_start=0.0,
-        rest_end=size.length,
-        volume=volume * math.pi / 6.0 * width**3,
-        step=recipe.piece.bubbles[bubble].step,
-        pressure=pressure * ball_pressure(rubber, width / flat, size.thickness / size.radius),
-    )
-    return Strip(name, size, rubber, 0.0, (planned,), width=width)
+    volume, height, pressure = _shape_of(_growth(size), width / flat)
+    ball = ball_pressure(rubber, width / flat, size.thickness / size.radius)
+    return BlownRound(width, height * width, volume * math.pi / 6.0 * width**3, pressure * ball)
+
+
+class OpenWall(NamedTuple):
+    """A round balloon that is blown up, as hands begin to twist it."""
+
+    size: BalloonSize
+    rubber: Rubber
+    volume: float
+    """Gas, m3."""
+
+
+def _lobes(
+    recipe: Recipe, rest: PlannedBubble, wall: OpenWall, twisted: Sequence[Made]
+) -> tuple[PlannedBubble, ...]:
+    """The bubbles into which a round balloon is twisted; `rest`: all of it before that."""
+    found: list[PlannedBubble] = []
+    heights: tuple[float, ...] = ()
+    start, rest_start = 0.0, 0.0
+    for made in twisted:
+        if made.gas < 1.0:
+            text = "no gas is pressed out of bubbles of a round balloon, expected no such line"
+            raise RecipeError([recipe.problem(("steps", made.step, "burp"), text)])
+        heights = (*heights, made.length)
+        try:
+            lobe, left = twisted_round(*wall, heights)
+        except ValueError:
+            lobe = None
+        if lobe is None or lobe.width > MOST_FLAT * lobe.height:
+            path: Path = ("steps", made.step, *recipe.steps[made.step].path_of(made.bubble))
+            text = _misfit(made, twisted_round(*wall, heights[:-1])[1], rest.balloon, lobe)
+            raise RecipeError([recipe.problem(path, text)])
+        found.append(
+            replace(
+                rest,
+                name=made.bubble,
+                kind=made.kind,
+                length=made.length,
+                start=start,
+                end=start + made.length,
+                rest_start=rest_start,
+                rest_end=left.start,
+                step=made.step,
+                **_gas_of(lobe),
+            )
+        )
+        start, rest_start = start + made.length, left.start
+    height = left.lobe.height
+    end = replace(rest, length=height, start=start, end=start + height, rest_start=rest_start)
+    return (*found, replace(end, **_gas_of(left.lobe)))
+
+
+class _Gas(TypedDict):
+    volume: float
+    pressure: float
+    width: float
+
+
+def _gas_of(lobe: Lobe) -> _Gas:
+    return {"volume": lobe.volume, "pressure": lobe.pressure, "width": lobe.width}
+
+
+@lru_cache(maxsize=256)
+def twisted_round(
+    size: BalloonSize, rubber: Rubber, volume: float, heights: tuple[float, ...]
+) -> tuple[Lobe, OpenRound]:
+    """Return the last lobe of some heights (m) that are twisted off a round balloon with so much gas (m3),
+    from its knot on, and what is left; of none the whole balloon.
+
+    Raises:
+        ValueError: the last one cannot be made.
+    """
+    if heights:
+        return twisted_round(size, rubber, volume, heights[:-1])[1].twisted(heights[-1])
+    whole = OpenRound.whole(size, rubber, NECK_AT_KNOT * size.neck_radius, volume)
+    return whole.lobe, whole
+
+
+def _misfit(made: Made, left: OpenRound, balloon: str, lobe: Lobe | None) -> str:
+    """Say why a bubble is not twisted off what is left of a round balloon, and what would be."""
+    text = f"{quoted(made.bubble)} of {cm(made.length)} is not twisted off what is left of {balloon}"
+    if lobe is not None:
+        text = f"{quoted(made.bubble)} of {cm(made.length)} would be {cm(lobe.width)} wide, all in folds"
+    fitting = [each.height for each in _lobes_of(left) if each.width <= MOST_FLAT * each.height]
+    if not fitting or max(fitting) < min(fitting) + LEAST_RANGE:
+        return f"{text}, expected fewer bubbles, or a balloon that is blown up less"
+    return f"{text}, expected {at_least(min(fitting))} to {at_most(max(fitting))}"
+
+
+def _lobes_of(left: OpenRound) -> Iterator[Lobe]:
+    """Yield lobes of all heights that are twisted off what is left of a round balloon."""
+    least, most = left.lengths
+    for length in np.linspace(least, most, LOBES) if least < most else ():
+        with contextlib.suppress(ValueError):
+            yield left.parted(float(length))[0]
 
 
 def round_volume(strip: Strip) -> float:

@@ -65,7 +65,10 @@ def with_guests(strips: Mapping[str, Strip]) -> dict[str, Strip]:
     for name, strip in strips.items():
         left = enumerate(strip.bubbles)
         bubbles = (replace(it, volume=it.volume - taken.get((name, number), 0.0)) for number, it in left)
-        found[name] = replace(strip, bubbles=tuple(bubbles)) if taken else strip
+        blown = strip.blown
+        if blown is not None:
+            blown = blown._replace(volume=blown.volume - taken.get((name, 0), 0.0))
+        found[name] = replace(strip, bubbles=tuple(bubbles), blown=blown) if taken else strip
     return found
 
 

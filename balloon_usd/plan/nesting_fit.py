@@ -86,9 +86,7 @@ def _too_large(guest: Strip, owner: Strip, host: Host) -> str:
     bubble = owner.bubbles[host.bubble]
     if bubble.length == 0.0:
         return f"lies in {bubble.name}, which is flat for ever, expected a bubble with gas"
-    full = owner.size.heart or (owner.inverted and host.bubble == 0)
-    if full:
-        what = "a heart, whose lobes leave" if owner.size.heart else "a tulip, whose own wall leaves"
+    if what := _full(owner, host.bubble):
         return f"lies in {bubble.name}, {what} no room in it, expected another bubble"
     if text := (_too_wide if guest.is_round else _too_long)(guest, owner, bubble):
         return text
@@ -97,6 +95,15 @@ def _too_large(guest: Strip, owner: Strip, host: Host) -> str:
         text = f"has no room in {owner.balloon}, which is {cm(flat_length(owner))} long while it is flat"
         return f"{text}, expected it, or what lies behind it, shorter by {at_least(short)} while flat"
     return ""
+
+
+def _full(owner: Strip, bubble: int) -> str:
+    """Say what takes the room in a bubble of some number; nothing where there is room."""
+    if owner.size.heart:
+        return "a heart, whose lobes leave"
+    if owner.is_round and len(owner.bubbles) > 1:
+        return "part of a round balloon that is twisted, whose necks leave"
+    return "a tulip, whose own wall leaves" if owner.inverted and bubble == 0 else ""
 
 
 def _too_wide(guest: Strip, owner: Strip, bubble: PlannedBubble) -> str:

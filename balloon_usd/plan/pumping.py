@@ -30,8 +30,8 @@ def pumped(plan: Plan, balloon: str) -> Pumping | None:
     strip = plan.strips[balloon]
     if strip.shape is not None:
         pressure, volume, flat = strip.shape.pressure, strip.shape.volume, strip.shape.surface.volume
-    elif strip.is_round:
-        pressure, volume = strip.bubbles[0].pressure or 0.0, strip.bubbles[0].volume
+    elif strip.blown is not None:
+        pressure, volume = strip.blown.pressure, strip.blown.volume
         flat = flat_volume(strip.size)
     else:
         pressure, volume = plan.budgets[balloon].pressure, plan.budgets[balloon].volume

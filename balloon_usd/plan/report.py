@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from balloon_usd.plan.graph import SculptureGraph
     from balloon_usd.plan.model import Plan
     from balloon_usd.plan.shaped import Shaped
-    from balloon_usd.plan.strip import PlannedBubble, Strip
+    from balloon_usd.plan.strip import BlownRound, PlannedBubble, Strip
     from balloon_usd.recipe import Recipe
 
 ROUND_OFF = 5.0e-5
@@ -41,8 +41,8 @@ def plan_text(plan: Plan) -> str:
             lines += ["", *_shape_lines(strip, strip.shape), *_stroke_lines(plan, name)]
         elif strip.capsule:
             lines += ["", *_capsule_lines(strip)]
-        elif strip.is_round:
-            lines += ["", *_round_lines(strip, popped), *_stroke_lines(plan, name)]
+        elif strip.blown is not None:
+            lines += ["", *_round_lines(strip, strip.blown, popped), *_stroke_lines(plan, name)]
         else:
             lines += ["", *_strip_lines(strip, popped), *_budget_lines(plan, plan.budgets[name])]
             lines += _stroke_lines(plan, name)
@@ -99,16 +99,14 @@ def _capsule_lines(strip: Strip) -> Iterator[str]:
         yield f"  its necks take {cm(length - end)}: twisted it is {cm(end)} long"
 
 
-def _round_lines(strip: Strip, popped: Container[str]) -> Iterator[str]:
-    size, bubble = strip.size, strip.bubbles[0]
+def _round_lines(strip: Strip, blown: BlownRound, popped: Container[str]) -> Iterator[str]:
+    size = strip.size
     form = "heart" if size.heart else "round"
     yield f"balloon {strip.balloon}: {size.name}, {form}, {cm(2.0 * size.radius)} wide flat{_place(strip)}"
     yield from bubble_lines(strip, strip.bubbles, popped)
-    pressure = bubble.pressure or 0.0
-    gas = (
-        f"{bubble.volume * 1e3:.2f} L at {pressure / 1e3:.1f} kPa, {amount(pressure, bubble.volume):.3f} mol"
-    )
-    yield f"  blow up until it is {cm(2.0 * strip.inflated_radius)} wide: {gas}"
+    pressure, volume = blown.pressure, blown.volume
+    gas = f"{volume * 1e3:.2f} L at {pressure / 1e3:.1f} kPa, {amount(pressure, volume):.3f} mol"
+    yield f"  blow up until it is {cm(blown.width)} wide: {gas}"
 
 
 def _place(strip: Strip) -> str:
@@ -325,7 +323,7 @@ def _balloon_json(strip: Strip, budget: Budget | None) -> dict[str, Any]:
 
 
 def _inflated_length(strip: Strip) -> float:
-    return strip.bubbles[0].length if strip.is_round else strip.capsule_length
+    return strip.capsule_length if strip.blown is None else strip.blown.height
 
 
 def _shape_json(shape: Shaped) -> dict[str, Any]:

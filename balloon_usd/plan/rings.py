@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from balloon_usd.balloon.tube_mesh import last_ring
 from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.language.joint import Joint
 from balloon_usd.operations.table import BY_KIND
@@ -28,6 +29,8 @@ ROUND_GUIDES = (0.5, 0.75)
 """Where hands hold a round balloon, as shares of its wall: near its widest ring, and at its last one before
 the tip. Swung by the first alone, three balls of nine did not come into their rings.
 """
+WIDEST_LOBE = 0.65
+"""Where hands hold what twists leave of one besides its last ring, as a share of the wall up to that."""
 BEYOND_FRONT = 0.3
 """Flat rubber that hands hold as they hold a tube that they wind, in that of the tube."""
 TIP_GUIDE = 3.0
@@ -140,7 +143,7 @@ def _guide_shares(bubble: PlannedBubble, strip: Strip, fronts_led: Sequence[floa
         evenly = [k / (bubble.places + 1) for k in range(1, bubble.places + 1)]
         return tuple(sorted([*own, *_parted([*ends, *evenly, *fronts], apart, 1.0 - apart, own)]))
     if strip.is_round:
-        return ROUND_GUIDES
+        return _round_guides(bubble, strip)
     stretch = 1.0 if strip.capsule else maxwell_state(strip.rubber).bulged.b
     share = min(REST_GUIDE / stretch / bubble.rest_length, 0.5)
     tip = max(1.0 - TIP_GUIDE * strip.size.radius / bubble.rest_length, 0.5 * (1.0 + share))
@@ -148,6 +151,13 @@ def _guide_shares(bubble: PlannedBubble, strip: Strip, fronts_led: Sequence[floa
     # Behind the last ring of the tube comes the round tip.
     last = 1.0 - strip.size.radius / bubble.rest_length
     return tuple(_parted((*shares, *fronts), apart, last)) or (0.5,)
+
+
+def _round_guides(bubble: PlannedBubble, strip: Strip) -> tuple[float, ...]:
+    if bubble.rest_start == 0.0:
+        return ROUND_GUIDES
+    last = (last_ring(strip.size, bubble.rest_start) - bubble.rest_start) / bubble.rest_length
+    return WIDEST_LOBE * last, last
 
 
 def _fronts_led(strip: Strip) -> list[float]:

@@ -121,6 +121,6 @@ def _crowd(at: Joint, graph: SculptureGraph, bubbles: OnStrips, drawn: float) ->
 def _reach(bubble: PlannedBubble, strip: Strip, *, closed: bool) -> float:
     """Return how far a bubble reaches from its joint, m; `closed`: whether both its ends are there."""
     if closed:
-        return 0.5 * (bubble.length + ROUND_END * min(bubble.length, 2.0 * strip.inflated_radius))
+        return 0.5 * (bubble.length + ROUND_END * min(bubble.length, strip.width_of(bubble)))
     # What is left of a balloon has gas in its tail, too.
     return max(bubble.length, bubble.rest_length) if bubble.kind == "rest" else bubble.length

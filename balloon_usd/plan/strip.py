@@ -82,6 +82,8 @@ class PlannedBubble:
     """Unstressed distance of the gas's end from the knot before it is twisted off, m; only of tubes."""
     leads: bool = False
     """Whether hands lead all that is left of its balloon before it is twisted off."""
+    width: float | None = None
+    """Width of what a twist makes of a round balloon, m; None of others, which are as wide as theirs."""
     tears: bool = False
     """Whether it is popped, and both its ends hang on something: its wall tears in the middle."""
 
@@ -119,6 +121,19 @@ class PlannedBubble:
         return self.rest_length - 0.5 * sum(self.drawn)
 
 
+class BlownRound(NamedTuple):
+    """A round balloon or a heart that is blown up, before anything of it is twisted off."""
+
+    width: float
+    """m."""
+    height: float
+    """m."""
+    volume: float
+    """Gas, m3."""
+    pressure: float
+    """Gauge, Pa."""
+
+
 @dataclass(frozen=True)
 class Strip:
     """One balloon of a plan."""
@@ -141,8 +156,8 @@ class Strip:
     shape: Shaped | None = None
     """What a balloon from a mesh file is; None of others. Its size is that of a ball of the same wall."""
 
-    width: float | None = None
-    """Width to which a round balloon is blown up, m; None of others."""
+    blown: BlownRound | None = None
+    """What a round balloon or a heart is blown up to; None of others."""
 
     @property
     def has_tail(self) -> bool:
@@ -151,8 +166,13 @@ class Strip:
 
     @property
     def is_round(self) -> bool:
-        """Whether it is a round balloon, which is one bubble."""
-        return self.width is not None
+        """Whether it is a round balloon or a heart."""
+        return self.blown is not None
+
+    @property
+    def width(self) -> float | None:
+        """Width to which a round balloon is blown up, m; None of others."""
+        return None if self.blown is None else self.blown.width
 
     @property
     def tip_is_tied(self) -> bool:
@@ -168,8 +188,8 @@ class Strip:
     @property
     def inflated_radius(self) -> float:
         """Radius of the blown-up balloon, m."""
-        if self.width is not None:
-            return 0.5 * self.width
+        if self.blown is not None:
+            return 0.5 * self.blown.width
         return self.size.radius * maxwell_state(self.rubber).bulged.a
 
     @property
@@ -190,6 +210,10 @@ class Strip:
             return {}
         most = longest * shortest_stable_bubble(self.size, softened(self.rubber)).length
         return {k: bubble.length for k, bubble in enumerate(self.bubbles[:-1]) if bubble.length < most}
+
+    def width_of(self, bubble: PlannedBubble) -> float:
+        """Return how wide a bubble is, m: as its balloon, but for what is twisted off a round one."""
+        return 2.0 * self.inflated_radius if bubble.width is None else bubble.width
 
     def bubble_at(self, along: float) -> PlannedBubble:
         """Return the bubble that owns the rubber at an unstressed distance from the knot (m)."""

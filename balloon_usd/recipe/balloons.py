@@ -32,7 +32,9 @@ USUAL_SWELL = 1.2
 """Size to which a balloon from a mesh is blown up: taut, and still of its own shape."""
 
 ROUNDS: tuple[BalloonSizeName, ...] = ("R5", "R11", "H6", "H11")
-"""Sizes of round balloons, which are one bubble each."""
+"""Sizes of round balloons."""
+HEARTS: tuple[BalloonSizeName, ...] = ("H6", "H11")
+"""Those of them that have two lobes."""
 ROUND_KEYS = ("size", "inflated", "filled", "color", "finish", "radius", "thickness")
 """Keys that a round balloon has."""
 
@@ -93,7 +95,7 @@ def balloons_in(data: object) -> dict[str, object]:
     return balloons if isinstance(balloons, dict) else {}
 
 
-def rounds_in(data: object) -> list[str]:
-    """Names of the round balloons in the plain data of a recipe."""
-    entries = balloons_in(data).items()
-    return [name for name, entry in entries if isinstance(entry, dict) and entry.get("size") in ROUNDS]
+def rounds_in(data: object) -> dict[str, bool]:
+    """Names of the round balloons in the plain data of a recipe, and whether they are hearts."""
+    sizes = {name: entry.get("size") for name, entry in balloons_in(data).items() if isinstance(entry, dict)}
+    return {name: size in HEARTS for name, size in sizes.items() if size in ROUNDS}

@@ -46,7 +46,7 @@ def test_it_is_tied_locked_aimed_and_squeezed(step):
 @pytest.mark.parametrize(
     ("step", "key"),
     [
-        ("bubbles: {a: 5}\n    balloon: skull", "bubbles"),
+        ("loop: {a: 9}\n    balloon: skull", "loop"),
         ("ear: {a: 3}\n    balloon: skull", "ear"),
         ("bend: {head: 90}", "bend"),
         ("curl: {head: 2}", "curl"),
@@ -87,9 +87,31 @@ def test_a_balloon_named_where_a_bubble_belongs_is_told_how_its_bubble_gets_a_na
     )
 
 
-def test_twists_are_not_offered_to_round_ones():
-    (told,) = problems(HEAD + "  - bubbles: {more: 5}\n")
+def test_what_takes_no_round_one_is_not_offered_it():
+    (told,) = problems(HEAD + "  - loop: {more: 25}\n")
     assert told.endswith("does not say on which balloon, expected balloon: body")
+    (told,) = problems(HEAD + "  - bubbles: {more: 5}\n")
+    assert told.endswith("does not say on which balloon, expected balloon: one of body, skull")
+
+
+def test_nothing_is_twisted_off_one_behind_its_rest():
+    (told,) = problems(HEAD + "  - bubbles: {more: 5}\n    balloon: skull\n")
+    assert told.endswith(
+        'balloon "skull" has ended at steps[0].rest, expected nothing made of it after its rest'
+    )
+
+
+def test_a_joint_at_which_one_is_twisted_is_locked_but_not_its_far_side():
+    twisted = HEAD.replace("  - rest: head", "  - bubbles: {neck: 5}\n    balloon: skull\n  - rest: head")
+    Recipe.parse(f"{twisted}  - lock: {{joints: [left_arm.start, neck.end]}}\n")
+    (told,) = problems(f"{twisted}  - lock: {{joints: [left_arm.start, head.end]}}\n")
+    assert told.endswith("head.end is the far side of a round balloon, expected head.start")
+
+
+def test_a_heart_is_not_twisted():
+    heart = HEAD.replace("R5", "H6").replace("rest: head", "bubbles: {lobe: 4}")
+    (told,) = problems(heart)
+    assert told.endswith('bubbles: takes no heart, and "skull" is one, expected a tube')
 
 
 def test_a_size_in_small_letters_is_one_fault():

@@ -10,6 +10,7 @@ import numpy as np
 
 from balloon_usd.balloon.bubble_shape import neck_rubber, neck_rubber_of_length
 from balloon_usd.balloon.sizes import BalloonSize
+from balloon_usd.balloon.tip_wall import tip_thickening
 from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.plan.open_tube import softened
 from balloon_usd.solver.body import NECK_RADIUS, Body, RingSpec
@@ -67,10 +68,6 @@ SEED_LENGTH = 4.0
 """Length behind the knot that artists stretch beforehand, in R0: it is softer, so the bulge starts there."""
 SEED_THINNING = 0.12
 """Share by which the wall is thinner there instead if the rubber does not soften."""
-TIP_THICKENING = 0.5
-"""Wall is thicker by this share at the tip, where the former was dipped deepest."""
-TIP_LENGTH = 1.0
-"""Length over which that thickening fades, in R0."""
 CONTACT_OFFSET = 0.4
 """Distance at which walls begin to press, in R0, 2 mm for a 260."""
 ARC_OFFSET = 1.35
@@ -93,6 +90,7 @@ def tube_body(
     short: Mapping[int, float] | None = None,
     drawn: tuple[float, ...] | None = None,
     *,
+    parted: tuple[float, ...] = (),
     inverted: bool = False,
 ) -> LatexBody:
     """Return the body of a twisting balloon: lip, knot bead, and a chamber between every two joints.
@@ -102,6 +100,7 @@ def tube_body(
     `knot_pressure`: gauge pressure sealed into the knot bead, Pa.
     `short`: inflated lengths of bubbles too short to tell by their rubber, m, by their number.
     `drawn`: unstressed rubber that turns draw into the neck of every joint, m.
+    `parted`: places of joints whose necks hide no rubber, in place of `joints`, m.
     `inverted`: whether the wall of the first bubble is turned inside: then its outside meets itself, and
     knot and lip lie in it instead of being folded up in a neck.
     """
@@ -109,7 +108,7 @@ def tube_body(
     bead = int(np.searchsorted(mesh.ring_along, -1e-9))
     lip = 3
     marks = [(lip, True, True), (bead, True, True)]
-    marks += [(mesh.ring_at(s), True, False) for s in joints]
+    marks += [(mesh.ring_at(s), True, False) for s in (*joints, *parted)]
     marks += [(mesh.ring_at(s), False, False) for s in guides]
     marks.sort()
     rings = tuple(
@@ -123,7 +122,7 @@ def tube_body(
     gauge[0], gauge[1] = LIP_PRESSURE * knot_pressure, knot_pressure
     middle = mesh.along[mesh.quads].mean(axis=1)
     seed = _seed(middle / (SEED_LENGTH * radius))
-    wall = thickness * (1.0 + TIP_THICKENING * np.exp((middle - mesh.along.max()) / (TIP_LENGTH * radius)))
+    wall = thickness * tip_thickening(mesh.along.max() - middle, radius)
     if rubber.softening is None:
         wall *= 1.0 - SEED_THINNING * seed
     wall[: borders[0]] *= LIP_THICKNESS
@@ -138,8 +137,8 @@ def tube_body(
         quads=mesh.quads,
         thickness=wall,
         rubber=rubber,
-        hidden=np.concatenate([[0.0, 0.0], necks.shares]),
-        drawn=np.concatenate([np.zeros((2, 2)), necks.drawn_shares]),
+        hidden=np.concatenate([[0.0, 0.0], necks.shares, np.zeros(len(parted))]),
+        drawn=np.concatenate([np.zeros((2, 2)), necks.drawn_shares, np.zeros((len(parted), 2))]),
         worked=seed * float(rubber.energy(bulged.a, bulged.b)),
         radius=radius,
         contact_offset=CONTACT_OFFSET * radius,

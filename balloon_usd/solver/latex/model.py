@@ -248,7 +248,7 @@ def _body(plan: Plan, strip: Strip, mesh: BalloonMesh) -> LatexBody:
     pressure = SEALED_KNOT * maxwell_state(strip.rubber).p_star * thinness
     guides = tuple(r.along for r in plan.table.rings if r.balloon == strip.balloon and not r.joint)
     if strip.is_round:
-        return round_body(mesh, strip.rubber, strip.size, guides, pressure)
+        return round_body(mesh, strip.rubber, strip.size, joint_places(strip), guides, pressure)
     return tube_body(
         mesh,
         strip.rubber,

@@ -17,14 +17,20 @@ if TYPE_CHECKING:
 
 
 def round_body(
-    mesh: BalloonMesh, rubber: Rubber, size: BalloonSize, guides: tuple[float, ...], knot_pressure: float
+    mesh: BalloonMesh,
+    rubber: Rubber,
+    size: BalloonSize,
+    joints: tuple[float, ...],
+    guides: tuple[float, ...],
+    knot_pressure: float,
 ) -> LatexBody:
-    """Return the body of a round balloon; `guides`: unstressed distances of rings from the knot, m.
+    """Return the body of a round balloon; `joints`, `guides`: unstressed distances of rings from the knot, m.
 
     It is tied as a tube of the width of its neck is. It bulges all at once, so nothing of it is stretched
     beforehand.
     """
-    tied = tube_body(mesh, rubber, size.neck_radius, size.thickness, (), guides, knot_pressure)
+    neck = size.neck_radius, size.thickness
+    tied = tube_body(mesh, rubber, *neck, (), guides, knot_pressure, parted=joints)
     wall = tied.thickness
     if size.heart:
         wall = wall * size.heart_wall.wall(mesh.points[mesh.quads].mean(axis=1))

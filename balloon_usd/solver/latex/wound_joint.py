@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from balloon_usd.balloon.bubble_shape import neck_rubber, neck_rubber_of_length
-from balloon_usd.balloon.wound_neck import drawing_torque, drawn_rubber, wound_rigidity
+from balloon_usd.balloon.wound_neck import drawing_torque, drawn_rubber, rope_stretch, wound_rigidity
 from balloon_usd.plan.open_tube import softened
 
 if TYPE_CHECKING:
@@ -113,6 +113,16 @@ def rope_stiffness(strip: Strip, bubble: str, neck: float) -> float:
 
     The rubber that it hides is a rod of the wall's cross-section.
     """
+    if strip.is_round:
+        # Its strands run straight inwards, stretched as those of a tube are.
+        length = 2.0 * neck / rope_stretch(softened(strip.rubber))
+    else:
+        length = _hidden_rubber(strip, bubble, neck)
+    return wound_rigidity(strip.size, strip.rubber) / length
+
+
+def _hidden_rubber(strip: Strip, bubble: str, neck: float) -> float:
+    """Return the rubber that the neck behind a bubble of a tube hides, m."""
     at = next(k for k, planned in enumerate(strip.bubbles) if planned.name == bubble)
     rubber = softened(strip.rubber)
     balls = strip.balls()
@@ -122,4 +132,4 @@ def rope_stiffness(strip: Strip, bubble: str, neck: float) -> float:
             length += neck_rubber_of_length(strip.size, rubber, planned.length, neck)
         else:
             length += neck_rubber(strip.size, rubber, planned.wall_length, neck)
-    return wound_rigidity(strip.size, strip.rubber) / length
+    return length

@@ -82,10 +82,10 @@ class Inflate(Motion):
 
     def _pump_round(self, balloon: str) -> None:
         scene, hands, b = self._sculpture.scene, self._sculpture.hands, self._body
-        bubble = self._sculpture.plan.strips[balloon].bubbles[0]
-        assert bubble.pressure is not None, "the plan knows the pressure of a round balloon"
+        blown = self._sculpture.plan.strips[balloon].blown
+        assert blown is not None, "it is a round balloon"
         share = polygon_share(scene.bodies[b].rings[0].around)
-        hands.pump_goal[b] = amount(bubble.pressure, bubble.volume) * share
+        hands.pump_goal[b] = amount(blown.pressure, blown.volume) * share
         hands.pump_limit[b] = scene.settings.atmosphere
         hands.grip(int(scene.joint_start[b]) + 1, self._sculpture.frame.middle)
 

@@ -1,0 +1,117 @@
+"""A round balloon still open to the hands: from its last twist to its tip."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from balloon_usd.balloon.air import ATMOSPHERE
+from balloon_usd.balloon.lobe_shape import Lobe, blown_up, flat_wall
+
+if TYPE_CHECKING:
+    from balloon_usd.balloon.rubber import Rubber
+    from balloon_usd.balloon.sizes import BalloonSize
+
+LEAST_WALL = 0.15
+"""Least share of the whole wall of which a lobe is made: a smaller one is all neck."""
+_STEPS = 14
+"""Most steps of each search."""
+_FARTHEST = 0.3
+"""Largest step of a search, in a logarithm."""
+_ALIKE = 3e-4
+"""Accuracy of heights and of the energies of two walls."""
+
+
+@dataclass(frozen=True)
+class OpenRound:
+    """The wall beyond the last twist, blown up."""
+
+    size: BalloonSize
+    rubber: Rubber
+    start: float
+    """Unstressed distance of its first neck from the knot along the wall, m."""
+    neck: float
+    """Radius of all its necks, m."""
+    lobe: Lobe
+
+    @classmethod
+    def whole(cls, size: BalloonSize, rubber: Rubber, neck: float, volume: float) -> OpenRound:
+        """Return a balloon that holds so much gas, m3, before it is twisted.
+
+        Raises:
+            ValueError: no shape is found.
+        """
+        lobe = blown_up(flat_wall(size, 0.0, size.length, (neck, 0.0)), rubber, volume)
+        return cls(size, rubber, 0.0, neck, lobe)
+
+    @property
+    def lengths(self) -> tuple[float, float]:
+        """Least and greatest unstressed length of a wall that can be twisted off, m."""
+        least = LEAST_WALL * self.size.length
+        return least, self.size.length - self.start - least
+
+    def twisted(self, height: float) -> tuple[Lobe, OpenRound]:
+        """Twist off a lobe of a height, m; return it and what is left. Hands leave so much gas in it that
+        both walls are stretched alike.
+
+        Raises:
+            ValueError: there is no such lobe, or no shape is found.
+        """
+        low, high = self.lengths
+        length = (self.size.length - self.start) * 0.8 * height / self.lobe.height
+        length, grows = min(max(length, low), high), 1.0
+        found: tuple[Lobe, OpenRound] | None = None
+        for _ in range(_STEPS if low < high else 0):
+            before, found = found, self.parted(length, found)
+            off = math.log(found[0].height / height)
+            if abs(off) < _ALIKE:
+                return found
+            if before is not None:
+                longer = math.log(length / (before[1].start - self.start))
+                grows = max(math.log(found[0].height / before[0].height) / longer, 0.2)
+            at, length = length, min(max(length * math.exp(_step(-off / grows)), low), high)
+            if length == at:
+                break
+        raise ValueError(f"no lobe {100.0 * height:.3g} cm high is found")
+
+    def parted(self, length: float, like: tuple[Lobe, OpenRound] | None = None) -> tuple[Lobe, OpenRound]:
+        """Twist off a lobe whose wall is so long unstressed, m; `like`: one of nearly the same shape.
+
+        Raises:
+            ValueError: no shape is found.
+        """
+        at = self.start + length
+        walls = (
+            flat_wall(self.size, self.start, at, (self.neck, self.neck)),
+            flat_wall(self.size, at, self.size.length, (self.neck, 0.0)),
+        )
+        rubber = [float(wall.rubber.sum()) for wall in walls]
+        gas = (ATMOSPHERE + self.lobe.pressure) * self.lobe.volume
+        sides: list[Lobe | None] = [None, None] if like is None else [like[0], like[1].lobe]
+        pressures = [self.lobe.pressure if side is None else side.pressure for side in sides]
+        # As for two balls that are alike stretched.
+        more = 1.5 * math.log(rubber[0] / rubber[1])
+        if like is not None:
+            of_walls = 1.5 * math.log(like[0].load[0].sum() / like[1].lobe.load[0].sum())
+            more += math.log(like[0].volume / like[1].lobe.volume) - of_walls
+        for _ in range(_STEPS):
+            shares = 1.0 / (1.0 + math.exp(-more)), 1.0 / (1.0 + math.exp(more))
+            lobe, rest = (
+                blown_up(wall, self.rubber, share * gas / (ATMOSPHERE + pressure), side)
+                for wall, share, pressure, side in zip(walls, shares, pressures, sides, strict=True)
+            )
+            sides, pressures = [lobe, rest], [lobe.pressure, rest.pressure]
+            off = math.log(lobe.energy / rubber[0] * rubber[1] / rest.energy)
+            if abs(off) < _ALIKE:
+                return lobe, replace(self, start=at, lobe=rest)
+            # What the gas does the walls store.
+            grows = shares[1] * lobe.volume * lobe.pressure / lobe.energy
+            grows += shares[0] * rest.volume * rest.pressure / rest.energy
+            more += _step(-off / grows)
+        raise ValueError(f"no lobe with {100.0 * length:.3g} cm of wall is found")
+
+
+def _step(wanted: float) -> float:
+    """Return the step of a search in a logarithm; far off may be no shape."""
+    return min(max(wanted, -_FARTHEST), _FARTHEST)
