@@ -36,7 +36,7 @@ def cleft_of(mesh, frame):
 def work_of_wall_and_gas(made, mesh, frame):
     """Work of the wall and of the gas while all grows alike, J: Clapeyron's theorem, 3 p V of the gas."""
     strip = made.strips["one"]
-    body = round_body(mesh, strip.rubber, strip.size, (), 1.0)
+    body = round_body(mesh, strip.rubber, strip.size, (), (), 1.0)
     data = membrane_data(body, 1e-4, 1e5, scale_mass=False)
     corners = frame.points[0].astype(float)[mesh.quads]
     hoop = 0.5 * (corners[:, 1] - corners[:, 0] + corners[:, 2] - corners[:, 3])

@@ -70,7 +70,7 @@ def test_it_has_the_pressure_of_the_plan(verify, blown):
 def pull_and_push(made, mesh, frame, row):
     """Pull of the wall along its meridian through a row of faces, and push of the gas on that cut, N."""
     strip = made.strips["one"]
-    unstressed = round_body(mesh, strip.rubber, strip.size, (), 1.0).rest
+    unstressed = round_body(mesh, strip.rubber, strip.size, (), (), 1.0).rest
     sides = [np.stack([rings(mesh, x)[row], rings(mesh, x)[row + 1]]) for x in (frame.points[0], unstressed)]
     hoop = [np.linalg.norm(np.roll(x, -1, axis=1) - x, axis=2).mean(axis=0) for x in sides]
     meridian = [x[1] - x[0] + np.roll(x[1] - x[0], -1, axis=0) for x in sides]

@@ -91,6 +91,7 @@ def tube_body(
     drawn: tuple[float, ...] | None = None,
     *,
     parted: tuple[float, ...] = (),
+    seeded: bool = True,
     inverted: bool = False,
 ) -> LatexBody:
     """Return the body of a twisting balloon: lip, knot bead, and a chamber between every two joints.
@@ -101,6 +102,7 @@ def tube_body(
     `short`: inflated lengths of bubbles too short to tell by their rubber, m, by their number.
     `drawn`: unstressed rubber that turns draw into the neck of every joint, m.
     `parted`: places of joints whose necks hide no rubber, in place of `joints`, m.
+    `seeded`: whether the wall is softer behind the knot, so that a bulge starts there.
     `inverted`: whether the wall of the first bubble is turned inside: then its outside meets itself, and
     knot and lip lie in it instead of being folded up in a neck.
     """
@@ -121,7 +123,7 @@ def tube_body(
     gauge = np.zeros(len(ends))
     gauge[0], gauge[1] = LIP_PRESSURE * knot_pressure, knot_pressure
     middle = mesh.along[mesh.quads].mean(axis=1)
-    seed = _seed(middle / (SEED_LENGTH * radius))
+    seed = _seed(middle / (SEED_LENGTH * radius)) if seeded else np.zeros_like(middle)
     wall = thickness * tip_thickening(mesh.along.max() - middle, radius)
     if rubber.softening is None:
         wall *= 1.0 - SEED_THINNING * seed

@@ -5,8 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from balloon_usd.balloon.tube_theory import maxwell_state
 from balloon_usd.solver.latex.body import ARC_OFFSET, LatexBody, tube_body
 
@@ -30,13 +28,12 @@ def round_body(
     beforehand.
     """
     neck = size.neck_radius, size.thickness
-    tied = tube_body(mesh, rubber, *neck, (), guides, knot_pressure, parted=joints)
+    tied = tube_body(mesh, rubber, *neck, (), guides, knot_pressure, parted=joints, seeded=False)
     wall = tied.thickness
     if size.heart:
         wall = wall * size.heart_wall.wall(mesh.points[mesh.quads].mean(axis=1))
     return replace(
         tied,
         thickness=wall,
-        worked=np.zeros(len(mesh.quads)),
         contact_arc=ARC_OFFSET / (8.0 * maxwell_state(rubber).bulged.b * size.radius),
     )
