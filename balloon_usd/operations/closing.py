@@ -26,6 +26,8 @@ def too_round(bubble: PlacedBubble, word: str) -> str | None:
 
     `word`: the operation that shall do that.
     """
+    if bubble.of_round:
+        return f"part of a {bubble.size}, a round balloon with no side to bend, expected joints of others"
     least = ROUND * bubble.width
     if bubble.length > least - LENIENCE:
         return None

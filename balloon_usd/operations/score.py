@@ -127,6 +127,10 @@ class PlacedBubble(Protocol):
         """Name of the size of its balloon."""
 
     @property
+    def of_round(self) -> bool:
+        """Whether its balloon is a round one."""
+
+    @property
     def flat_radius(self) -> float:
         """Radius of its balloon before it is blown up, m."""
 

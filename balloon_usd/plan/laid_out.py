@@ -59,6 +59,10 @@ class _Placed:
         return self.strip.size.name
 
     @property
+    def of_round(self) -> bool:
+        return self.strip.is_round
+
+    @property
     def flat_radius(self) -> float:
         return self.strip.size.radius
 

@@ -102,6 +102,13 @@ def test_no_gas_is_pressed_out_of_its_parts():
     assert "steps[0].burp" in problem
 
 
+def test_none_of_its_parts_is_closed_on_itself():
+    problem = refused(left(6), "lock: {joints: [left.start, left.end]}")
+    assert problem.endswith(
+        "closes left: part of a R5, a round balloon with no side to bend, expected joints of others"
+    )
+
+
 def test_nothing_lies_in_one_that_is_twisted():
     text = HEAD.replace("R5, inflated: 9", "R11, inflated: 18")
     steps = ("insert: {egg: right}", "inflate: pair", "inflate: egg", left(8))
