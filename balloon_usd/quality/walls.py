@@ -27,6 +27,8 @@ STUB_REACH = 1.2
 """How far from the middle of its neck what is left of an end that was cut off lies, at most, in the neck's
 radius: a lid with a nib (`solver.severed`).
 """
+OPEN = 0.3
+"""Radius of a neck that has opened again, at least, in how far the rubber before it reaches."""
 
 
 class Side(NamedTuple):
@@ -36,18 +38,23 @@ class Side(NamedTuple):
     """Vertices of the ring in the middle of the neck."""
     vertices: Numbers
     """All vertices beyond it."""
+    others: Numbers
+    """All before it."""
 
     def moved(self, before: int) -> Side:
         """Return it with the numbers of its vertices counted on from some before them."""
-        return Side(self.ring + before, self.vertices + before)
+        return Side(self.ring + before, self.vertices + before, self.others + before)
 
     def is_cut_off(self, points: NDArray[np.floating]) -> bool:
         """Whether all that is beyond lies in the neck; `points`: of all balloons, (V, 3) m."""
         ring = points[self.ring].astype(np.float64)
         middle = ring.mean(axis=0)
-        reach = STUB_REACH * _far(ring, middle)
+        radius = _far(ring, middle)
         # Of what hangs there its two ends tell so, without a look at all of it.
-        return all(_far(points[some], middle) <= reach for some in (self.vertices[[0, -1]], self.vertices))
+        beyond = (self.vertices[[0, -1]], self.vertices)
+        if any(_far(points[some], middle) > STUB_REACH * radius for some in beyond):
+            return False
+        return radius < OPEN * _far(points[self.others], middle)
 
 
 class Walls(NamedTuple):
@@ -89,12 +96,14 @@ def walls_of(plan: Plan, meshes: Sequence[BalloonMesh]) -> Walls:
         quads.append(mesh.quads.astype(np.int64) + vertices)
         bubbles.append(mesh.quad_bubble.astype(np.int64) + before)
         neck = np.full(len(mesh.points), NO_NECK, dtype=np.int64)
+        nearest = np.full(len(mesh.points), neck_reach(strip))
         for ring, joint in rings:
             place = plan.table.rings[ring]
             if place.balloon == strip.balloon and not (strip.inverted and place.along <= 0.0):
-                near = np.abs(mesh.along - place.along) <= neck_reach(strip)
                 # Knot and lip lie behind their ring.
-                neck[near | (mesh.along < 0.0) if place.along <= 0.0 else near] = joint
+                away = np.abs(np.maximum(mesh.along, 0.0) - place.along)
+                near = away <= nearest
+                neck[near], nearest[near] = joint, away[near]
                 if place.along > 0.0:
                     corners = np.r_[RingCorners.of(plan, meshes, ring).vertices]
                     beyond = mesh.along - mesh.along[corners[0]]
@@ -125,8 +134,8 @@ def sides_of_ring(ring: Numbers, beyond: NDArray[np.floating]) -> list[Side]:
     """
     others = np.ones(len(beyond), dtype=bool)
     others[ring] = False
-    found = (np.flatnonzero(others & (side * beyond > 0.0)) for side in (-1.0, 1.0))
-    return [Side(ring, vertices) for vertices in found if len(vertices)]
+    first, last = (np.flatnonzero(others & (side * beyond > 0.0)) for side in (-1.0, 1.0))
+    return [Side(ring, *each) for each in ((first, last), (last, first)) if len(first) and len(last)]
 
 
 def _far(points: NDArray[np.floating], middle: NDArray[np.float64]) -> float:

@@ -1,0 +1,71 @@
+"""Which rubber lies in which neck."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from balloon_usd.balloon.detail import DETAILS
+from balloon_usd.plan import plan
+from balloon_usd.plan.meshing import made_meshes
+from balloon_usd.quality.joints import joints_of
+from balloon_usd.quality.walls import Side, neck_reach, walls_of
+from balloon_usd.recipe import Recipe
+
+AROUND = 12
+SHORT = """
+format: 1
+name: short
+units: cm
+balloons:
+  {balloon}
+steps:
+  - bubbles: {{first: {first}, second: {second}}}
+  - rest: last
+must_hold: planned
+"""
+TUBE = SHORT.format(balloon="one: {size: 260, length: 14, tail: 6}", first=2, second=2)
+ROUND = SHORT.format(balloon="one: {size: R5, inflated: 9}", first=4, second=6.5)
+
+
+def side(ring, beyond, before):
+    """A neck of some radius, with rubber beyond it and before it up to some distances from its middle, m."""
+    turn = 2.0 * np.pi * np.arange(AROUND) / AROUND
+    circle = np.stack([np.zeros(AROUND), np.cos(turn), np.sin(turn)], axis=1)
+    rubber = np.array([[1.0, 0.0, 0.0], [0.5, 0.0, 0.0]])
+    points = np.concatenate([ring * circle, beyond * rubber, -before * rubber])
+    count = np.arange(len(points))
+    return Side(count[:AROUND], count[AROUND:-2], count[-2:]), points
+
+
+def test_what_is_drawn_into_a_closed_neck_is_cut_off():
+    stub, points = side(ring=0.0025, beyond=0.0025, before=0.03)
+    assert stub.is_cut_off(points)
+
+
+def test_what_hangs_on_a_closed_neck_is_not():
+    bubble, points = side(ring=0.0025, beyond=0.04, before=0.03)
+    assert not bubble.is_cut_off(points)
+
+
+def test_what_lies_before_a_neck_that_has_opened_again_is_not():
+    bubble, points = side(ring=0.04, beyond=0.045, before=0.08)
+    assert not bubble.is_cut_off(points)
+
+
+@pytest.mark.parametrize("text", [TUBE, ROUND], ids=["tube", "round"])
+def test_rubber_between_two_near_necks_lies_in_the_nearer_one(text):
+    made = plan(Recipe.parse(text))
+    (mesh,) = meshes = made_meshes(made, DETAILS["draft"])
+    walls = walls_of(made, meshes)
+    rings = [
+        (made.table.rings[ring].along, joint)
+        for joint, group in enumerate(joints_of(made))
+        for ring in group.rings
+    ]
+    reach = neck_reach(made.strips["one"])
+    for vertex in np.flatnonzero(walls.neck >= 0):
+        along = max(float(mesh.along[vertex]), 0.0)
+        away = {joint: abs(place - along) for place, joint in rings}
+        assert away[walls.neck[vertex]] == pytest.approx(min(away.values()), abs=1e-9)
+        assert away[walls.neck[vertex]] <= reach
