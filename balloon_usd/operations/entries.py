@@ -87,7 +87,7 @@ class StepEntry:
             refused = {
                 name: heart for name, heart in rounds.items() if not operation.takes_round(heart=heart)
             }
-            bench.refuse_rounds(word, self.path, refused)
+            bench.refuse_rounds(word, self.path, refused, rounds=operation.on_rounds)
             if refused and not self.makes:
                 continue
             operation.check(self.entries[word], place, bench)

@@ -239,7 +239,9 @@ class Score:
         found = tuple(ring for ring in rings if ring is not None)
         if len(found) < len(rings):
             tip = ends[rings.index(None)]
-            text = "is the tip of its balloon and cannot be twisted, expected another joint, or a step tie"
+            text = "is the tip of its balloon and cannot be twisted, expected another joint"
+            if not self.layout.bubble(tip.bubble).of_round:
+                text += ", or a step tie"
             self.refuse(index, {(word,): f"{tip} {text}"})
         return found
 

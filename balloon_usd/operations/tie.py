@@ -123,8 +123,9 @@ def _is_end(end: Joint, path: Path, bench: Workbench) -> bool:
     if end.end == "start" and bench.piece.row(made.balloon)[0] == end.bubble:
         return True
     first = bench.piece.row(made.balloon)[0]
-    start = "" if first in bench.piece.popped else f"{first}.start, or "
-    ends = f"{start}the end of what a step rest names"
-    what = f"{end} is no end of balloon {made.balloon}, expected {ends}; other joints are locked"
-    bench.complain(path, f"{what}: lock: {{joints: [...]}}")
+    ends = [] if first in bench.piece.popped else [f"{first}.start"]
+    if not bench.is_of_round(end.bubble):
+        ends.append("the end of what a step rest names")
+    what = f"{end} is no end of balloon {made.balloon}, expected {', or '.join(ends)}"
+    bench.complain(path, f"{what}; other joints are locked: lock: {{joints: [...]}}")
     return False

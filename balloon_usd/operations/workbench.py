@@ -132,21 +132,28 @@ class Workbench:
             what = f"balloon {quoted(name)} is flat until {path_text(later)} blows it up"
             self.complain(place.path, f"{what}: expected this step after that one")
 
+    def is_of_round(self, name: str) -> bool:
+        """Say whether a bubble is a round balloon, or twisted off one."""
+        return self._owner(name) in self._rounds
+
     def is_round_end(self, name: str) -> bool:
         """Say whether a bubble is a round balloon, or what twists leave of one: its end is no joint."""
         made = self.piece.bubbles.get(name)
-        return self._owner(name) in self._rounds and (made is None or made.last)
+        return self.is_of_round(name) and (made is None or made.last)
 
     def rounds_among(self, balloon: str | None, bubbles: Iterable[str]) -> dict[str, bool]:
         """Return those of a balloon, and of some bubbles, that are round, and whether they are hearts."""
         owners = dict.fromkeys([balloon, *map(self._owner, bubbles)])
         return {name: self._rounds[name] for name in owners if name is not None and name in self._rounds}
 
-    def refuse_rounds(self, word: str, path: Path, refused: Mapping[str, bool]) -> None:
-        """Complain of a step of a word that takes no such round balloons; told is whether they are hearts."""
+    def refuse_rounds(self, word: str, path: Path, refused: Mapping[str, bool], *, rounds: bool) -> None:
+        """Complain of a step of a word that takes no such round balloons; told is whether they are hearts.
+
+        `rounds`: whether it takes those that are none.
+        """
         for name, heart in refused.items():
             what = f"takes no {'heart' if heart else 'round balloon'}, and {quoted(name)} is one"
-            self.complain((*path, word), f"{what}, expected a tube")
+            self.complain((*path, word), f"{what}, expected a tube{' or a round balloon' if rounds else ''}")
             self._told_round.add(path)
 
     def note_use(self, path: Path, bubbles: Iterable[str]) -> None:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from balloon_usd.language.lengths import cm
 from balloon_usd.plan.graph import sculpture_graph
 from balloon_usd.plan.holding import loose_joints
+from balloon_usd.plan.laying_rounds import twisted_round
 from balloon_usd.plan.report import (
     bubble_lines,
     caution_lines,
@@ -37,6 +38,8 @@ class OpenPart:
     """Flat tail, m; 0 where it is used up, and of a capsule, which has none."""
     pressure: float | None
     """Gauge pressure, Pa; None of a capsule."""
+    has_tail: bool = True
+    """Whether it is a tube, which ends in its flat tail."""
 
 
 @dataclass(frozen=True)
@@ -89,6 +92,12 @@ class AfterStep:
             return None
         if strip.capsule:
             return OpenPart(strip.bubbles[-1].end - (made[-1].end if made else 0.0), 0.0, None)
+        if strip.blown is not None:
+            heights = tuple(bubble.length for bubble in made)
+            if not heights:
+                return OpenPart(strip.blown.height, 0.0, strip.blown.pressure, has_tail=False)
+            lobe = twisted_round(strip.size, strip.rubber, strip.blown.volume, heights)[1].lobe
+            return OpenPart(lobe.height, 0.0, lobe.pressure, has_tail=False)
         budget = self.plan.budgets[strip.balloon]
         if not made:
             return OpenPart(budget.inflated_length, budget.tail, budget.pressure)
@@ -135,7 +144,8 @@ def _left(left: OpenPart | None) -> str:
         return "  nothing more is made of it"
     if left.pressure is None:
         return f"  left: {cm(left.length)}"
-    return f"  left: {cm(left.length)} blown up at {left.pressure / 1e3:.1f} kPa, {cm(left.tail)} flat"
+    flat = f", {cm(left.tail)} flat" if left.has_tail else ""
+    return f"  left: {cm(left.length)} blown up at {left.pressure / 1e3:.1f} kPa{flat}"
 
 
 def after_step_json(after: AfterStep) -> dict[str, Any]:
@@ -147,7 +157,7 @@ def after_step_json(after: AfterStep) -> dict[str, Any]:
             {
                 "name": strip.balloon,
                 "bubbles": [asdict(bubble) for bubble in after.made(strip)],
-                "left": None if (left := after.left(strip)) is None else asdict(left),
+                "left": _left_json(after.left(strip)),
             }
             for strip in after.strips
         ],
@@ -155,3 +165,9 @@ def after_step_json(after: AfterStep) -> dict[str, Any]:
         "graph": graph_json(after.graph, after.margins, winds=after.plan.recipe.physics.traits.winds),
         "cautions": [asdict(caution) for caution in after.cautions],
     }
+
+
+def _left_json(left: OpenPart | None) -> dict[str, Any] | None:
+    if left is None:
+        return None
+    return {"length": left.length, "tail": left.tail, "pressure": left.pressure}

@@ -35,6 +35,8 @@ if TYPE_CHECKING:
 
 MOST_TURNS = 5.0
 """Turns above which a twist eats tail and can cut the rubber: makers stop at 5."""
+DRAWS = f"every turn beyond {PACKING_TURNS:g} draws rubber into it, and too many cut it"
+"""Why too many turns strain the neck of a tube."""
 SURELY_BORNE = 0.93
 """Load of a wall up to which it surely bears it: plans and runs agree to some per cent near bursting."""
 EVEN = 2.4
@@ -76,7 +78,7 @@ def _of_latex(
     recipe: Recipe, strips: Mapping[str, Strip], graph: SculptureGraph, budgets: Mapping[str, Budget]
 ) -> Iterator[Caution]:
     """What springs with frozen joints do not know: they neither harden, soften, burst nor unwind."""
-    yield from _turns(recipe)
+    yield from _turns(recipe, strips)
     yield from _slippery(recipe)
     yield from _short_bubbles(strips)
     yield from chain.from_iterable(_burst(recipe, strips[name], it, graph) for name, it in budgets.items())
@@ -84,7 +86,8 @@ def _of_latex(
     yield from _unwinding(recipe, strips, graph)
 
 
-def _turns(recipe: Recipe) -> Iterator[Caution]:
+def _turns(recipe: Recipe, strips: Mapping[str, Strip]) -> Iterator[Caution]:
+    rounds = {bubble.name for strip in strips.values() if strip.is_round for bubble in strip.bubbles}
     for index, step in enumerate(recipe.steps):
         if not isinstance(step, Turned):
             continue
@@ -99,7 +102,7 @@ def _turns(recipe: Recipe) -> Iterator[Caution]:
             yield Caution(
                 index,
                 f"a twist of {turns_text(step.turns)} strains its neck",
-                f"every turn beyond {PACKING_TURNS:g} draws rubber into it, and too many cut it",
+                "too many turns cut it" if rounds.intersection(step.lengths) else DRAWS,
                 "turns: 3",
             )
 
@@ -221,17 +224,19 @@ def _softening(recipe: Recipe) -> Iterator[Caution]:
 
 
 def _unwinding(recipe: Recipe, strips: Mapping[str, Strip], graph: SculptureGraph) -> Iterator[Caution]:
-    remedy = "lock it to another joint, or make one of its neighbours an ear"
+    fails = ""
     if recipe.must_hold == EVERY:
-        remedy += f"; a run fails where it comes undone, but with {MUST_HOLD}: {PLANNED}"
-    steps = {bubble.name: bubble.step for strip in strips.values() for bubble in strip.bubbles}
+        fails = f"; a run fails where it comes undone, but with {MUST_HOLD}: {PLANNED}"
+    bubbles = {bubble.name: (strip, bubble) for strip in strips.values() for bubble in strip.bubbles}
     for joint in graph.joints:
         if graph.springs_back(joint.index):
+            strip, bubble = bubbles[joint.ends[0].bubble]
+            ear = "" if strip.is_round else ", or make one of its neighbours an ear"
             yield Caution(
-                steps[joint.ends[0].bubble],
+                bubble.step,
                 f"the twist between {_neighbours(joint)} will unwind",
                 "nothing holds it: what hangs there is free to spin, and no ring closes over it",
-                remedy,
+                f"lock it to another joint{ear}{fails}",
             )
 
 

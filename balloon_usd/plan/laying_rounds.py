@@ -18,7 +18,7 @@ from balloon_usd.plan.blown import NECK_AT_KNOT
 from balloon_usd.plan.strip import BlownRound, PlannedBubble, Strip
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Sequence
 
     from balloon_usd.balloon.lobe_shape import Lobe
     from balloon_usd.balloon.rubber import Rubber
@@ -36,7 +36,10 @@ and all from 1.53 on wind up to a bundle: one whose wall is slack round it is 1.
 LEAST_RANGE = 2e-3
 """Range of heights of which none is told, m."""
 LOBES = 9
-"""Lobes of which the lowest and the highest that can be made is told."""
+"""Lobes of which the lowest and the highest that can be made are told, and how often what lies between those
+and their neighbours is halved.
+"""
+HALVINGS = 5
 FLAT_VOLUME = 1.9
 """Volume of a flat round one that is not pressed together, in that of a ball of its width."""
 
@@ -226,21 +229,49 @@ def twisted_round(
 
 def _misfit(made: Made, left: OpenRound, balloon: str, lobe: Lobe | None) -> str:
     """Say why a bubble is not twisted off what is left of a round balloon, and what would be."""
-    text = f"{quoted(made.bubble)} of {cm(made.length)} is not twisted off what is left of {balloon}"
+    what = f"what is left of {balloon}" if left.start > 0.0 else balloon
+    text = f"{quoted(made.bubble)} of {cm(made.length)} is not twisted off {what}"
     if lobe is not None:
         text = f"{quoted(made.bubble)} of {cm(made.length)} would be {cm(lobe.width)} wide, all in folds"
-    fitting = [each.height for each in _lobes_of(left) if each.width <= MOST_FLAT * each.height]
-    if not fitting or max(fitting) < min(fitting) + LEAST_RANGE:
+    heights = _fitting_heights(left)
+    if heights is None:
         return f"{text}, expected fewer bubbles, or a balloon that is blown up less"
-    return f"{text}, expected {at_least(min(fitting))} to {at_most(max(fitting))}"
+    less = ", or a balloon that is blown up less" if made.length < heights[0] else ""
+    return f"{text}, expected {at_least(heights[0])} to {at_most(heights[1])}{less}"
 
 
-def _lobes_of(left: OpenRound) -> Iterator[Lobe]:
-    """Yield lobes of all heights that are twisted off what is left of a round balloon."""
+def _fitting_heights(left: OpenRound) -> tuple[float, float] | None:
+    """Return the heights (m) of the lowest and the highest bubble that is twisted off what is left of a round
+    balloon; None where hardly any is.
+    """
     least, most = left.lengths
-    for length in np.linspace(least, most, LOBES) if least < most else ():
-        with contextlib.suppress(ValueError):
-            yield left.parted(float(length))[0]
+    lengths = np.linspace(least, most, LOBES) if least < most else np.zeros(0)
+    fits = [_fitting(left, length) is not None for length in lengths]
+    if not any(fits):
+        return None
+    first, last = fits.index(True), len(fits) - 1 - fits[::-1].index(True)
+    low = _edge(left, lengths[first], lengths[max(first - 1, 0)])
+    high = _edge(left, lengths[last], lengths[min(last + 1, len(fits) - 1)])
+    return (low, high) if low + LEAST_RANGE < high else None
+
+
+def _edge(left: OpenRound, fits: float, fails: float) -> float:
+    """Return the height (m) of the bubble at which those end that fit, between two lengths of wall, m."""
+    for _ in range(HALVINGS):
+        middle = 0.5 * (fits + fails)
+        fits, fails = (fits, middle) if _fitting(left, middle) is None else (middle, fails)
+    lobe = _fitting(left, fits)
+    assert lobe is not None, "the first length fits"
+    return lobe.height
+
+
+def _fitting(left: OpenRound, length: float) -> Lobe | None:
+    """Return the bubble of a length of wall (m) that is twisted off; None where it is too flat."""
+    with contextlib.suppress(ValueError):
+        lobe, _ = left.parted(length)
+        if lobe.width <= MOST_FLAT * lobe.height:
+            return lobe
+    return None
 
 
 def round_volume(strip: Strip) -> float:

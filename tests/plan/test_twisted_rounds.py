@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from balloon_usd.plan import plan as plan_of
+from balloon_usd.plan.after_step import after_step, after_step_json, after_step_text
 from balloon_usd.plan.drawing import plan_svg
 from balloon_usd.plan.report import plan_text
 from balloon_usd.recipe import Recipe, RecipeError
@@ -76,11 +77,11 @@ def test_the_drawing_marks_the_joint_on_the_flat_balloon():
     assert plan_svg(planned(left(6))).count("<line") == whole + 2
 
 
-@pytest.mark.parametrize("height", [1.5, 12])
-def test_what_is_too_low_or_too_high_is_told_what_can_be_made(height):
+@pytest.mark.parametrize(("height", "less"), [(1.5, ", or a balloon that is blown up less"), (12, "")])
+def test_what_is_too_low_or_too_high_is_told_what_can_be_made(height, less):
     assert refused(left(height)) == (
-        f'<text>:9:22: steps[0].bubbles.left: "left" of {height:g} cm is not twisted off what is left of pair, '
-        "expected 3.1 cm to 8.8 cm"
+        f'<text>:9:22: steps[0].bubbles.left: "left" of {height:g} cm is not twisted off pair, '
+        f"expected 2.8 cm to 8.8 cm{less}"
     )
 
 
@@ -116,3 +117,25 @@ def test_nothing_lies_in_one_that_is_twisted():
         RecipeError, match="part of a round balloon that is twisted, whose necks leave no room"
     ):
         plan_of(Recipe.parse(text + "".join(f"  - {step}\n" for step in steps) + REST))
+
+
+def test_what_is_left_after_a_step_is_told():
+    made = planned(left(6))
+    text = after_step_text(after_step(made, 0))
+    assert "left: 6.4 cm blown up at 5.2 kPa\n" in text
+    assert after_step_json(after_step(made, 0))["balloons"][0]["left"]["length"] == made.bubbles[1].length
+
+
+def test_nothing_is_advised_that_a_round_balloon_does_not_do():
+    cautions = planned(left(6, turns=10)).cautions
+    assert not any("ear" in caution.remedy.split() for caution in cautions)
+    assert not any("draws rubber" in caution.why for caution in cautions)
+
+
+@pytest.mark.parametrize("end", ["left.end", "right.start"])
+def test_a_joint_in_its_middle_is_no_end_to_tie(end):
+    tied = REST.replace("must_hold", f"  - tie: {{end: {end}, to: yolk.start}}\nmust_hold")
+    with pytest.raises(RecipeError) as caught:
+        Recipe.parse(f"{HEAD}  - {left(6)}{tied}")
+    told = f"{end} is no end of balloon pair, expected left.start; other joints are locked"
+    assert told in str(caught.value)
