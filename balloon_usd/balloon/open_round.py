@@ -90,11 +90,12 @@ class OpenRound:
         gas = (ATMOSPHERE + self.lobe.pressure) * self.lobe.volume
         sides: list[Lobe | None] = [None, None] if like is None else [like[0], like[1].lobe]
         pressures = [self.lobe.pressure if side is None else side.pressure for side in sides]
-        # As for two balls that are alike stretched.
-        more = 1.5 * math.log(rubber[0] / rubber[1])
+        # Logarithm of how much more gas is in the lobe than in what is left: first as in two balls that are
+        # alike stretched, then off that by as much as in the shapes that are like these.
+        more = _of_balls(rubber[0], rubber[1])
         if like is not None:
-            of_walls = 1.5 * math.log(like[0].load[0].sum() / like[1].lobe.load[0].sum())
-            more += math.log(like[0].volume / like[1].lobe.volume) - of_walls
+            held = [float(side.load[0].sum()) for side in (like[0], like[1].lobe)]
+            more += math.log(like[0].volume / like[1].lobe.volume) - _of_balls(held[0], held[1])
         for _ in range(_STEPS):
             shares = 1.0 / (1.0 + math.exp(-more)), 1.0 / (1.0 + math.exp(more))
             lobe, rest = (
@@ -110,6 +111,11 @@ class OpenRound:
             grows += shares[0] * rest.volume * rest.pressure / rest.energy
             more += _step(-off / grows)
         raise ValueError(f"no lobe with {100.0 * length:.3g} cm of wall is found")
+
+
+def _of_balls(first: float, second: float) -> float:
+    """Return the logarithm of how much more gas is in one of two balls of some rubber, m3, alike stretched."""
+    return 1.5 * math.log(first / second)
 
 
 def _step(wanted: float) -> float:

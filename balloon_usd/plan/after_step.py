@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 from balloon_usd.language.lengths import cm
 from balloon_usd.plan.graph import sculpture_graph
 from balloon_usd.plan.holding import loose_joints
-from balloon_usd.plan.laying_rounds import twisted_round
 from balloon_usd.plan.report import (
     bubble_lines,
     caution_lines,
@@ -19,6 +18,7 @@ from balloon_usd.plan.report import (
     margins_of,
     ring_line,
 )
+from balloon_usd.plan.twisting_rounds import twisted_round
 
 if TYPE_CHECKING:
     from balloon_usd.language.joint import Joint
