@@ -114,7 +114,7 @@ class OpenRound:
 
 
 def _of_balls(first: float, second: float) -> float:
-    """Return the logarithm of how much more gas is in one of two balls of some rubber, m3, alike stretched."""
+    """Return the logarithm of the gas in one of two balls of some rubber (m3) over that in the other."""
     return 1.5 * math.log(first / second)
 
 
