@@ -65,8 +65,8 @@ class Lobe(NamedTuple):
     """Gas, m3."""
     energy: float
     """Elastic energy of its rubber, J."""
-    load: tuple[Floats, Floats]
-    """Rubber (m3) and energy (J/m3) of its pieces, (P,) each."""
+    rubber: float
+    """Its rubber, m3."""
 
     @property
     def height(self) -> float:
@@ -134,8 +134,7 @@ def _found(wall: FlatWall, rubber: Rubber, volume: float, like: Lobe | None, mos
         radius[1:-1] = np.maximum(radius[1:-1], _LEAST_RADIUS * ball)
         pressure += share * float(step[-1])
         if longest < _ACCURACY * ball:
-            load = wall.rubber, energies / wall.rubber
-            return Lobe(x, radius, pressure, volume, float(energies.sum()), load)
+            return Lobe(x, radius, pressure, volume, float(energies.sum()), float(wall.rubber.sum()))
     return None
 
 
@@ -188,10 +187,9 @@ def _relaxed(
     energy, along_hoop, along_axis = rubber.energy_and_stress(a, b)
     aa, ab, bb = rubber.stiffness(a, b)
     folds_round, folds_along = a > hoop, b > axial
-    slack = folds_round & folds_along
     # A strip that narrows freely is softer.
     bb = np.where(folds_round, bb - ab**2 / aa, bb)
-    aa, bb = np.where(folds_along, aa - ab**2 / bb, aa), np.where(folds_along | slack, 0.0, bb)
+    aa, bb = np.where(folds_along, aa - ab**2 / bb, aa), np.where(folds_along, 0.0, bb)
     aa = np.where(folds_round, 0.0, aa)
     ab = np.where(folds_round | folds_along, 0.0, ab)
     stresses = np.where(folds_round, 0.0, along_hoop), np.where(folds_along, 0.0, along_axis)

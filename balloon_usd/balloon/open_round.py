@@ -94,8 +94,8 @@ class OpenRound:
         # alike stretched, then off that by as much as in the shapes that are like these.
         more = _of_balls(rubber[0], rubber[1])
         if like is not None:
-            held = [float(side.load[0].sum()) for side in (like[0], like[1].lobe)]
-            more += math.log(like[0].volume / like[1].lobe.volume) - _of_balls(held[0], held[1])
+            first, second = like[0], like[1].lobe
+            more += math.log(first.volume / second.volume) - _of_balls(first.rubber, second.rubber)
         for _ in range(_STEPS):
             shares = 1.0 / (1.0 + math.exp(-more)), 1.0 / (1.0 + math.exp(more))
             lobe, rest = (

@@ -34,12 +34,10 @@ class OpenPart:
 
     length: float
     """Inflated length, m."""
-    tail: float
-    """Flat tail, m; 0 where it is used up, and of a capsule, which has none."""
+    tail: float | None
+    """Flat tail, m; 0 where it is used up, and of a capsule, which has none; None of a round balloon."""
     pressure: float | None
     """Gauge pressure, Pa; None of a capsule."""
-    has_tail: bool = True
-    """Whether it is a tube, which ends in its flat tail."""
 
 
 @dataclass(frozen=True)
@@ -95,9 +93,9 @@ class AfterStep:
         if strip.blown is not None:
             heights = tuple(bubble.length for bubble in made)
             if not heights:
-                return OpenPart(strip.blown.height, 0.0, strip.blown.pressure, has_tail=False)
+                return OpenPart(strip.blown.height, None, strip.blown.pressure)
             lobe = twisted_round(strip.size, strip.rubber, strip.blown.volume, heights)[1].lobe
-            return OpenPart(lobe.height, 0.0, lobe.pressure, has_tail=False)
+            return OpenPart(lobe.height, None, lobe.pressure)
         budget = self.plan.budgets[strip.balloon]
         if not made:
             return OpenPart(budget.inflated_length, budget.tail, budget.pressure)
@@ -144,7 +142,7 @@ def _left(left: OpenPart | None) -> str:
         return "  nothing more is made of it"
     if left.pressure is None:
         return f"  left: {cm(left.length)}"
-    flat = f", {cm(left.tail)} flat" if left.has_tail else ""
+    flat = "" if left.tail is None else f", {cm(left.tail)} flat"
     return f"  left: {cm(left.length)} blown up at {left.pressure / 1e3:.1f} kPa{flat}"
 
 
@@ -157,7 +155,7 @@ def after_step_json(after: AfterStep) -> dict[str, Any]:
             {
                 "name": strip.balloon,
                 "bubbles": [asdict(bubble) for bubble in after.made(strip)],
-                "left": _left_json(after.left(strip)),
+                "left": None if (left := after.left(strip)) is None else asdict(left),
             }
             for strip in after.strips
         ],
@@ -165,9 +163,3 @@ def after_step_json(after: AfterStep) -> dict[str, Any]:
         "graph": graph_json(after.graph, after.margins, winds=after.plan.recipe.physics.traits.winds),
         "cautions": [asdict(caution) for caution in after.cautions],
     }
-
-
-def _left_json(left: OpenPart | None) -> dict[str, Any] | None:
-    if left is None:
-        return None
-    return {"length": left.length, "tail": left.tail, "pressure": left.pressure}

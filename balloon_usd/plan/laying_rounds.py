@@ -122,15 +122,14 @@ def _blown(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> Blow
         text = f"a {what} {cm(flat)} wide while it is flat is not blown up to {cm(width)}"
         text += f", expected a width of {at_least(least)} to {at_most(full)}"
         raise RecipeError([recipe.problem(("balloons", name, key), text)])
-    volume, height, pressure = _shape_of(_growth(size), width / flat)
-    ball = ball_pressure(rubber, width / flat, size.thickness / size.radius)
-    return BlownRound(width, height * width, volume * math.pi / 6.0 * width**3, pressure * ball)
+    pressure = _shape_of(size, width)[2] * ball_pressure(rubber, width / flat, size.thickness / size.radius)
+    return BlownRound(width, round_height(size, width), round_volume(size, width), pressure)
 
 
-def round_volume(strip: Strip) -> float:
-    """Return the volume of a round balloon that is blown up, m3."""
-    share, _, _ = _shape_of(_growth(strip.size), strip.inflated_radius / strip.size.radius)
-    return share * math.pi / 6.0 * (2.0 * strip.inflated_radius) ** 3
+def round_volume(size: BalloonSize, width: float) -> float:
+    """Return the volume (m3) of a round balloon or heart that is blown up to a width, m."""
+    share, _, _ = _shape_of(size, width)
+    return share * math.pi / 6.0 * width**3
 
 
 def widths_of(size: BalloonSize) -> tuple[float, float]:
@@ -141,7 +140,7 @@ def widths_of(size: BalloonSize) -> tuple[float, float]:
 
 def round_height(size: BalloonSize, width: float) -> float:
     """Return how high a round balloon or heart is that is blown up to a width, both m."""
-    _, height, _ = _shape_of(_growth(size), 0.5 * width / size.radius)
+    _, height, _ = _shape_of(size, width)
     return height * width
 
 
@@ -156,7 +155,7 @@ def _growth(size: BalloonSize) -> Growth:
     return HEART if size.heart else EGG
 
 
-def _shape_of(growth: Growth, stretch: float) -> list[float]:
-    """Return volume, height and pressure of a round balloon of a width, as a growth has them."""
-    known, *shapes = np.array(growth.shapes).T
-    return [float(np.interp(stretch, known, shape)) for shape in shapes]
+def _shape_of(size: BalloonSize, width: float) -> list[float]:
+    """Return volume, height and pressure of a round balloon of a width, m, as its growth has them."""
+    known, *shapes = np.array(_growth(size).shapes).T
+    return [float(np.interp(0.5 * width / size.radius, known, shape)) for shape in shapes]

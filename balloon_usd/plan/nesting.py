@@ -76,8 +76,8 @@ def blown_volume(strip: Strip) -> float:
     """Return the volume of a balloon that is blown up, m3."""
     if strip.shape is not None:
         return strip.shape.volume
-    if strip.is_round:
-        return round_volume(strip)
+    if strip.blown is not None:
+        return round_volume(strip.size, strip.blown.width)
     return float(inflated_tube(strip.size, softened(strip.rubber), strip.tail).volume)
 
 

@@ -6,12 +6,10 @@ import numpy as np
 import pytest
 
 from balloon_usd.plan import plan
-from balloon_usd.quality.crossing_counter import CrossingCounter
-from balloon_usd.quality.walls import walls_of
 from balloon_usd.recipe import Recipe
 from balloon_usd.solver.latex.round_body import round_body
-from balloon_usd.solver.simulation import simulate_many
 from tests.verification.blown_up import blown_up
+from tests.verification.made_whole import made_whole
 
 WIDTHS = (6, 9, 13)
 TIED = """
@@ -92,13 +90,7 @@ def test_its_wall_pulls_at_its_widest_ring_as_its_gas_pushes(verify, blown):
 
 def test_it_is_tied_to_a_figure_and_no_wall_goes_through_another():
     made = plan(Recipe.parse(TIED))
-    simulation = simulate_many([made], device="cpu")
-    (meshes,) = simulation.meshes
-    counter, most, frames = CrossingCounter(walls_of(made, meshes), 100), 0, 0
-    for (frame,) in simulation.frames():
-        frames += 1
-        if frame.time_code % 8 == 0 or frame.time_code == made.frame_count:
-            most = max(most, counter.count(frame.points).count)
+    meshes, frame, frames, most = made_whole(made)
     assert frames == made.frame_count
     assert most == 0
     ends = [next(r for r in made.table.rings if r.name == name) for name in ("body.knot", "skull.knot")]

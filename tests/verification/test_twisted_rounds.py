@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 from balloon_usd.plan import plan
-from balloon_usd.quality.crossing_counter import CrossingCounter
-from balloon_usd.quality.walls import walls_of
 from balloon_usd.recipe import Recipe
 from balloon_usd.solver.simulation import simulate_many
+from tests.verification.made_whole import made_whole
 
 TWISTED = """
 format: 1
@@ -101,12 +100,7 @@ def test_a_twist_that_nothing_holds_springs_back_and_all_is_one_ball_again():
 
 def test_two_eyes_are_locked_to_a_figure_and_no_wall_goes_through_another():
     made = plan(Recipe.parse(EYES))
-    simulation = simulate_many([made], device="cpu")
-    (meshes,) = simulation.meshes
-    counter, most, frame = CrossingCounter(walls_of(made, meshes), 100), 0, None
-    for (frame,) in simulation.frames():
-        if frame.time_code % 8 == 0 or frame.time_code == made.frame_count:
-            most = max(most, counter.count(frame.points).count)
+    _, frame, _, most = made_whole(made)
     assert frame.time_code == made.frame_count
     assert frame.undone == ()
     assert most == 0
