@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from balloon_usd.operations.closing import TwistsClosed
-from balloon_usd.operations.operation import BubbleKind, Lengths
+from balloon_usd.operations.closing import LengthsOrNames, TwistsClosed
+from balloon_usd.operations.operation import BubbleKind
 
 
 class Ear(TwistsClosed):
@@ -40,5 +40,5 @@ steps:
         "bpmizuki.hatenablog.jp: 空豆ひねり",
     )
 
-    ear: Lengths
+    ear: LengthsOrNames
     """Pinch a short soft bubble and twist its two ends together."""

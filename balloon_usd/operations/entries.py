@@ -78,7 +78,9 @@ class StepEntry:
         if not self.words and set(self.entries) <= set(MODIFIERS):
             bench.complain(self.path, f"no operation, expected {one_of(WORDS)}")
         unnamed = "balloon" not in self.entries
-        makes = any(BY_WORD[word].bubble_kind is not None for word in self.words) and unnamed
+        # Of bubbles that are there is known on which balloon they are.
+        makes = unnamed and any(BY_WORD[word].bubble_kind is not None for word in self.words)
+        makes = makes and bool(self.makes or not self.uses)
         twists = makes and not all(BY_WORD[word].on_rounds for word in self.words)
         place = Place(self.path, bench.balloon_of(self.path, self.balloon, makes=makes, twists=twists))
         for word in self.words:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from balloon_usd.operations.closing import TwistsClosed
-from balloon_usd.operations.operation import BubbleKind, Lengths
+from balloon_usd.operations.closing import LengthsOrNames, TwistsClosed
+from balloon_usd.operations.operation import BubbleKind
 
 
 class Fold(TwistsClosed):
@@ -36,5 +36,5 @@ steps:
         "airweaver.wordpress.com",
     )
 
-    fold: Lengths
+    fold: LengthsOrNames
     """As loop, but bent sharply in its middle so that both halves lie side by side."""

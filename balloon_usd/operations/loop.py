@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, ClassVar
 
 from balloon_usd.language.lengths import at_least, cm
 from balloon_usd.operations.caution import Caution
-from balloon_usd.operations.closing import TwistsClosed
-from balloon_usd.operations.operation import BubbleKind, Lengths
+from balloon_usd.operations.closing import LengthsOrNames, TwistsClosed
+from balloon_usd.operations.operation import BubbleKind
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -46,12 +46,12 @@ steps:
         "bpmizuki.hatenablog.jp: 輪ひねり",
     )
 
-    loop: Lengths
+    loop: LengthsOrNames
     """Make a long bubble and twist its two ends together."""
 
     def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:
         """Warn of loops that are too short to be bent."""
-        yield from short_loops(self.word, self.loop, index, layout)
+        yield from short_loops(self.word, self.names, index, layout)
 
 
 def short_loops(word: str, names: Iterable[str], index: int, layout: Layout) -> Iterator[Caution]:

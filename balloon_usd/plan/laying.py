@@ -173,7 +173,8 @@ def _beyond_full(length: float, size: BalloonSize, full: float) -> str:
 
 
 def _made(recipe: Recipe, name: str) -> list[Made]:
-    """What the steps make of one balloon, but its rest."""
+    """What the steps make of one balloon, but its rest; what a later step closes is soft from the first."""
+    closed = {name: s for s in recipe.steps if s.closes for name in s.names if name not in s.lengths}
     found = []
     for bubble in recipe.piece.row(name)[:-1]:
         index = recipe.piece.bubbles[bubble].step
@@ -183,7 +184,10 @@ def _made(recipe: Recipe, name: str) -> list[Made]:
             # Only one whose end is tied has something behind it.
             found.append(Made(index, "bubble", bubble, ALL))
             continue
-        found.append(Made(index, step.bubble_kind, bubble, step.lengths[bubble], step.gas_left))
+        maker = closed.get(bubble, step)
+        assert maker.bubble_kind is not None, "a step that closes bubbles says what they become"
+        gas = step.gas_left if maker is step else step.gas_left * maker.gas
+        found.append(Made(index, maker.bubble_kind, bubble, step.lengths[bubble], gas, slack=maker.slack))
     return found
 
 
@@ -194,7 +198,7 @@ def _wound(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> list
         step = recipe.steps[made.step]
         turns = step.turns if isinstance(step, Turned) and recipe.physics.traits.winds else 0.0
         drawn = drawn_rubber(size, softened(rubber), turns)
-        found.append(made._replace(drawn=drawn, slack=step.slack))
+        found.append(made._replace(drawn=drawn))
     return found
 
 

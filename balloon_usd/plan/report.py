@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Container, Iterator, Mapping, Sequence
 
     from balloon_usd.operations.caution import Caution
+    from balloon_usd.operations.operation import Operation
     from balloon_usd.plan.budget import Budget
     from balloon_usd.plan.graph import SculptureGraph
     from balloon_usd.plan.model import Plan
@@ -176,10 +177,15 @@ def _graph_lines(plan: Plan) -> Iterator[str]:
                 led_in.remove((balloon, event.step))
                 side = "right" if _aside(plan)[balloon] > 0.0 else "left"
                 yield f"  step {event.step + 1} leads in {balloon} from the {side}"
-        if isinstance(event, Joined) and not plan.recipe.steps[event.step].closes:
+        if isinstance(event, Joined) and _is_told(plan.recipe.steps[event.step], event):
             what = f"{plan.recipe.steps[event.step].does} {', '.join(map(str, event.ends))}"
             yield f"  step {event.step + 1} {what} (joint {graph.joint_of(event.ends[0]).index})"
     yield from joint_lines(graph, margins_of(plan.recipe, graph))
+
+
+def _is_told(step: Operation, event: Joined) -> bool:
+    """Tell if joining ends is more than what a step does with each bubble that it makes."""
+    return not step.closes or any(end.bubble not in step.lengths for end in event.ends)
 
 
 def _apart(plan: Plan, event: Popped) -> str:

@@ -10,7 +10,10 @@ from balloon_usd.solver.latex.motions.closing_neck import ClosingNeck
 from balloon_usd.solver.latex.motions.steady import steady
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from balloon_usd.operations import moves
+    from balloon_usd.plan.strip import PlannedBubble
     from balloon_usd.solver.latex.sculpture import LatexSculpture
 
 
@@ -27,7 +30,7 @@ class Pinch(ClosingNeck):
             # All its gas would leave through an open neck: what has to leave is pushed out.
             self._ball = SqueezedBall(sculpture, move.ring, bubbles)
             self.shut()
-            if len(bubbles) > 1:
+            if len(bubbles) > 1 or _is_left_slack(sculpture, bubbles):
                 # So soft meanwhile that the walls beside it come in over its neck.
                 self._hands.touch(sculpture.bodies)
         else:
@@ -40,3 +43,9 @@ class Pinch(ClosingNeck):
         super().advance(share)
         if self._ball is not None:
             self._ball.squeeze(share)
+
+
+def _is_left_slack(sculpture: LatexSculpture, bubbles: Iterable[PlannedBubble]) -> bool:
+    """Tell whether one of some bubbles is given rubber with which a later step than its own closes it."""
+    steps = sculpture.plan.recipe.steps
+    return any(bubble.slack > steps[bubble.step].slack for bubble in bubbles)
