@@ -38,9 +38,13 @@ class CrossingCounter:
         self._walls = walls
         self._search = _search(walls, device) if frames > FEW else None
 
-    def count(self, points: Sequence[NDArray[np.float32]]) -> Crossings:
-        """Return the crossings of a frame; `points`: (V, 3) float32 of every balloon, m."""
-        return crossings_in(*self._pierced(_joined(points)))
+    def count(self, points: Sequence[NDArray[np.float32]], *, held: bool = False) -> Crossings:
+        """Return the crossings of a frame; `points`: (V, 3) float32 of every balloon, m.
+
+        `held`: whether hands still hold together what is meant to slip when they let go.
+        """
+        walls, pierced = self._pierced(_joined(points))
+        return crossings_in(walls.held() if held else walls, pierced)
 
     def depth(self, points: Sequence[NDArray[np.float32]]) -> float:
         """Return how deep the deepest vertex at a crossing of a frame lies inside a wall, m."""

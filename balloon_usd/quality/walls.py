@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from balloon_usd.balloon.sizes import NECK_REACH
-from balloon_usd.quality.joints import joints_of
+from balloon_usd.quality.joints import joints_of, made_joints
 from balloon_usd.quality.ring_corners import RingCorners
 
 if TYPE_CHECKING:
@@ -74,6 +74,17 @@ class Walls(NamedTuple):
     """Joint in whose neck each vertex lies, (V,); `NO_NECK` of others."""
     sides: tuple[Side, ...] = ()
     """Of all necks but those of knots."""
+    slipping: tuple[tuple[int, ...], ...] = ()
+    """Joints that hands hold together as one until they let go, and nothing does then."""
+
+    def held(self) -> Walls:
+        """Return them as hands hold them: joints that are meant to slip are one."""
+        if not self.slipping:
+            return self
+        neck = self.neck.copy()
+        for first, *others in self.slipping:
+            neck[np.isin(neck, others)] = first
+        return self._replace(neck=neck)
 
     def cut_off(self, points: NDArray[np.floating]) -> Walls:
         """Return them as in a frame, (V, 3) m: what was cut off lies in the neck from which it was."""
@@ -112,7 +123,10 @@ def walls_of(plan: Plan, meshes: Sequence[BalloonMesh]) -> Walls:
         vertices += len(mesh.points)
         before += len(strip.bubbles)
     names = tuple(bubble.name for bubble in plan.bubbles)
-    return walls_from(np.concatenate(quads), np.concatenate(bubbles), np.concatenate(necks), names, sides)
+    found = walls_from(np.concatenate(quads), np.concatenate(bubbles), np.concatenate(necks), names, sides)
+    joint_of = dict(rings)
+    held = (tuple(dict.fromkeys(joint_of[ring] for ring in each.rings)) for each in made_joints(plan))
+    return found._replace(slipping=tuple(joints for joints in held if len(joints) > 1))
 
 
 def walls_from(

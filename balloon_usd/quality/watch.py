@@ -75,7 +75,8 @@ class QualityWatch:
         if frame.shift is not None and (most := float(frame.shift.max(initial=0.0))) > 0.0:
             self._led_apart, self._led_frames = max(self._led_apart, most), self._led_frames + 1
         if frame.time_code in self._counted:
-            self.crossings.add(frame.time_code, self._counter.count(frame.points))
+            held = not any(SLIPPED in told for told in frame.undone)
+            self.crossings.add(frame.time_code, self._counter.count(frame.points, held=held))
         if frame.time_code == self._plan.frame_count:
             self._end = frame
 

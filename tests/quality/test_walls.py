@@ -9,6 +9,7 @@ from balloon_usd.balloon.detail import DETAILS
 from balloon_usd.plan import plan
 from balloon_usd.plan.meshing import made_meshes
 from balloon_usd.quality.joints import joints_of
+from balloon_usd.quality.ring_corners import RingCorners
 from balloon_usd.quality.walls import Side, neck_reach, walls_of
 from balloon_usd.recipe import Recipe
 
@@ -69,3 +70,29 @@ def test_rubber_between_two_near_necks_lies_in_the_nearer_one(text):
         away = {joint: abs(place - along) for place, joint in rings}
         assert away[walls.neck[vertex]] == pytest.approx(min(away.values()), abs=1e-9)
         assert away[walls.neck[vertex]] <= reach
+
+
+PAIR = """
+format: 1
+name: pair
+units: cm
+balloons:
+  one: {size: 260, inflated: 40}
+steps:
+  - bubbles: {head: 6, left: 10, right: 10}
+  - lock: [left, right]
+    turns: %s
+  - rest: tail
+"""
+
+
+@pytest.mark.parametrize(("turns", "slips"), [(1, True), (3, False)])
+def test_a_lock_that_is_meant_to_slip_is_one_joint_as_long_as_hands_hold_it(turns, slips):
+    planned = plan(Recipe.parse(PAIR % turns))
+    (mesh,) = made_meshes(planned, DETAILS["draft"])
+    walls = walls_of(planned, [mesh])
+    ends = [planned.table.ends("left")[0], planned.table.ends("right")[1]]
+    first, last = (RingCorners.of(planned, [mesh], ring).vertices for ring in ends)
+    held = walls.held().neck
+    assert len(set(held[first]) | set(held[last])) == 1
+    assert (set(walls.neck[first]) != set(walls.neck[last])) == slips
