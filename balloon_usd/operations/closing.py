@@ -103,6 +103,11 @@ class TwistsClosed(ClosesOnItself):
         return tuple(getattr(self, self.word))
 
     @property
+    def closed(self) -> tuple[str, ...]:
+        """Bubbles that it closes."""
+        return self.names
+
+    @property
     def does(self) -> str:
         """What hands do with joints, in a word."""
         return "closes"

@@ -86,6 +86,11 @@ class Operation(Entries):
         return {}
 
     @property
+    def closed(self) -> tuple[str, ...]:
+        """Bubbles of each of which it twists the two ends together."""
+        return tuple(self.lengths) if self.closes else ()
+
+    @property
     def gas_left(self) -> float:
         """Share of the gas of its length that hands leave in each bubble that it makes."""
         return self.gas

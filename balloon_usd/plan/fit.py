@@ -30,7 +30,7 @@ def fit_problems(recipe: Recipe, strips: Mapping[str, Strip], layout: Layout) ->
 
 def _closed_by_locks(recipe: Recipe, layout: Layout) -> Iterator[Problem]:
     """Yield steps that bring together the two ends of a bubble that was not made to be closed."""
-    own = {name for step in recipe.steps if step.closes for name in step.names}
+    own = {name for step in recipe.steps for name in step.closed}
     told = {name: too_round(layout.bubble(name), "lock") for name in _closed(recipe.piece) - own}
     wrong = {name for name, text in told.items() if text is not None}
     for step in sorted({event.step for event in recipe.piece.history if isinstance(event, Joined)}):

@@ -174,7 +174,7 @@ def _beyond_full(length: float, size: BalloonSize, full: float) -> str:
 
 def _made(recipe: Recipe, name: str) -> list[Made]:
     """What the steps make of one balloon, but its rest; what a later step closes is soft from the first."""
-    closed = {name: s for s in recipe.steps if s.closes for name in s.names if name not in s.lengths}
+    closed = {name: step for step in recipe.steps for name in step.closed if name not in step.lengths}
     found = []
     for bubble in recipe.piece.row(name)[:-1]:
         index = recipe.piece.bubbles[bubble].step

@@ -7,6 +7,7 @@ import pytest
 from balloon_usd.operations.ear import Ear
 from balloon_usd.operations.loop import Loop
 from balloon_usd.operations.moves import Gather, Pinch, Spin, Weld
+from balloon_usd.operations.tulip_link import TulipLink
 from balloon_usd.plan import plan
 from balloon_usd.plan.report import plan_text
 from balloon_usd.recipe import Recipe, RecipeError
@@ -69,6 +70,14 @@ def test_what_becomes_an_ear_later_is_given_the_rubber_and_the_gas_of_an_ear_at_
     assert (found.kind, found.gas, found.slack) == (ear.kind, ear.gas, ear.slack)
     assert found.rest_length == pytest.approx(ear.rest_length)
     assert [bubble.kind for bubble in later if bubble.name == "right_ear"] == ["bubble"]
+
+
+def test_what_a_tulip_link_is_twisted_over_becomes_no_tulip() -> None:
+    root = "  - bubbles: {root: 3}\n    balloon: fire\n  - rest: flame"
+    candle = TulipLink.example.replace("  - rest: flame", root).replace("over: flame", "over: root")
+    bubbles = {bubble.name: bubble for bubble in plan(Recipe.parse(candle)).bubbles}
+    assert (bubbles["root"].kind, bubbles["root"].slack) == ("bubble", 1.0)
+    assert bubbles["socket"].kind == "tulip"
 
 
 def test_gas_that_is_pressed_out_of_a_bubble_is_missing_in_its_ear_too() -> None:
