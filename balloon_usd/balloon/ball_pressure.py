@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from balloon_usd.balloon.rubber import Rubber
+    from balloon_usd.balloon.rubber import MembraneLaw
 
 
-def ball_pressure(rubber: Rubber, swell: float, thinness: float) -> float:
+def ball_pressure(rubber: MembraneLaw, swell: float, thinness: float) -> float:
     """Return the gauge pressure (Pa) in a ball of rubber that is stretched so many times.
 
     `thinness`: unstressed thickness of the wall over the unstressed radius.

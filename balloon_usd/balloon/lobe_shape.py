@@ -1,8 +1,9 @@
 """Lobes: what twists make of a round balloon, by membrane theory.
 
 A lobe is the wall between two necks, or between a neck and the tip: a membrane of revolution, whose energy is
-least for the gas that it holds. Round a neck the wall lies in folds and bears along its meridians alone
-(tension field). The meridian is a polygon; Newton's method finds its corners and the pressure together.
+least for the gas that it holds. Rubber that was stretched farther before is softer. Round a neck the wall
+lies in folds and bears along its meridians alone (tension field). The meridian is a polygon; Newton's method
+finds its corners and the pressure together.
 """
 
 from __future__ import annotations
@@ -15,11 +16,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from balloon_usd.balloon.round_outline import round_outline
-from balloon_usd.balloon.rubber import relaxed_stretches
+from balloon_usd.balloon.rubber import UnloadedRubber, relaxed_stretches
 from balloon_usd.balloon.tip_wall import tip_thickening
 
 if TYPE_CHECKING:
-    from balloon_usd.balloon.rubber import Rubber
+    from balloon_usd.balloon.rubber import MembraneLaw, Rubber
     from balloon_usd.balloon.sizes import BalloonSize
 
 Floats = NDArray[np.float64]
@@ -31,7 +32,11 @@ _LONGEST_STEPS = (0.15, 0.4, 0.07)
 """Longest steps of Newton's method, in radii of a ball of the same gas: where it does not end with the first,
 it does with another.
 """
-_ACCURACY = 1e-5
+_SHRINKS, _BACK = 0.6, 0.5
+"""Share of the last step above which a whole one is too long, and how much of it is made then: where a wall
+begins to soften its stiffness jumps, and whole steps go to and fro about that for ever.
+"""
+_ACCURACY = 1e-4
 """Step at which it ends, in the same."""
 _LEAST_RADIUS = 1e-5
 """Least distance of a corner from the axis, in the same."""
@@ -39,9 +44,20 @@ _FIRST_PRESSURE = 3000.0
 """Pressure with which it begins, Pa; any of that order will do."""
 
 
+class Peaks(NamedTuple):
+    """How far a wall was stretched so far, from its first neck to its tip."""
+
+    along: Floats
+    """Unstressed distances from the knot along the wall, (N,), m."""
+    energy: Floats
+    """Largest energy of first loading there, (N,), J/m3."""
+
+
 class FlatWall(NamedTuple):
     """The unstressed wall of a lobe, in pieces along its meridian."""
 
+    along: Floats
+    """Unstressed distances of their middles from the knot along the wall, (P,), m."""
     lengths: Floats
     """Along the meridian, (P,), m."""
     radii: Floats
@@ -50,6 +66,8 @@ class FlatWall(NamedTuple):
     """Their rubber, (P,), m3."""
     ends: tuple[float, float]
     """Radii of the necks between which it lies, m; 0 of the tip."""
+    peaks: Floats
+    """Largest energy of first loading so far, (P,), J/m3."""
 
 
 class Lobe(NamedTuple):
@@ -63,10 +81,15 @@ class Lobe(NamedTuple):
     """Gauge, Pa."""
     volume: float
     """Gas, m3."""
-    energy: float
-    """Elastic energy of its rubber, J."""
-    rubber: float
-    """Its rubber, m3."""
+    energies: Floats
+    """Energy of first loading of its pieces, (P,), J/m3."""
+    rubber: Floats
+    """Their rubber, (P,), m3."""
+
+    @property
+    def energy(self) -> float:
+        """Energy with which its rubber would be stretched so far for the first time, J."""
+        return float(self.energies @ self.rubber)
 
     @property
     def height(self) -> float:
@@ -79,10 +102,13 @@ class Lobe(NamedTuple):
         return 2.0 * float(self.radius.max())
 
 
-def flat_wall(size: BalloonSize, start: float, end: float, ends: tuple[float, float]) -> FlatWall:
+def flat_wall(
+    size: BalloonSize, start: float, end: float, ends: tuple[float, float], peaks: Peaks | None = None
+) -> FlatWall:
     """Return the wall of a round balloon between two distances from its knot along the wall, m.
 
-    `ends`: radii of its necks there, m; 0 for the tip.
+    `ends`: radii of its necks there, m; 0 for the tip. `peaks`: how far it was stretched so far; None: not
+    at all.
     """
     outline = round_outline(size.radius, size.neck_radius)
     along = np.linspace(start, end, PIECES + 1)
@@ -90,7 +116,8 @@ def flat_wall(size: BalloonSize, start: float, end: float, ends: tuple[float, fl
     radii = np.interp(middle, outline.along, outline.radius)
     from_tip = outline.x[-1] - np.interp(middle, outline.along, outline.x)
     thickness = size.thickness * tip_thickening(from_tip, size.neck_radius)
-    return FlatWall(lengths, radii, math.tau * radii * lengths * thickness, ends)
+    peak = np.zeros(PIECES) if peaks is None else np.interp(middle, peaks.along, peaks.energy)
+    return FlatWall(middle, lengths, radii, math.tau * radii * lengths * thickness, ends, peak)
 
 
 def blown_up(wall: FlatWall, rubber: Rubber, volume: float, like: Lobe | None = None) -> Lobe:
@@ -100,6 +127,9 @@ def blown_up(wall: FlatWall, rubber: Rubber, volume: float, like: Lobe | None = 
     Raises:
         ValueError: no shape is found.
     """
+    if like is None and wall.peaks.any():
+        # From a ball a softened wall is found in 10 times as many steps.
+        like = blown_up(wall._replace(peaks=np.zeros(PIECES)), rubber, volume)
     for begin, longest in ((like, _LONGEST_STEPS[0]), *((None, each) for each in _LONGEST_STEPS)):
         if volume > 0.0 and (found := _found(wall, rubber, volume, begin, longest)) is not None:
             return found
@@ -109,13 +139,15 @@ def blown_up(wall: FlatWall, rubber: Rubber, volume: float, like: Lobe | None = 
 def _found(wall: FlatWall, rubber: Rubber, volume: float, like: Lobe | None, most: float) -> Lobe | None:
     """Return the same by Newton's method with steps of at most so many radii, if it ends."""
     ball = (3.0 * volume / (4.0 * math.pi)) ** (1.0 / 3.0)
+    law = UnloadedRubber(rubber, wall.peaks) if wall.peaks.any() else rubber
     x, radius, pressure = _first_guess(wall, volume, ball, like)
     count = len(x)
     # The first end stays where it is, and both keep their radii.
-    free = np.setdiff1d(np.arange(2 * count), [0, count, 2 * count - 1])
+    free = np.delete(np.arange(2 * count), [0, count, -1])
+    before = math.inf
     for _ in range(_MOST_STEPS):
         with np.errstate(all="ignore"):
-            energies, slope, stiffness = _wall_terms(wall, rubber, x, radius)
+            slope, stiffness = _wall_terms(wall, law, x, radius)
         held, held_slope, held_bend = _gas_terms(x, radius)
         matrix = np.zeros((len(free) + 1, len(free) + 1))
         matrix[:-1, :-1] = _assembled(stiffness - pressure * held_bend)[np.ix_(free, free)]
@@ -127,6 +159,9 @@ def _found(wall: FlatWall, rubber: Rubber, volume: float, like: Lobe | None, mos
         step = np.linalg.solve(matrix, excess)
         longest = float(np.abs(step[:-1]).max())
         share = min(1.0, most * ball / max(longest, 1e-12 * ball))
+        if share == 1.0 and longest > _SHRINKS * before:
+            share = _BACK
+        before = longest
         moved = np.zeros(2 * count)
         moved[free] = share * step[:-1]
         x = x + moved[:count]
@@ -134,7 +169,8 @@ def _found(wall: FlatWall, rubber: Rubber, volume: float, like: Lobe | None, mos
         radius[1:-1] = np.maximum(radius[1:-1], _LEAST_RADIUS * ball)
         pressure += share * float(step[-1])
         if longest < _ACCURACY * ball:
-            return Lobe(x, radius, pressure, volume, float(energies.sum()), float(wall.rubber.sum()))
+            energies = rubber.energy(*relaxed_stretches(*_stretches(wall, x, radius)))
+            return Lobe(x, radius, pressure, volume, energies, wall.rubber)
     return None
 
 
@@ -153,15 +189,19 @@ def _first_guess(
     return x, radius, pressure
 
 
-def _wall_terms(wall: FlatWall, rubber: Rubber, x: Floats, radius: Floats) -> tuple[Floats, Floats, Floats]:
-    """Return the energy of every piece, (P,) J, its slope by the coordinates of both ends, (P, 4), N, in the
-    order x, x, radius, radius, and its stiffness, (P, 4, 4), N/m.
+def _stretches(wall: FlatWall, x: Floats, radius: Floats) -> tuple[Floats, Floats]:
+    """Return the stretch of every piece round the axis and along its meridian, (P,) each."""
+    hoop = np.maximum(0.5 * (radius[1:] + radius[:-1]), 0.0) / wall.radii
+    return hoop, np.hypot(np.diff(x), np.diff(radius)) / wall.lengths
+
+
+def _wall_terms(wall: FlatWall, law: MembraneLaw, x: Floats, radius: Floats) -> tuple[Floats, Floats]:
+    """Return the slope of the energy of every piece by the coordinates of both ends, (P, 4), N, in the order
+    x, x, radius, radius, and its stiffness, (P, 4, 4), N/m.
     """
     across, out = np.diff(x), np.diff(radius)
     length = np.hypot(across, out)
-    hoop = np.maximum(0.5 * (radius[1:] + radius[:-1]), 0.0) / wall.radii
-    axial = length / wall.lengths
-    energy, tension, stiff = _relaxed(rubber, hoop, axial)
+    tension, stiff = _relaxed(law, *_stretches(wall, x, radius))
     cosine, sine = across / length, out / length
     half = 0.5 / wall.radii
     hoop_slope = np.stack([np.zeros_like(half), np.zeros_like(half), half, half], axis=1)
@@ -176,16 +216,15 @@ def _wall_terms(wall: FlatWall, rubber: Rubber, x: Floats, radius: Floats) -> tu
     turning = np.stack([-sine, sine, cosine, -cosine], axis=1)
     bend += (tension[1] / (length * wall.lengths))[:, None, None] * _outer(turning, turning)
     held = wall.rubber
-    return held * energy, held[:, None] * slope, held[:, None, None] * bend
+    return held[:, None] * slope, held[:, None, None] * bend
 
 
 def _relaxed(
-    rubber: Rubber, hoop: Floats, axial: Floats
-) -> tuple[Floats, tuple[Floats, Floats], tuple[Floats, Floats, Floats]]:
-    """Return energy (J/m3), stresses and stiffness (Pa) of a wall that lies in folds where it is pushed."""
+    law: MembraneLaw, hoop: Floats, axial: Floats
+) -> tuple[tuple[Floats, Floats], tuple[Floats, Floats, Floats]]:
+    """Return stresses and stiffness (Pa) of a wall that lies in folds where it is pushed."""
     a, b = relaxed_stretches(hoop, axial)
-    energy, along_hoop, along_axis = rubber.energy_and_stress(a, b)
-    aa, ab, bb = rubber.stiffness(a, b)
+    _, along_hoop, along_axis, aa, ab, bb = law.energy_to_stiffness(a, b)
     folds_round, folds_along = a > hoop, b > axial
     # A strip that narrows freely is softer.
     bb = np.where(folds_round, bb - ab**2 / aa, bb)
@@ -193,7 +232,7 @@ def _relaxed(
     aa = np.where(folds_round, 0.0, aa)
     ab = np.where(folds_round | folds_along, 0.0, ab)
     stresses = np.where(folds_round, 0.0, along_hoop), np.where(folds_along, 0.0, along_axis)
-    return energy, stresses, (aa, ab, bb)
+    return stresses, (aa, ab, bb)
 
 
 def _gas_terms(x: Floats, radius: Floats) -> tuple[float, Floats, Floats]:

@@ -6,10 +6,13 @@ import math
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from balloon_usd.balloon.air import ATMOSPHERE
-from balloon_usd.balloon.lobe_shape import Lobe, blown_up, flat_wall
+from balloon_usd.balloon.lobe_shape import Lobe, Peaks, blown_up, flat_wall
 
 if TYPE_CHECKING:
+    from balloon_usd.balloon.lobe_shape import FlatWall
     from balloon_usd.balloon.rubber import Rubber
     from balloon_usd.balloon.sizes import BalloonSize
 
@@ -34,16 +37,23 @@ class OpenRound:
     neck: float
     """Radius of all its necks, m."""
     lobe: Lobe
+    peaks: Peaks
+    """How far it was stretched so far."""
 
     @classmethod
-    def whole(cls, size: BalloonSize, rubber: Rubber, neck: float, volume: float) -> OpenRound:
-        """Return a balloon that holds so much gas, m3, before it is twisted.
+    def whole(cls, size: BalloonSize, rubber: Rubber, neck: float, volume: float, most: float) -> OpenRound:
+        """Return a balloon that holds so much gas, m3, before it is twisted; `most`: as much as it held
+        before, m3, or the same.
 
         Raises:
             ValueError: no shape is found.
         """
-        lobe = blown_up(flat_wall(size, 0.0, size.length, (neck, 0.0)), rubber, volume)
-        return cls(size, rubber, 0.0, neck, lobe)
+        flat = flat_wall(size, 0.0, size.length, (neck, 0.0))
+        lobe = blown_up(flat, rubber, most)
+        peaks = Peaks(flat.along, lobe.energies)
+        if most > volume:
+            lobe = blown_up(flat._replace(peaks=peaks.energy), rubber, volume)
+        return cls(size, rubber, 0.0, neck, lobe, peaks)
 
     @property
     def lengths(self) -> tuple[float, float]:
@@ -83,34 +93,41 @@ class OpenRound:
         """
         at = self.start + length
         walls = (
-            flat_wall(self.size, self.start, at, (self.neck, self.neck)),
-            flat_wall(self.size, at, self.size.length, (self.neck, 0.0)),
+            flat_wall(self.size, self.start, at, (self.neck, self.neck), self.peaks),
+            flat_wall(self.size, at, self.size.length, (self.neck, 0.0), self.peaks),
         )
         rubber = [float(wall.rubber.sum()) for wall in walls]
         gas = (ATMOSPHERE + self.lobe.pressure) * self.lobe.volume
-        sides: list[Lobe | None] = [None, None] if like is None else [like[0], like[1].lobe]
+        sides = (None, None) if like is None else (like[0], like[1].lobe)
         pressures = [self.lobe.pressure if side is None else side.pressure for side in sides]
         # Logarithm of how much more gas is in the lobe than in what is left: first as in two balls that are
         # alike stretched, then off that by as much as in the shapes that are like these.
         more = _of_balls(rubber[0], rubber[1])
         if like is not None:
             first, second = like[0], like[1].lobe
-            more += math.log(first.volume / second.volume) - _of_balls(first.rubber, second.rubber)
+            held = float(first.rubber.sum()), float(second.rubber.sum())
+            more += math.log(first.volume / second.volume) - _of_balls(*held)
         for _ in range(_STEPS):
             shares = 1.0 / (1.0 + math.exp(-more)), 1.0 / (1.0 + math.exp(more))
             lobe, rest = (
                 blown_up(wall, self.rubber, share * gas / (ATMOSPHERE + pressure), side)
                 for wall, share, pressure, side in zip(walls, shares, pressures, sides, strict=True)
             )
-            sides, pressures = [lobe, rest], [lobe.pressure, rest.pressure]
+            sides, pressures = (lobe, rest), [lobe.pressure, rest.pressure]
             off = math.log(lobe.energy / rubber[0] * rubber[1] / rest.energy)
             if abs(off) < _ALIKE:
-                return lobe, replace(self, start=at, lobe=rest)
-            # What the gas does the walls store.
-            grows = shares[1] * lobe.volume * lobe.pressure / lobe.energy
-            grows += shares[0] * rest.volume * rest.pressure / rest.energy
-            more += _step(-off / grows)
+                noted = Peaks(walls[1].along, np.maximum(walls[1].peaks, rest.energies))
+                return lobe, replace(self, start=at, lobe=rest, peaks=noted)
+            one, other = (self._growth(*each) for each in zip(walls, sides, strict=True))
+            more += _step(-off / (shares[1] * one + shares[0] * other))
         raise ValueError(f"no lobe with {100.0 * length:.3g} cm of wall is found")
+
+    def _growth(self, wall: FlatWall, lobe: Lobe) -> float:
+        """Return the logarithm of the energy of first loading of a wall by that of its gas: what the gas does
+        it stores, where it is not softer than then.
+        """
+        softer = self.rubber.softening_factor(lobe.energies, wall.peaks)
+        return lobe.volume * lobe.pressure / float((softer * lobe.energies) @ lobe.rubber)
 
 
 def _of_balls(first: float, second: float) -> float:

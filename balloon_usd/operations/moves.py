@@ -97,6 +97,13 @@ class Inflate(Move):
 
 
 @dataclass(frozen=True)
+class LetDown(Move):
+    """Let air out of a balloon that was blown up farther than it will be, its knot held."""
+
+    balloon: str = ""
+
+
+@dataclass(frozen=True)
 class BringInside(Move):
     """Bring what lies in a balloon on to where it will be blown up."""
 

@@ -20,6 +20,7 @@ from balloon_usd.operations.moves import (
     Hold,
     Inflate,
     LeadIn,
+    LetDown,
     LetGo,
     Move,
     Pinch,
@@ -41,6 +42,8 @@ if TYPE_CHECKING:
 
 STROKE_SECONDS = 0.7
 """A stroke of a hand pump, there and back, s."""
+LET_DOWN_SECONDS = 2.0
+"""Time in which air is let out of a balloon that was blown up farther, s."""
 SETTLE_SECONDS = 0.4
 """Pause after inflating, gathering or bending, in which the rubber comes to rest, s."""
 PINCH_SECONDS = 0.55
@@ -180,6 +183,9 @@ class Layout(Protocol):
     def pump_seconds(self, balloon: str) -> float:
         """Return how long a maker takes to blow a balloon up, s."""
 
+    def is_let_down(self, balloon: str) -> bool:
+        """Return whether air is let out of a balloon that was blown up farther."""
+
     def bring_seconds(self, balloon: str) -> float:
         """Return how long hands bring what lies in a balloon to its place, s; 0 where nothing does."""
 
@@ -281,11 +287,22 @@ class Score:
             self.moves.append(Inflate(self.now, pumping, index, text, balloon=balloon, strokes=strokes))
         self.now = max(move.end for move in self.moves if isinstance(move, Inflate))
         self.add(Move(self.now, SETTLE_SECONDS, index, "inflated"))
+        self._let_down(balloons, index)
         for balloon in balloons:
             if seconds := self.layout.bring_seconds(balloon):
                 text = f"centre the contents: {balloon}"
                 self.add(BringInside(self.now, seconds, index, text, balloon=balloon))
         self.let_go(index)
+
+    def _let_down(self, balloons: Sequence[str], index: int) -> None:
+        """Let air out of those that were blown up farther than they will be, at the same time."""
+        overblown = [balloon for balloon in balloons if self.layout.is_let_down(balloon)]
+        for balloon in overblown:
+            text = f"let air out: {balloon}"
+            self.moves.append(LetDown(self.now, LET_DOWN_SECONDS, index, text, balloon=balloon))
+        if overblown:
+            self.now += LET_DOWN_SECONDS
+            self.add(Move(self.now, SETTLE_SECONDS, index, "let down"))
 
     def twist(self, bubble: str, turns: float, index: int, *, pinches: int = 1) -> None:
         """Pinch and, where joints are wound, turn at the end of a bubble, unless that is the tip.

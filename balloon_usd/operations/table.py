@@ -86,7 +86,7 @@ CALLED: dict[str, str] = {name: each.word for each in OPERATIONS for name in eac
 """Words of operations by what makers call them, too."""
 NOT_THERE: dict[str, str] = {
     "raisin": "a bump twisted off the side of a bubble, expected an ear, or a balloon tied to a joint",
-    "overblow": "blowing a balloon up too far, and letting air out again, expected a balloon as it comes",
+    "overblow": "blowing up too far, and letting air out again, expected overblown: of a round balloon",
     "stretch": "stretching a balloon before it is blown up, expected a balloon as it comes",
     "string": "a string between two joints, expected tie, which brings them together",
 }

@@ -94,7 +94,7 @@ class AfterStep:
             heights = tuple(bubble.length for bubble in made)
             if not heights:
                 return OpenPart(strip.blown.height, None, strip.blown.pressure)
-            lobe = twisted_round(strip.size, strip.rubber, strip.blown.volume, heights)[1].lobe
+            lobe = twisted_round(strip.size, strip.rubber, strip.blown, heights)[1].lobe
             return OpenPart(lobe.height, None, lobe.pressure)
         budget = self.plan.budgets[strip.balloon]
         if not made:

@@ -119,7 +119,8 @@ def _strip_shapes(
 
 def _filling(strip: Strip) -> str:
     if strip.is_round:
-        return f"blown up to a width of {cm(2.0 * strip.inflated_radius)}"
+        text = f"blown up to a width of {cm(2.0 * strip.inflated_radius)}"
+        return text if strip.overblown is None else f"{text}, from {cm(strip.overblown)}"
     return f"capsule of {cm(strip.capsule_length)}" if strip.capsule else f"leave {cm(strip.tail)} flat"
 
 

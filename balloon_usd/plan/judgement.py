@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from balloon_usd.balloon.bubble_shape import smallest_ball, softest_ball
 from balloon_usd.balloon.sizes import size_named
 from balloon_usd.balloon.wound_neck import PACKING_TURNS, holding_friction
-from balloon_usd.language.lengths import at_least, cm
+from balloon_usd.language.lengths import at_least, at_most, cm
 from balloon_usd.language.turns import turns_text
 from balloon_usd.operations.caution import Caution
 from balloon_usd.operations.modifiers import HOLDING_TURNS, Turned
@@ -19,6 +19,7 @@ from balloon_usd.plan.filling import emptier
 from balloon_usd.plan.holding import too_slippery
 from balloon_usd.plan.long_sides import long_sides
 from balloon_usd.plan.open_tube import MILLIMETRE, roomy_share, shortened, softened, tail_range
+from balloon_usd.plan.overblowing import bursting_width, load_of
 from balloon_usd.plan.released import divided, leaking, released
 from balloon_usd.plan.room import room_cautions
 from balloon_usd.plan.wall_load import wall_loads
@@ -82,6 +83,7 @@ def _of_latex(
     yield from _slippery(recipe)
     yield from _short_bubbles(strips)
     yield from chain.from_iterable(_burst(recipe, strips[name], it, graph) for name, it in budgets.items())
+    yield from chain.from_iterable(map(_overblown, strips.values()))
     yield from _softening(recipe)
     yield from _unwinding(recipe, strips, graph)
 
@@ -207,6 +209,19 @@ def _burst(recipe: Recipe, strip: Strip, budget: Budget, graph: SculptureGraph) 
         f"{why}: {load:.0%} of the load at which latex tears",
         remedy,
     )
+
+
+def _overblown(strip: Strip) -> Iterator[Caution]:
+    before = strip.overblown
+    if before is None or strip.size.heart:
+        return
+    load = load_of(strip.rubber, strip.size, before)
+    if load > SURELY_BORNE:
+        what = f"{strip.balloon} may burst where it is blown up to {cm(before)}"
+        surely = bursting_width(strip.rubber, strip.size, SURELY_BORNE)
+        yield Caution(
+            None, what, f"{load:.0%} of the load at which latex tears", f"overblown: {at_most(surely)}"
+        )
 
 
 def _kilopascals(pressure: float) -> str:

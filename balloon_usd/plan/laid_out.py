@@ -135,6 +135,10 @@ class LaidOut:
         shape = self._strips[balloon].shape
         return max(INFLATE_LEAST, self.length(balloon) / INFLATE_SPEED) if shape is None else shape.seconds
 
+    def is_let_down(self, balloon: str) -> bool:
+        """Return whether air is let out of a balloon that was blown up farther."""
+        return self._strips[balloon].overblown is not None
+
     def bring_seconds(self, balloon: str) -> float:
         """Return how long hands bring what lies in a balloon to its place, s; 0 where nothing does."""
         guests = (host for host in hosts_of(self._strips).values() if host.balloon == balloon)

@@ -10,13 +10,14 @@ import numpy as np
 from balloon_usd.balloon.ball_pressure import ball_pressure
 from balloon_usd.language.lengths import at_least, at_most, cm
 from balloon_usd.language.problem import RecipeError
+from balloon_usd.plan.overblowing import bursting_width, softened_by
 from balloon_usd.plan.strip import BlownRound, PlannedBubble, Strip
 from balloon_usd.plan.twisting_rounds import twisted_bubbles
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from balloon_usd.balloon.rubber import Rubber
+    from balloon_usd.balloon.rubber import MembraneLaw, Rubber
     from balloon_usd.balloon.sizes import BalloonSize
     from balloon_usd.plan.strip import Made
     from balloon_usd.recipe import Recipe
@@ -53,6 +54,11 @@ EGG = Growth(
         (4.36, 1.122, 1.105, 0.873),
         (4.82, 1.164, 1.151, 0.83),
         (5.04, 1.185, 1.171, 0.815),
+        (5.10, 1.185, 1.171, 0.815),
+        (5.35, 1.24, 1.205, 0.80),
+        (5.70, 1.265, 1.225, 0.785),
+        (6.05, 1.285, 1.245, 0.775),
+        (7.00, 1.325, 1.280, 0.755),
     ),
 )
 """A pear at first, nearly a ball when half full, and a pear again when full; 5 inches are 13 cm."""
@@ -105,24 +111,53 @@ def round_strip(
         step=recipe.piece.bubbles[bubble].step,
         pressure=blown.pressure,
     )
-    bubbles = twisted_bubbles(recipe, rest, size, rubber, twisted) if twisted else (rest,)
+    bubbles = twisted_bubbles(recipe, rest, size, rubber, blown, twisted) if twisted else (rest,)
     return Strip(name, size, rubber, 0.0, bubbles, blown=blown)
 
 
 def _blown(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> BlownRound:
     """What a round balloon or a heart is blown up to."""
-    flat = 2.0 * size.radius
     least, full = widths_of(size)
     balloon = recipe.balloons[name]
     key, width = "inflated", full if balloon.inflated is None else balloon.inflated
     if balloon.filled is not None:
         key, width = "filled", 0.01 * balloon.filled * full
     if not least <= width <= BEYOND_FULL * full:
-        what = "heart" if size.heart else "round balloon"
-        text = f"a {what} {cm(flat)} wide while it is flat is not blown up to {cm(width)}"
+        text = f"{_what(size)} is not blown up to {cm(width)}"
         text += f", expected a width of {at_least(least)} to {at_most(full)}"
         raise RecipeError([recipe.problem(("balloons", name, key), text)])
-    pressure = _shape_of(size, width)[2] * ball_pressure(rubber, width / flat, size.thickness / size.radius)
+    before = balloon.overblown
+    if before is None:
+        return _round_of(size, rubber, width)
+    if text := _misblown(size, rubber, before, width):
+        raise RecipeError([recipe.problem(("balloons", name, "overblown"), text)])
+    softer = _round_of(size, softened_by(rubber, size, before), width)
+    return softer._replace(before=_round_of(size, rubber, before))
+
+
+def _misblown(size: BalloonSize, rubber: Rubber, before: float, width: float) -> str:
+    """Say why a round balloon or a heart is not blown up to a width before it is let down to another, m;
+    nothing where it is.
+    """
+    most = widths_of(size)[1] if size.heart else bursting_width(rubber, size)
+    expected = f"expected more than {cm(width)}, and at most {at_most(most)}"
+    if before <= width:
+        return f"air is let out down to {cm(width)}, which {cm(before)} is not above, {expected}"
+    if before > most:
+        bursts = "which tears it in its cleft" if size.heart else "at which it bursts"
+        return f"{_what(size)} is not blown up to {cm(before)}, {bursts}, {expected}"
+    return ""
+
+
+def _what(size: BalloonSize) -> str:
+    what = "heart" if size.heart else "round balloon"
+    return f"a {what} {cm(2.0 * size.radius)} wide while it is flat"
+
+
+def _round_of(size: BalloonSize, rubber: MembraneLaw, width: float) -> BlownRound:
+    """Return a round balloon or a heart of a width, m."""
+    stretch, thinness = 0.5 * width / size.radius, size.thickness / size.radius
+    pressure = _shape_of(size, width)[2] * ball_pressure(rubber, stretch, thinness)
     return BlownRound(width, round_height(size, width), round_volume(size, width), pressure)
 
 

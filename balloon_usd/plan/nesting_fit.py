@@ -110,7 +110,8 @@ def _too_wide(guest: Strip, owner: Strip, bubble: PlannedBubble) -> str:
     """Say that a round balloon is too large for a bubble when blown up, and how wide it may be; nothing if it
     is not.
     """
-    width, room = 2.0 * guest.inflated_radius, 2.0 * owner.inflated_radius
+    assert guest.blown is not None, "it is a round balloon"
+    width, room = guest.blown.most.width, 2.0 * owner.inflated_radius
     if _has_room(guest, width, room, bubble):
         return ""
     widths = np.linspace(*widths_of(guest.size), STEPS)
@@ -118,7 +119,8 @@ def _too_wide(guest: Strip, owner: Strip, bubble: PlannedBubble) -> str:
     long = at_least(round_height(guest.size, width) + nozzle_length(guest))
     text = f"is {cm(width)} wide when blown up and {long} long with its nozzle, too large for {bubble.name}"
     if fitting:
-        return f"{text}, expected inflated: {at_most(fitting[-1])}, or less"
+        key = "inflated" if guest.overblown is None else "overblown"
+        return f"{text}, expected {key}: {at_most(fitting[-1])}, or less"
     return f"{text}, expected a wider {owner.balloon}"
 
 

@@ -38,5 +38,5 @@ def parked(strips: Mapping[str, Strip]) -> dict[str, float]:
 
 
 def _round_radius(strip: Strip) -> float:
-    """Return how far the wall of a round balloon is from its axis, m; 0 of tubes."""
-    return strip.inflated_radius if strip.is_round else 0.0
+    """Return how far the wall of a round balloon is from its axis at most, m; 0 of tubes."""
+    return 0.0 if strip.blown is None else 0.5 * strip.blown.most.width

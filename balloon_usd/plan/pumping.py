@@ -31,7 +31,7 @@ def pumped(plan: Plan, balloon: str) -> Pumping | None:
     if strip.shape is not None:
         pressure, volume, flat = strip.shape.pressure, strip.shape.volume, strip.shape.surface.volume
     elif strip.blown is not None:
-        pressure, volume = strip.blown.pressure, strip.blown.volume
+        pressure, volume = strip.blown.most.pressure, strip.blown.most.volume
         flat = flat_volume(strip.size)
     else:
         pressure, volume = plan.budgets[balloon].pressure, plan.budgets[balloon].volume

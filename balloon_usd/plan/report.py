@@ -11,6 +11,7 @@ from balloon_usd.operations.parting import parts_of
 from balloon_usd.operations.workpiece import Contact, Joined, Popped
 from balloon_usd.plan.budget import amount
 from balloon_usd.plan.holding import friction_margin
+from balloon_usd.plan.overblowing import load_of
 from balloon_usd.plan.parking import parked
 from balloon_usd.plan.pumping import pumped
 
@@ -105,9 +106,17 @@ def _round_lines(strip: Strip, blown: BlownRound, popped: Container[str]) -> Ite
     form = "heart" if size.heart else "round"
     yield f"balloon {strip.balloon}: {size.name}, {form}, {cm(2.0 * size.radius)} wide flat{_place(strip)}"
     yield from bubble_lines(strip, strip.bubbles, popped)
+    if blown.before is not None:
+        load = "" if size.heart else f", {load_of(strip.rubber, size, blown.before.width):.0%} of burst"
+        yield f"  blow up until it is {cm(blown.before.width)} wide: {_gas(blown.before)}{load}"
+        yield f"  let air out until it is {cm(blown.width)} wide: {_gas(blown)}"
+    else:
+        yield f"  blow up until it is {cm(blown.width)} wide: {_gas(blown)}"
+
+
+def _gas(blown: BlownRound) -> str:
     pressure, volume = blown.pressure, blown.volume
-    gas = f"{volume * 1e3:.2f} L at {pressure / 1e3:.1f} kPa, {amount(pressure, volume):.3f} mol"
-    yield f"  blow up until it is {cm(blown.width)} wide: {gas}"
+    return f"{volume * 1e3:.2f} L at {pressure / 1e3:.1f} kPa, {amount(pressure, volume):.3f} mol"
 
 
 def _place(strip: Strip) -> str:
@@ -321,6 +330,7 @@ def _balloon_json(strip: Strip, budget: Budget | None) -> dict[str, Any]:
         "tail": strip.tail,
         "inflated_length": _inflated_length(strip) if budget is None else budget.inflated_length,
         "width": strip.width,
+        "overblown": strip.overblown,
         "inside": strip.inside,
         "shape": None if strip.shape is None else _shape_json(strip.shape),
         "bubbles": [asdict(bubble) | {"drawn": list(bubble.drawn)} for bubble in strip.bubbles],

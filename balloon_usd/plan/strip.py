@@ -132,6 +132,13 @@ class BlownRound(NamedTuple):
     """Gas, m3."""
     pressure: float
     """Gauge, Pa."""
+    before: BlownRound | None = None
+    """What it was blown up to before air was let out; None where none was."""
+
+    @property
+    def most(self) -> BlownRound:
+        """The same while it is blown up farthest."""
+        return self.before or self
 
 
 @dataclass(frozen=True)
@@ -173,6 +180,11 @@ class Strip:
     def width(self) -> float | None:
         """Width to which a round balloon is blown up, m; None of others."""
         return None if self.blown is None else self.blown.width
+
+    @property
+    def overblown(self) -> float | None:
+        """Width to which a round balloon is blown up before air is let out, m; None where none is."""
+        return None if self.blown is None or self.blown.before is None else self.blown.before.width
 
     @property
     def tip_is_tied(self) -> bool:

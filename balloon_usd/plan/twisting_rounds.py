@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from balloon_usd.balloon.rubber import Rubber
     from balloon_usd.balloon.sizes import BalloonSize
     from balloon_usd.language.problem import Path, Problem
-    from balloon_usd.plan.strip import Made, PlannedBubble
+    from balloon_usd.plan.strip import BlownRound, Made, PlannedBubble
     from balloon_usd.recipe import Recipe
 
 MOST_FLAT = 1.45
@@ -37,14 +37,20 @@ HALVINGS = 5
 
 
 def twisted_bubbles(
-    recipe: Recipe, rest: PlannedBubble, size: BalloonSize, rubber: Rubber, twisted: Sequence[Made]
+    recipe: Recipe,
+    rest: PlannedBubble,
+    size: BalloonSize,
+    rubber: Rubber,
+    blown: BlownRound,
+    twisted: Sequence[Made],
 ) -> tuple[PlannedBubble, ...]:
-    """Return the bubbles into which a round balloon is twisted, from its knot on; `rest`: all of it before.
+    """Return the bubbles into which a round balloon is twisted, from its knot on; `rest`: all of it
+    before.
 
     Raises:
         RecipeError: a bubble cannot be made, or not of such a balloon.
     """
-    whole = size, rubber, rest.volume
+    whole = size, rubber, blown
     try:
         _, left = twisted_round(*whole, ())
     except ValueError:
@@ -86,17 +92,18 @@ def _placed(
 
 @lru_cache(maxsize=256)
 def twisted_round(
-    size: BalloonSize, rubber: Rubber, volume: float, heights: tuple[float, ...]
+    size: BalloonSize, rubber: Rubber, blown: BlownRound, heights: tuple[float, ...]
 ) -> tuple[Lobe, OpenRound]:
-    """Return the last lobe of some heights (m) that are twisted off a round balloon with so much gas (m3),
-    from its knot on, and what is left; of none the whole balloon.
+    """Return the last lobe of some heights (m) that are twisted off a round balloon, from its knot on, and
+    what is left; of none the whole balloon.
 
     Raises:
         ValueError: the last one cannot be made.
     """
     if heights:
-        return twisted_round(size, rubber, volume, heights[:-1])[1].twisted(heights[-1])
-    whole = OpenRound.whole(size, rubber, NECK_AT_KNOT * size.neck_radius, volume)
+        return twisted_round(size, rubber, blown, heights[:-1])[1].twisted(heights[-1])
+    neck = NECK_AT_KNOT * size.neck_radius
+    whole = OpenRound.whole(size, rubber, neck, blown.volume, blown.most.volume)
     return whole.lobe, whole
 
 

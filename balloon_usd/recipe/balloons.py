@@ -35,7 +35,7 @@ ROUNDS: tuple[BalloonSizeName, ...] = ("R5", "R11", "H6", "H11")
 """Sizes of round balloons."""
 HEARTS: tuple[BalloonSizeName, ...] = ("H6", "H11")
 """Those of them that have two lobes."""
-ROUND_KEYS = ("size", "inflated", "filled", "color", "finish", "radius", "thickness")
+ROUND_KEYS = ("size", "inflated", "filled", "overblown", "color", "finish", "radius", "thickness")
 """Keys that a round balloon has."""
 
 SIZE_CODES: tuple[str, ...] = get_args(BalloonSizeName)
@@ -79,6 +79,8 @@ class Balloon(Entries):
     """Length of the inflated part, instead of tail; of a round balloon its width; m in Python."""
     filled: Annotated[float, PercentWithin(1.0, 100.0)] | None = None
     """Share of its full length, or of a round balloon of its full width, instead of tail; percent."""
+    overblown: Length | None = None
+    """Width to which a round balloon is blown up first, before air is let out; m in Python."""
     capsule: Length | None = None
     """Length of a closed capsule before it is twisted, instead of one with knot and tail; m in Python."""
     radius: Annotated[float, LengthWithin(0.001, 0.1, low_included=True)] | None = None

@@ -77,6 +77,7 @@ class RecipeBuilder:
         tail: LengthLike | None = None,
         inflated: LengthLike | None = None,
         filled: float | str | None = None,
+        overblown: LengthLike | None = None,
         capsule: LengthLike | None = None,
         radius: LengthLike | None = None,
         length: LengthLike | None = None,
@@ -96,6 +97,7 @@ class RecipeBuilder:
         lengths = {
             "tail": tail,
             "inflated": inflated,
+            "overblown": overblown,
             "capsule": capsule,
             "radius": radius,
             "length": length,

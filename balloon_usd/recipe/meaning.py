@@ -86,6 +86,9 @@ def _check_filling(balloon: str, entry: object, bench: Workbench) -> None:
     if not given and str(entry.get("size")) in SIZE_CODES:
         kinds = "tail, inflated or filled, or capsule in model kosaka"
         bench.complain(path, f"does not say how far it is blown up, expected {kinds}")
+    if "overblown" in entry and str(entry.get("size")) in SIZE_CODES:
+        what = "makes no sense with a tube, whose short bubbles softened rubber does not hold"
+        bench.complain((*path, "overblown"), f"{what}, expected a round balloon, or no such line")
     if given == ["capsule"]:
         for key in entry:
             if key in FLAT_ONLY:

@@ -34,7 +34,7 @@ class ModelTraits:
 
 MODELS: dict[ModelName, ModelTraits] = {
     "latex": ModelTraits(
-        version="latex 34",
+        version="latex 35",
         title="hyperelastic rubber and gas",
         has_weight=True,
         winds=True,

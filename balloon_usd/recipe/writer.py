@@ -82,7 +82,7 @@ def _balloon_entries(balloon: Balloon, units: str | None) -> Entries:
         entries["color"] = balloon.model_dump(include={"color"})["color"]
     if balloon.finish != "latex":
         entries["finish"] = balloon.finish
-    for key in ("tail", "inflated", "capsule", "radius", "length", "thickness"):
+    for key in ("tail", "inflated", "overblown", "capsule", "radius", "length", "thickness"):
         length = getattr(balloon, key)
         if length is not None:
             entries[key] = length_entry(length, units)

@@ -138,7 +138,7 @@ def test_a_report_says_what_every_bubble_did(cli, solver, write_recipe):
     assert "report out/snake.report.json" in result.stdout
     report = json.loads(Path("out/snake.report.json").read_text(encoding="utf-8"))
     assert (report["name"], report["recipe"], report["detail"]) == ("snake", "snake.yaml", "preview")
-    assert report["solver"] == "latex 34"
+    assert report["solver"] == "latex 35"
     assert report["time_code"] == [1, 2, 3, 4, 5, 6]
     assert [bubble["name"] for bubble in report["bubbles"]] == ["nose", "middle", "tail"]
     assert report["bubbles"][1]["pressure"] == [1000.0] * 6

@@ -135,3 +135,26 @@ def test_the_builder_writes_what_is_read():
     recipe = builder.build()
     assert "{size: R5, inflated: 8}" in recipe.to_yaml()
     assert Recipe.parse(recipe.to_yaml()).balloons["b"].inflated == pytest.approx(0.08)
+
+
+def test_a_tube_is_not_overblown():
+    (told,) = problems(HEAD.replace("tail: 12", "tail: 12, overblown: 30"))
+    assert told == (
+        "<text>:5:42: balloons.body.overblown: makes no sense with a tube, whose short bubbles softened "
+        "rubber does not hold, expected a round balloon, or no such line"
+    )
+
+
+def test_overblow_is_no_step_and_where_it_is_said_is_told():
+    (told,) = problems(f"{HEAD}  - overblow: skull\n")
+    assert told.endswith(
+        "blowing up too far, and letting air out again, expected overblown: of a round balloon"
+    )
+
+
+def test_what_one_is_overblown_to_is_built_and_written():
+    builder = RecipeBuilder("ball", units="cm").balloon("ball", size="R5", inflated=0.09, overblown=0.12)
+    recipe = builder.rest("whole", balloon="ball").build()
+    assert recipe.balloons["ball"].overblown == 0.12
+    assert "overblown: 12" in recipe.to_yaml()
+    assert Recipe.parse(recipe.to_yaml()).balloons["ball"].overblown == 0.12

@@ -125,6 +125,7 @@ def test_hands_wait_while_nothing_moves_and_in_model_kosaka_where_nothing_is_blo
     assert [kind for kind, motion in LATEX_MOTIONS.items() if motion is Wait] == [moves.Move]
     waits = {kind for kind, motion in KOSAKA_MOTIONS.items() if motion is Wait}
     unmoved = {
+        moves.LetDown,
         moves.BringInside,
         moves.Sink,
         moves.Halve,

@@ -27,8 +27,8 @@ physics: {{hold: 0.5}}
 """
 
 
-def blown_up(size: str, widths: Sequence[float]) -> list[tuple[Plan, BalloonMesh, Frame]]:
-    """Return plan, mesh and last frame of a balloon of a size for each width, cm."""
+def blown_up(size: str, widths: Sequence[float | str]) -> list[tuple[Plan, BalloonMesh, Frame]]:
+    """Return plan, mesh and last frame of a balloon of a size for each width, cm, or what stands in its place."""
     plans = [plan(Recipe.parse(RECIPE.format(size=size, width=width))) for width in widths]
     simulation = simulate_many(plans, detail="preview", device="cpu")
     meshes = [each[0] for each in simulation.meshes]

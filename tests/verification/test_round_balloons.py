@@ -12,6 +12,7 @@ from tests.verification.blown_up import blown_up
 from tests.verification.made_whole import made_whole
 
 WIDTHS = (6, 9, 13)
+LET_DOWN = ("7, overblown: 13", "9, overblown: 11", "13, overblown: 16")
 TIED = """
 format: 1
 name: man
@@ -63,6 +64,15 @@ def test_it_has_the_pressure_of_the_plan(verify, blown):
     for made, _, frame in blown:
         pressure, planned = float(frame.pressure[0]), made.bubbles[0].pressure
         verify("V41c", "its pressure, kPa", 1e-3 * pressure, 1e-3 * planned, 0.06)
+
+
+def test_one_that_was_blown_up_farther_and_let_down_is_as_wide_and_as_soft_as_the_plan_says(verify):
+    for made, mesh, frame in blown_up("R5", LET_DOWN):
+        width = 2.0 * apothem(mesh, frame.points[0])[mesh.ring_along > 0.0].max()
+        asked = 2.0 * made.strips["one"].inflated_radius
+        verify("V41e", "one that is let down, width, cm", 100.0 * width, 100.0 * asked, 0.03)
+        pressure, planned = float(frame.pressure[0]), made.bubbles[0].pressure
+        verify("V41f", "its pressure, kPa", 1e-3 * pressure, 1e-3 * planned, 0.06)
 
 
 def pull_and_push(made, mesh, frame, row):

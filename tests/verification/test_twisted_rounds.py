@@ -22,7 +22,12 @@ steps:
   - rest: last
 must_hold: planned
 """
-CASES = (("R5", 9, 5.5), ("R11", 18, 8))
+CASES = (
+    ("R5", 9, 5.5),
+    ("R11", 18, 8),
+    ("R5", "9, overblown: 13", 5.5),
+    ("R11", "22, overblown: 30", 12),
+)
 EYES = """
 format: 1
 name: eyes
@@ -46,7 +51,7 @@ def while_it_holds(simulation):
     """The last frame of every sculpture before its joint comes undone."""
     held = {}
     for row in simulation.frames():
-        held |= {k: frame for k, frame in enumerate(row) if not frame.undone}
+        held |= {k: frame for k, frame in enumerate(row) if frame and not frame.undone}
     return [held[k] for k in sorted(held)]
 
 
@@ -71,7 +76,7 @@ def test_both_parts_are_as_high_and_as_wide_as_the_plan_says(verify, twisted):
     for made, mesh, frame in twisted:
         for _, bubble, box in parts(made, mesh, frame):
             what = "part of a round balloon twisted in two"
-            verify("V43a", f"{what}, height, cm", 100.0 * box[0], 100.0 * bubble.length, 0.05)
+            verify("V43a", f"{what}, height, cm", 100.0 * box[0], 100.0 * bubble.length, 0.03)
             verify("V43b", "its width, cm", 100.0 * box[1:].mean(), 100.0 * bubble.width, 0.03)
 
 
@@ -79,7 +84,11 @@ def test_both_parts_have_the_pressure_of_the_plan(verify, twisted):
     for made, mesh, frame in twisted:
         for number, bubble, _ in parts(made, mesh, frame):
             verify(
-                "V43c", "its pressure, kPa", 1e-3 * float(frame.pressure[number]), 1e-3 * bubble.pressure, 0.1
+                "V43c",
+                "its pressure, kPa",
+                1e-3 * float(frame.pressure[number]),
+                1e-3 * bubble.pressure,
+                0.06,
             )
 
 

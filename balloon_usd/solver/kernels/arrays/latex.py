@@ -53,7 +53,9 @@ class Chambers:
     neck_flow: wp.array[float] = array(
         "joints", unit="mol/s", meaning="gas that a hand pushes through it, from before to behind"
     )
-    pump_flow: wp.array[float] = array("balloons", unit="mol/s", meaning="largest flow of the pump")
+    pump_flow: wp.array[float] = array(
+        "balloons", unit="mol/s", meaning="flow of the pump; negative: out of it"
+    )
     pump_limit: wp.array[float] = array("balloons", unit="Pa", meaning="gauge pressure at which it stops")
     pump_goal: wp.array[wp.float64] = array("balloons", unit="mol", meaning="amount at which it stops")
     chunk_share: wp.array[float] = array("chunks", unit="m3", meaning="scratch: volume from its origin")

@@ -116,6 +116,21 @@ def without_guests(s: int, chambers: Chambers, state: State):
 
 
 @wp.func
+def pumped(gas: wp.float64, gauge: float, flow: float, limit: float, goal: wp.float64, dt: float):
+    """Return the gas (mol) that a pump brings in a substep into a chamber with so much at a gauge pressure
+    (Pa), up to a goal; or, where its flow (mol/s) is negative, that is let out, down to that.
+    """
+    missing = goal - gas
+    added = wp.float64(0.0)
+    if flow >= 0.0 and missing > wp.float64(0.0):
+        inflow = wp.min(flow, flow * wp.max(limit - gauge, 0.0) / (0.1 * limit))
+        added = wp.min(wp.float64(inflow * dt), missing)
+    if flow < 0.0 and missing < wp.float64(0.0):
+        added = wp.max(wp.float64(flow * dt), missing)
+    return added
+
+
+@wp.func
 def press_chamber(
     s: int,
     begin: int,
@@ -129,7 +144,8 @@ def press_chamber(
     chambers: Chambers,
     state: State,
 ):
-    """Where a chamber of segments begins, pump gas into it and write its volume (m3) and gauge pressure (Pa).
+    """Where a chamber of segments begins, pump gas into it, or let it out, and write its volume (m3) and
+    gauge pressure (Pa).
 
     A chamber without gas of its own is open to the air (the nozzle's lip) and keeps its pressure. What lies
     in a chamber leaves so much less room, and feels how much more pressure it has than that.
@@ -142,10 +158,9 @@ def press_chamber(
         for k in range(begin + 1, end + 1):
             space += without_guests(k, chambers, state)
             gas += chambers.amount[k]
-        if begin <= into and into <= end and gas < pump_goal:
+        if begin <= into and into <= end and gas != pump_goal:
             here = pressure_of(gas, space, air) - outside
-            inflow = wp.min(pump_flow, pump_flow * wp.max(pump_limit - here, 0.0) / (0.1 * pump_limit))
-            added = wp.min(wp.float64(inflow * dt), pump_goal - gas)
+            added = pumped(gas, here, pump_flow, pump_limit, pump_goal, dt)
             chambers.amount[into] = chambers.amount[into] + added
             gas += added
         if gas > wp.float64(0.0):

@@ -37,6 +37,7 @@ KOSAKA_MOTIONS: Motions = {
     moves.Weld: KosakaWeld,
     moves.SetDown: SetDown,
     # Only latex has a weight, bursts, softens, and has balloons in others.
+    moves.LetDown: Wait,
     moves.BringInside: Wait,
     moves.Sink: Wait,
     moves.Fall: Wait,

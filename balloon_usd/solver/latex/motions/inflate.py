@@ -85,7 +85,7 @@ class Inflate(Motion):
         blown = self._sculpture.plan.strips[balloon].blown
         assert blown is not None, "it is a round balloon"
         share = polygon_share(scene.bodies[b].rings[0].around)
-        hands.pump_goal[b] = amount(blown.pressure, blown.volume) * share
+        hands.pump_goal[b] = amount(blown.most.pressure, blown.most.volume) * share
         hands.pump_limit[b] = scene.settings.atmosphere
         hands.grip(int(scene.joint_start[b]) + 1, self._sculpture.frame.middle)
 

@@ -17,6 +17,7 @@ from balloon_usd.solver.latex.motions.hold import Hold
 from balloon_usd.solver.latex.motions.inflate import Inflate
 from balloon_usd.solver.latex.motions.invert import Invert
 from balloon_usd.solver.latex.motions.lead_in import LatexLeadIn
+from balloon_usd.solver.latex.motions.let_down import LetDown
 from balloon_usd.solver.latex.motions.let_go import LatexLetGo
 from balloon_usd.solver.latex.motions.level import Level
 from balloon_usd.solver.latex.motions.loosen import Loosen
@@ -48,6 +49,7 @@ if TYPE_CHECKING:
 LATEX_MOTIONS: Motions = {
     moves.Move: Wait,
     moves.Inflate: Inflate,
+    moves.LetDown: LetDown,
     moves.Sink: Sink,
     moves.Pinch: Pinch,
     moves.Halve: Halve,
