@@ -160,6 +160,13 @@ class Operation(Entries):
         """Yield what a maker would warn of in a step of this index."""
         yield from ()
 
+    def beyond_reach(self, index: int, layout: Layout, piece: Workpiece) -> Iterator[Caution]:
+        """Yield what hands would not bring together in a step of this index.
+
+        `piece`: the finished figure.
+        """
+        yield from ()
+
     def perform(self, score: Score, index: int) -> None:
         """Write the moves of a step of this index; raises `RecipeError` where no hand can make it."""
 

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from pydantic import Field
 
 from balloon_usd.language.choices import all_of
-from balloon_usd.language.lengths import at_most, cm
 from balloon_usd.language.names import Name
 from balloon_usd.operations import moves
-from balloon_usd.operations.caution import Caution
-from balloon_usd.operations.closing import LENIENCE
+from balloon_usd.operations.loop_holes import hole_caution
+from balloon_usd.operations.meeting import apart
 from balloon_usd.operations.modifiers import Entries, Pointed, Timed
 from balloon_usd.operations.operation import Operation
 from balloon_usd.operations.passing import names_in, without_hole
@@ -25,6 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from balloon_usd.language.quantities import Units
+    from balloon_usd.operations.caution import Caution
     from balloon_usd.operations.score import Layout, PlacedBubble, Score
     from balloon_usd.operations.workbench import Place, Workbench
     from balloon_usd.operations.workpiece import Workpiece
@@ -33,22 +32,10 @@ LEAST_SECONDS = 2.4
 """Shortest time in which a limb is set between others, s."""
 WAY = 4.0
 """Way of the end of a limb to a place above the others and down between them, at most, in its lengths."""
-OPEN = 3.6
-"""Length of a loop below which nothing stays in its hole, in its widths: in simulations of a 260 an ear of
-4 cm slips out of one of 17 cm and stays in one of 18; of a 160 and a 350 it is 9 to 12 and 24 to 30.
-"""
-FITS = 0.9
-"""Width of the hole of a loop beyond which a limb slips out of it, in widths of its tube: an ear of 3 cm of a
-260 stays in a loop of 30 cm and slips out of one of 32.
-"""
 WIDE, WIDE_IN_LOOP = 0.85, 1.0 / 3.0
 """Width of a ball that is wider than what it is set into, in the length of the shorter of two bubbles, or of
 a loop, beyond which it finds no place: in simulations one of 3.6 cm stays between two of 4.6 and one of 13
 slips out from between two of 6, one of 8 cm stays in a loop of 25 cm and one of 12 does not.
-"""
-LOOP_IN_LOOP = 1.5
-"""Length of a loop below which another one does not come into its hole, in the length of that: in simulations
-of a 260 one of 20 cm comes into one of 30 and stays in one of 50, one of 28 comes in from 43 on.
 """
 MOST = 2
 """Largest number of bubbles between which one is set."""
@@ -150,33 +137,23 @@ steps:
 
     def cautions(self, index: int, layout: Layout) -> Iterator[Caution]:
         """Warn of a loop whose hole its own wall closes, and of one whose hole is too narrow or too wide."""
-        bubble, *between = (layout.bubble(name) for name in self.names)
+        between = [layout.bubble(name) for name in self.tuck.between]
         room = (WIDE_IN_LOOP if len(between) == 1 else WIDE) * min(each.length for each in between)
         ball = wide_ball(index, layout, self.tuck.bubble, self.tuck.between, room, "find no place in")
         if ball is not None:
             yield ball
             return
-        if len(between) > 1:
-            return
-        name, into, loop = self.tuck.bubble, self.tuck.between[0], between[0]
-        shown = f"{into} ({cm(loop.length)})"
-        narrow = f"{name} ({cm(bubble.length)}) may slip out of {shown}"
-        if loop.length < OPEN * loop.width:
-            least = cm(OPEN * loop.width)
-            why = "the wall of so short a loop closes its hole"
-            yield Caution(index, narrow, why, f"make {into} at least {least} long")
-        elif bubble.looped and loop.length < LOOP_IN_LOOP * bubble.length - LENIENCE:
-            least, most = cm(LOOP_IN_LOOP * bubble.length), cm(loop.length / LOOP_IN_LOOP)
-            what = f"{name} ({cm(bubble.length)}) may not come into {shown}"
-            why = f"{name} is as wide as two tubes"
-            yield Caution(index, what, why, f"make {into} at least {least} long, or {name} at most {most}")
-        elif is_too_wide(loop.length, loop.width, bubble.width, looped=bubble.looped):
-            most_long = math.pi * (FITS * bubble.width + loop.width)
-            what, why = (
-                f"{name} may slip out of {shown}",
-                f"its hole is about as wide as {name}, or wider",
-            )
-            yield Caution(index, what, why, f"make {into} {at_most(most_long)} long, or less")
+        if len(between) == 1:
+            hole = hole_caution(index, layout, self.tuck.bubble, self.tuck.between[0])
+            yield from () if hole is None else (hole,)
+
+    def beyond_reach(self, index: int, layout: Layout, piece: Workpiece) -> Iterator[Caution]:
+        """Warn of others that do not meet where it hangs."""
+        there = piece.after(index)
+        limb = there.limb(self.tuck.bubble, self.tuck.between)
+        assert limb is not None, "what is set between others hangs on a joint"
+        found = apart(index, layout, there, self.tuck.bubble, limb, self.tuck.between)
+        yield from () if found is None else (found,)
 
     def perform(self, score: Score, index: int) -> None:
         """Spread the others, bring it over them and in, and let them close on it."""
@@ -197,11 +174,6 @@ steps:
             point=None if self.point is None else score.towards(self.point),
         )
         score.settle(move)
-
-
-def is_too_wide(length: float, width: float, limb: float, *, looped: bool) -> bool:
-    """Whether a limb so wide slips out of the hole of a loop so long, of a tube so wide, m: a loop stays."""
-    return not looped and length / math.pi - width > FITS * limb
 
 
 def _across(bubble: PlacedBubble) -> float:

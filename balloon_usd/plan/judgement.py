@@ -58,6 +58,9 @@ def cautions_of(
     """Return all cautions, those of the whole sculpture last."""
     found = chain(
         chain.from_iterable(step.cautions(index, layout) for index, step in enumerate(recipe.steps)),
+        chain.from_iterable(
+            step.beyond_reach(index, layout, recipe.piece) for index, step in enumerate(recipe.steps)
+        ),
         chain.from_iterable(_tail(recipe, strips[name], budget) for name, budget in budgets.items()),
         _of_latex(recipe, strips, graph, budgets) if recipe.physics.traits.winds else (),
         room_cautions(recipe, strips),

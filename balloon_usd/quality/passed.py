@@ -11,8 +11,8 @@ import numpy as np
 
 from balloon_usd.language.choices import all_of
 from balloon_usd.language.joint import ends_of
+from balloon_usd.operations.loop_holes import is_too_wide
 from balloon_usd.operations.moves import PassThrough, Tuck, Wrap
-from balloon_usd.operations.tuck import is_too_wide
 from balloon_usd.quality.astride import ASTRIDE, Tube, share_between, share_in_hole
 from balloon_usd.quality.joints import SLIPPED
 from balloon_usd.quality.measures import MEASURES
