@@ -2,7 +2,7 @@
 
 import re
 import unicodedata
-from collections.abc import Container
+from collections.abc import Container, Sequence
 from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field, WithJsonSchema
@@ -64,6 +64,16 @@ def name_of_end(balloon: str, what: Literal["rest", "tip"], taken: Container[str
     while found in taken:
         found += "_"
     return found
+
+
+def listed(value: object) -> object:
+    """Return one name that stands alone as a list of one, and anything else as it is."""
+    return (value,) if isinstance(value, str) else value
+
+
+def shortest(names: Sequence[str]) -> str | list[str]:
+    """Return names as they stand in a file: one by itself, several as a list."""
+    return names[0] if len(names) == 1 else list(names)
 
 
 Name = Annotated[

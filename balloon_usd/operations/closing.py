@@ -9,7 +9,7 @@ from pydantic import BeforeValidator, Discriminator, Field, Tag
 
 from balloon_usd.language.joint import ends_of
 from balloon_usd.language.lengths import at_least, cm
-from balloon_usd.language.names import Name
+from balloon_usd.language.names import Name, listed, shortest
 from balloon_usd.language.problem import quoted
 from balloon_usd.operations.modifiers import Pointed, Turned
 from balloon_usd.operations.operation import Lengths, TwistsOff
@@ -66,16 +66,12 @@ def _form(value: object) -> str:
     return THERE if isinstance(value, (str, list, tuple)) else NEW
 
 
-def _listed(value: object) -> object:
-    return (value,) if isinstance(value, str) else value
-
-
 LengthsOrNames = Annotated[
     Annotated[Lengths, Tag(NEW)]
     | Annotated[
         tuple[Name, ...],
         Field(min_length=1),
-        BeforeValidator(_listed, json_schema_input_type=Name | tuple[Name, ...]),
+        BeforeValidator(listed, json_schema_input_type=Name | tuple[Name, ...]),
         Tag(THERE),
     ],
     Discriminator(_form),
@@ -118,7 +114,7 @@ class TwistsClosed(ClosesOnItself):
 
     def entry(self, units: str | None) -> object:
         """Return its value as it stands in a file."""
-        return super().entry(units) if self.lengths else _shortest(self.names)
+        return super().entry(units) if self.lengths else shortest(self.names)
 
     @classmethod
     def value_of(
@@ -137,12 +133,12 @@ class TwistsClosed(ClosesOnItself):
             return super().value_of(units, lengths, **more)
         if more:
             raise TypeError(f"{cls.word}: names bubbles beside lengths of new ones, expected one of both")
-        return _shortest((lengths,) if isinstance(lengths, str) else tuple(lengths))
+        return lengths if isinstance(lengths, str) else shortest(lengths)
 
     @classmethod
     def uses(cls, value: object) -> tuple[str, ...]:
         """Return the bubbles that are there, which it closes."""
-        named = _listed(value) if _form(value) == THERE else ()
+        named = listed(value) if _form(value) == THERE else ()
         assert isinstance(named, (list, tuple)), "what is no list of names is read as lengths"
         return tuple(name for name in named if isinstance(name, str))
 
@@ -181,8 +177,3 @@ class TwistsClosed(ClosesOnItself):
             fold = bubble if self.folds else None
             score.gather(start, end, self.point, text, index, fold=fold, pulled=pulled)
             score.weld((start, end), self.turns, text, index)
-
-
-def _shortest(names: tuple[str, ...]) -> object:
-    """Return bubbles as they stand in a file: one by its name alone."""
-    return names[0] if len(names) == 1 else list(names)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 from pydantic import BeforeValidator, Field, TypeAdapter, WithJsonSchema
 
-from balloon_usd.language.names import Name
+from balloon_usd.language.names import Name, shortest
 from balloon_usd.language.problem import quoted
 from balloon_usd.language.quantities import Between
 from balloon_usd.operations.modifiers import Timed
@@ -81,12 +81,12 @@ steps:
 
     def entry(self, units: str | None) -> object:
         """Return its value as it stands in a file."""
-        return self.inflate[0] if len(self.inflate) == 1 else list(self.inflate)
+        return shortest(self.inflate)
 
     @classmethod
     def value_of(cls, units: Units, /, *balloons: str) -> object:
         """Return its value as it stands in a file: balloons that are blown up at the same time."""
-        return balloons[0] if len(balloons) == 1 else list(balloons)
+        return shortest(balloons)
 
     @classmethod
     def places(cls, value: object) -> list[tuple[Path, str]]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from pydantic import BeforeValidator, Discriminator, Field, PlainSerializer, Tag, WithJsonSchema
 
 from balloon_usd.language.choices import unknown
-from balloon_usd.language.names import Name, is_name
+from balloon_usd.language.names import Name, is_name, listed, shortest
 from balloon_usd.language.problem import Complaint, quoted
 from balloon_usd.operations.moves import FRONTS, Facing, Front
 
@@ -27,21 +27,15 @@ def _form(value: object) -> str:
     return BUBBLES if listed else SIDE
 
 
-def _listed(value: object) -> object:
-    return (value,) if isinstance(value, str) else value
-
-
 def _written(facing: Facing) -> object:
     """Return a side as it stands in a file."""
-    if isinstance(facing, str):
-        return facing
-    return facing[0] if len(facing) == 1 else list(facing)
+    return facing if isinstance(facing, str) else shortest(facing)
 
 
 _BUBBLE: dict[str, Any] = {"type": "string"}
 FacingEntry = Annotated[
     Annotated[Front, Tag(SIDE)]
-    | Annotated[tuple[Name, ...], BeforeValidator(_listed), Field(min_length=1), Tag(BUBBLES)],
+    | Annotated[tuple[Name, ...], BeforeValidator(listed), Field(min_length=1), Tag(BUBBLES)],
     Discriminator(_form),
     PlainSerializer(_written),
     WithJsonSchema(
@@ -52,11 +46,11 @@ FacingEntry = Annotated[
 
 def _names(value: object) -> list[str]:
     """Return the bubbles of a side as it stands in a file; none where it is one of six."""
-    listed = value if isinstance(value, (list, tuple)) else [value]
+    several = value if isinstance(value, (list, tuple)) else [value]
     return [
         name
-        for name in listed
-        if isinstance(name, str) and is_name(name) and (name not in FRONTS or listed is value)
+        for name in several
+        if isinstance(name, str) and is_name(name) and (name not in FRONTS or several is value)
     ]
 
 
@@ -68,16 +62,16 @@ def facing_complaints(data: object, piece: Workpiece) -> Iterator[Complaint]:
     if not isinstance(data, dict):
         return
     for key in FACING:
-        listed = isinstance(data.get(key), (list, tuple))
+        several = isinstance(data.get(key), (list, tuple))
         for at, name in enumerate(_names(data.get(key))):
-            path = (key, at) if listed else (key,)
+            path = (key, at) if several else (key,)
             if name in piece.popped:
                 what = f"bubble {quoted(name)} was popped, expected one that has its gas"
                 yield Complaint(path, what)
             elif name not in piece.bubbles:
                 firm = [bubble for bubble in piece.bubbles if bubble not in piece.popped]
-                choices = firm if listed else [*FRONTS, *firm]
-                yield Complaint(path, unknown("bubble" if listed else key, name, choices))
+                choices = firm if several else [*FRONTS, *firm]
+                yield Complaint(path, unknown("bubble" if several else key, name, choices))
     front, top = (frozenset(_names(data.get(key))) for key in FACING)
     if front and front == top:
         yield Complaint(("top",), "names what is the front already, expected another side of the figure")
