@@ -116,14 +116,17 @@ def test_nobody_at_the_address_of_a_cluster_is_told_soon_in_one_line(cli, solver
     assert result.stderr.splitlines() == [f"127.0.0.1:{port}: no Ray cluster answers (Connection refused)"]
 
 
-def meanwhile(action, folder, name="log"):
-    """Do something once the first recipe is simulated, or a file of another name is in the folder."""
+def meanwhile(action, solver, folder, name="log"):
+    """Do something once the first recipe is simulated, or a file of another name is in the folder; then let
+    what pauses go on.
+    """
 
     def wait():
         end = time.monotonic() + 60
         while time.monotonic() < end and not any(folder.glob(name)):
             time.sleep(0.01)
         action()
+        solver.go_on()
 
     thread = threading.Thread(target=wait)
     thread.start()
@@ -148,7 +151,7 @@ def test_a_recipe_that_is_another_one_when_it_is_simulated_is_not_made(
     solver.trouble = {"first": "pause"}
     write_recipe("first", "recipes/a.yaml")
     last = write_recipe("last", "recipes/b.yaml")
-    watcher = meanwhile(lambda: change(last), solver.folder)
+    watcher = meanwhile(lambda: change(last), solver, solver.folder)
     result = cli("run", "recipes", *ORDER, "--jobs", 1)
     watcher.join()
     assert result.exit_code == 1, result.output
@@ -171,7 +174,7 @@ def test_an_output_folder_that_is_deleted_during_the_run_is_told(cli, solver, wr
         (tmp_path / "out").rename(tmp_path / "gone")
 
     # A folder that is not there yet when the file of a stage is begun is made anew.
-    watcher = meanwhile(delete, tmp_path / "out", ".first.*.writing/*.usdc")
+    watcher = meanwhile(delete, solver, tmp_path / "out", ".first.*.writing/*.usdc")
     result = cli("run", "recipes", *ORDER, "--jobs", 1)
     watcher.join()
     assert result.exit_code == 1, result.output
