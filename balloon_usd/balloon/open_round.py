@@ -24,6 +24,10 @@ _FARTHEST = 0.3
 """Largest step of a search, in a logarithm."""
 _ALIKE = 3e-4
 """Accuracy of heights and of the energies of two walls."""
+_SAME = 1e-9
+"""Difference of two logarithms that are the same but for rounding."""
+_ROUGHLY = 0.03
+"""The same while a height is sought: a third of the time."""
 
 
 @dataclass(frozen=True)
@@ -72,21 +76,27 @@ class OpenRound:
         length = (self.size.length - self.start) * 0.8 * height / self.lobe.height
         length, grows = min(max(length, low), high), 1.0
         found: tuple[Lobe, OpenRound] | None = None
+        alike = _ROUGHLY
         for _ in range(_STEPS if low < high else 0):
-            before, found = found, self.parted(length, found)
+            before, found = found, self.parted(length, found, alike)
             off = math.log(found[0].height / height)
-            if abs(off) < _ALIKE:
+            if abs(off) < _ALIKE and alike == _ALIKE:
                 return found
-            if before is not None:
-                longer = math.log(length / (before[1].start - self.start))
+            longer = 0.0 if before is None else math.log(length / (before[1].start - self.start))
+            if before is not None and abs(longer) > _SAME:
                 grows = max(math.log(found[0].height / before[0].height) / longer, 0.2)
             at, length = length, min(max(length * math.exp(_step(-off / grows)), low), high)
-            if length == at:
+            nearly = abs(off) < _ROUGHLY
+            if length == at and (alike == _ALIKE or not nearly):
                 break
+            alike = _ALIKE if nearly else _ROUGHLY
         raise ValueError(f"no lobe {100.0 * height:.3g} cm high is found")
 
-    def parted(self, length: float, like: tuple[Lobe, OpenRound] | None = None) -> tuple[Lobe, OpenRound]:
-        """Twist off a lobe whose wall is so long unstressed, m; `like`: one of nearly the same shape.
+    def parted(
+        self, length: float, like: tuple[Lobe, OpenRound] | None = None, alike: float = _ALIKE
+    ) -> tuple[Lobe, OpenRound]:
+        """Twist off a lobe whose wall is so long unstressed, m; `like`: one of nearly the same shape;
+        `alike`: how alike both walls are stretched.
 
         Raises:
             ValueError: no shape is found.
@@ -115,7 +125,7 @@ class OpenRound:
             )
             sides, pressures = (lobe, rest), [lobe.pressure, rest.pressure]
             off = math.log(lobe.energy / rubber[0] * rubber[1] / rest.energy)
-            if abs(off) < _ALIKE:
+            if abs(off) < alike:
                 noted = Peaks(walls[1].along, np.maximum(walls[1].peaks, rest.energies))
                 return lobe, replace(self, start=at, lobe=rest, peaks=noted)
             one, other = (self._growth(*each) for each in zip(walls, sides, strict=True))
