@@ -113,7 +113,7 @@ def _remedy(necks: Mapping[str, Any]) -> str:
     """Return what helps where a wall would burst; `necks`: that measure of its quality."""
     if necks.get("verdict") == Verdict.OFF:
         return f"rubber of the neck at {necks['joint']} is drawn in: longer bubbles there, or fewer"
-    return "leave more tail, or make what is folded longer"
+    return "leave more tail, blow a round balloon up less, or make what is folded longer"
 
 
 def _qualities(records: Sequence[Record]) -> Iterator[str]:

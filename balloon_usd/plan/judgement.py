@@ -216,15 +216,20 @@ def _burst(recipe: Recipe, strip: Strip, budget: Budget, graph: SculptureGraph) 
 
 def _overblown(strip: Strip) -> Iterator[Caution]:
     before = strip.overblown
-    if before is None or strip.size.heart:
+    if before is None:
         return
-    load = load_of(strip.rubber, strip.size, before)
+    if strip.rubber.softening is None:
+        what, why = (
+            f"{strip.balloon} is overblown for nothing",
+            "rubber that does not soften is as hard after that",
+        )
+        yield Caution(None, what, why, "softening: true")
+    load = 0.0 if strip.size.heart else load_of(strip.rubber, strip.size, before)
     if load > SURELY_BORNE:
         what = f"{strip.balloon} may burst where it is blown up to {cm(before)}"
+        why = f"{load:.0%} of the load at which latex tears"
         surely = bursting_width(strip.rubber, strip.size, SURELY_BORNE)
-        yield Caution(
-            None, what, f"{load:.0%} of the load at which latex tears", f"overblown: {at_most(surely)}"
-        )
+        yield Caution(None, what, why, f"overblown: {at_most(surely)}")
 
 
 def _kilopascals(pressure: float) -> str:

@@ -10,6 +10,7 @@ import numpy as np
 from balloon_usd.balloon.ball_pressure import ball_pressure
 from balloon_usd.language.lengths import at_least, at_most, cm
 from balloon_usd.language.problem import RecipeError
+from balloon_usd.plan.open_tube import MILLIMETRE
 from balloon_usd.plan.overblowing import bursting_width, softened_by
 from balloon_usd.plan.strip import BlownRound, PlannedBubble, Strip
 from balloon_usd.plan.twisting_rounds import twisted_bubbles
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from balloon_usd.balloon.sizes import BalloonSize
     from balloon_usd.plan.strip import Made
     from balloon_usd.recipe import Recipe
+    from balloon_usd.recipe.balloons import Balloon
 
 BEYOND_FULL = 1.02
 """A width beyond the full one by this share means full: nominal widths are rounded."""
@@ -129,20 +131,28 @@ def _blown(recipe: Recipe, name: str, size: BalloonSize, rubber: Rubber) -> Blow
     before = balloon.overblown
     if before is None:
         return _round_of(size, rubber, width)
-    if text := _misblown(size, rubber, before, width):
+    if text := _misblown(size, rubber, balloon, width):
         raise RecipeError([recipe.problem(("balloons", name, "overblown"), text)])
     softer = _round_of(size, softened_by(rubber, size, before), width)
     return softer._replace(before=_round_of(size, rubber, before))
 
 
-def _misblown(size: BalloonSize, rubber: Rubber, before: float, width: float) -> str:
-    """Say why a round balloon or a heart is not blown up to a width before it is let down to another, m;
-    nothing where it is.
+def _misblown(size: BalloonSize, rubber: Rubber, balloon: Balloon, width: float) -> str:
+    """Say why a round balloon or a heart is not blown up farther before it is let down to a width, m; nothing
+    where it is.
     """
-    most = widths_of(size)[1] if size.heart else bursting_width(rubber, size)
-    expected = f"expected more than {cm(width)}, and at most {at_most(most)}"
-    if before <= width:
-        return f"air is let out down to {cm(width)}, which {cm(before)} is not above, {expected}"
+    before = balloon.overblown
+    assert before is not None, "it is blown up farther"
+    least, most = width + MILLIMETRE, widths_of(size)[1] if size.heart else bursting_width(rubber, size)
+    if least > most:
+        text = f"{_what(size)} is full at {cm(width)}, and not blown up farther"
+        return f"{text}, expected inflated: less than that"
+    expected = f"expected {at_least(least)} to {at_most(most)}"
+    if before < least:
+        full = balloon.inflated is None and balloon.filled is None
+        down = f"its full width of {cm(width)}" if full else cm(width)
+        less = ", or inflated: less than that" if full else ""
+        return f"air is let out down to {down}, which {cm(before)} is not above, {expected}{less}"
     if before > most:
         bursts = "which tears it in its cleft" if size.heart else "at which it bursts"
         return f"{_what(size)} is not blown up to {cm(before)}, {bursts}, {expected}"

@@ -13,7 +13,7 @@ from balloon_usd.operations.inflate import Inflate
 from balloon_usd.operations.insert import Insert
 from balloon_usd.plan.laying_rounds import round_height, widths_of
 from balloon_usd.plan.nesting import NARROWER, blown_length, flat_length, flat_room, hosts_of, nozzle_length
-from balloon_usd.plan.open_tube import softened
+from balloon_usd.plan.open_tube import MILLIMETRE, softened
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -114,13 +114,16 @@ def _too_wide(guest: Strip, owner: Strip, bubble: PlannedBubble) -> str:
     width, room = guest.blown.most.width, 2.0 * owner.inflated_radius
     if _has_room(guest, width, room, bubble):
         return ""
-    widths = np.linspace(*widths_of(guest.size), STEPS)
-    fitting = [each for each in widths.tolist() if _has_room(guest, each, room, bubble)]
     long = at_least(round_height(guest.size, width) + nozzle_length(guest))
     text = f"is {cm(width)} wide when blown up and {long} long with its nozzle, too large for {bubble.name}"
-    if fitting:
-        key = "inflated" if guest.overblown is None else "overblown"
-        return f"{text}, expected {key}: {at_most(fitting[-1])}, or less"
+    if guest.overblown is not None:
+        farther = np.linspace(guest.blown.width + MILLIMETRE, width, STEPS)
+        if fits := [each for each in farther.tolist() if _has_room(guest, each, room, bubble)]:
+            return f"{text}, expected overblown: {at_most(fits[-1])}, or less"
+        text = f"{text} where it is overblown"
+    widths = np.linspace(*widths_of(guest.size), STEPS)
+    if fits := [each for each in widths.tolist() if _has_room(guest, each, room, bubble)]:
+        return f"{text}, expected inflated: {at_most(fits[-1])}, or less"
     return f"{text}, expected a wider {owner.balloon}"
 
 

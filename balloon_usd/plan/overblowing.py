@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from balloon_usd.balloon.rubber import Floats, Rubber
     from balloon_usd.balloon.sizes import BalloonSize
 
-EGG_LOAD = 0.79
-"""Load of a round balloon that is blown up beyond full, in that of a ball as wide: 0.78 to 0.79 in
+EGG_LOAD = 0.8
+"""Load of a round balloon that is blown up beyond full, in that of a ball as wide: 0.78 to 0.80 in
 simulations of both sizes, up to 82 % of what bursts them.
 """
 _LARGEST_STRETCH = 12.0

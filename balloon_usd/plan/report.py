@@ -330,7 +330,7 @@ def _balloon_json(strip: Strip, budget: Budget | None) -> dict[str, Any]:
         "tail": strip.tail,
         "inflated_length": _inflated_length(strip) if budget is None else budget.inflated_length,
         "width": strip.width,
-        "overblown": strip.overblown,
+        "overblown": None if strip.blown is None else _overblown_json(strip, strip.blown.before),
         "inside": strip.inside,
         "shape": None if strip.shape is None else _shape_json(strip.shape),
         "bubbles": [asdict(bubble) | {"drawn": list(bubble.drawn)} for bubble in strip.bubbles],
@@ -340,6 +340,15 @@ def _balloon_json(strip: Strip, budget: Budget | None) -> dict[str, Any]:
 
 def _inflated_length(strip: Strip) -> float:
     return strip.capsule_length if strip.blown is None else strip.blown.height
+
+
+def _overblown_json(strip: Strip, before: BlownRound | None) -> dict[str, Any] | None:
+    """Data of what a round balloon is blown up to before air is let out."""
+    if before is None:
+        return None
+    load = None if strip.size.heart else load_of(strip.rubber, strip.size, before.width)
+    keys = ("width", "height", "volume", "pressure")
+    return {key: getattr(before, key) for key in keys} | {"load": load}
 
 
 def _shape_json(shape: Shaped) -> dict[str, Any]:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from balloon_usd.operations.moves import LetDown
 from balloon_usd.solver.bursting import NEAR, NO_LOAD, Bursting, WallLoad
 from balloon_usd.solver.flat_tails import FlatTails
 from balloon_usd.solver.planned_gas import shares_of_planned_gas
@@ -29,7 +31,8 @@ class RunSummary:
         self._tails = FlatTails(plan, meshes)
         self._bursting = Bursting(plan, meshes)
         self._near = NO_LOAD
-        """Highest load in the frames in which a wall might have burst."""
+        """Highest load in the frames in which a wall might have burst, or was blown up farthest."""
+        self._fullest = _fullest(plan)
         self._last: Frame | None = None
         self.highest_stretch = 0.0
         """Largest principal stretch so far of any wall that is not led out of others."""
@@ -50,6 +53,8 @@ class RunSummary:
                 self.highest_bubble = strip.bubble_at(float(mesh.along[worst])).name
         if near:
             self._near = max(self._near, self._bursting.load(frame, NEAR))
+        if frame.time_code in self._fullest:
+            self._near = max(self._near, self._bursting.load(frame))
 
     @property
     def undone(self) -> tuple[str, ...]:
@@ -58,7 +63,9 @@ class RunSummary:
 
     @property
     def wall_load(self) -> WallLoad:
-        """Load of the walls: the highest in all frames in which one was near bursting, and in the last."""
+        """Load of the walls: the highest in all frames in which one was near bursting, before air is let out,
+        and in the last.
+        """
         return self._near if self._last is None else max(self._near, self._bursting.load(self._last))
 
     @property
@@ -101,3 +108,9 @@ class RunSummary:
         if self._last is None:
             return {}
         return dict(zip(self._tails.names, self._tails.left(self._last), strict=True))
+
+
+def _fullest(plan: Plan) -> frozenset[int]:
+    """Return the time codes at which air begins to be let out of a balloon."""
+    letting = (move for move in plan.choreography.moves if isinstance(move, LetDown))
+    return frozenset(1 + math.floor(move.start * plan.recipe.fps) for move in letting)

@@ -53,7 +53,9 @@ def test_the_farther_it_was_blown_up_the_softer_it_is():
 
 def test_rubber_that_does_not_soften_stays_as_hard():
     text = ONE.format(size="R5", width=9, more=", overblown: 13") + "physics: {softening: false}\n"
-    assert plan_of(Recipe.parse(text)).bubbles[0].pressure == planned().bubbles[0].pressure
+    made = plan_of(Recipe.parse(text))
+    assert made.bubbles[0].pressure == planned().bubbles[0].pressure
+    assert "one is overblown for nothing" in [caution.what for caution in made.cautions]
 
 
 def test_hands_blow_it_up_wait_and_let_air_out():
@@ -69,9 +71,12 @@ def test_the_plan_tells_both_widths_and_how_near_it_comes_to_bursting():
     made = planned(overblown=16)
     text = plan_text(made)
     assert "blow up until it is 16 cm wide: 2.7" in text
-    assert "59% of burst" in text
+    assert "60% of burst" in text
     assert "let air out until it is 9 cm wide: 0.39 L at 1.6 kPa" in text
-    assert plan_json(made)["balloons"][0]["overblown"] == pytest.approx(0.16)
+    told = plan_json(made)["balloons"][0]["overblown"]
+    assert told["width"] == 0.16
+    assert told["pressure"] == made.strips["one"].blown.before.pressure
+    assert told["load"] == pytest.approx(0.6, abs=0.01)
     assert plan_json(planned())["balloons"][0]["overblown"] is None
     assert "blown up to a width of 9 cm, from 16 cm" in plan_svg(made)
 
@@ -91,14 +96,14 @@ def test_it_bursts_where_its_load_is_one_and_the_plan_warns_before(size, least):
 def test_what_is_not_above_the_width_in_the_end_is_refused(overblown):
     assert refused(overblown=overblown) == (
         "<text>:6:43: balloons.one.overblown: air is let out down to 9 cm, which "
-        f"{overblown} cm is not above, expected more than 9 cm, and at most 18.4 cm"
+        f"{overblown} cm is not above, expected 9.1 cm to 18.4 cm"
     )
 
 
 def test_what_bursts_it_is_refused_with_what_does_not():
     assert refused(overblown=20).endswith(
         "a round balloon 2.6 cm wide while it is flat is not blown up to 20 cm, at which it bursts, "
-        "expected more than 9 cm, and at most 18.4 cm"
+        "expected 9.1 cm to 18.4 cm"
     )
     planned(overblown=18.4)
 
@@ -106,8 +111,51 @@ def test_what_bursts_it_is_refused_with_what_does_not():
 def test_a_heart_is_blown_up_to_its_full_width_before():
     assert planned("H11", 20, 28).bubbles[0].pressure < 0.6 * planned("H11", 20).bubbles[0].pressure
     assert refused(size="H11", width=20, overblown=30).endswith(
-        "is not blown up to 30 cm, which tears it in its cleft, expected more than 20 cm, and at most 28 cm"
+        "is not blown up to 30 cm, which tears it in its cleft, expected 20.1 cm to 28 cm"
     )
+
+
+@pytest.mark.parametrize(("size", "width"), [("H6", 15.2), ("H11", 28)])
+def test_a_full_heart_is_not_blown_up_farther(size, width):
+    problem = refused(size=size, width=width, overblown=width)
+    assert problem.endswith("and not blown up farther, expected inflated: less than that")
+
+
+def test_a_full_width_that_the_recipe_does_not_say_is_told():
+    with pytest.raises(RecipeError, match=r"down to its full width of 13 cm, .*or inflated: less than that"):
+        plan_of(
+            Recipe.parse(
+                ONE.format(size="R5", width="13", more=", overblown: 13").replace("inflated: 13, ", "")
+            )
+        )
+
+
+EGG = """
+format: 1
+name: egg
+units: cm
+balloons:
+  egg: {{size: R11, finish: clear, inflated: 13, overblown: 28}}
+  bird: {{size: R5, inflated: {width}, overblown: {most}}}
+steps:
+  - insert: {{bird: shell}}
+  - inflate: egg
+  - inflate: bird
+  - {{rest: shell, balloon: egg}}
+"""
+
+
+@pytest.mark.parametrize(("width", "most", "key"), [(6, 12, "overblown"), (12, 12.5, "inflated")])
+def test_one_that_is_too_large_for_another_before_air_is_let_out_is_told_what_fits(width, most, key):
+    with pytest.raises(RecipeError) as caught:
+        plan_of(Recipe.parse(EGG.format(width=width, most=most)))
+    told = str(caught.value)
+    assert f"is {most:g} cm wide when blown up" in told
+    fits = told.split(f"expected {key}: ")[1].split(" cm", maxsplit=1)[0]
+    text = EGG.format(width=width, most=fits)
+    if key == "inflated":
+        text = EGG.format(width=fits, most=most).replace(f", overblown: {most}", "")
+    plan_of(Recipe.parse(text))
 
 
 def test_a_full_one_goes_beyond():

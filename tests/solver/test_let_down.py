@@ -8,7 +8,9 @@ import pytest
 from balloon_usd import simulate
 from balloon_usd.balloon.ringed_faces import polygon_share
 from balloon_usd.plan import plan
+from balloon_usd.plan.overblowing import load_of
 from balloon_usd.recipe import Recipe
+from balloon_usd.solver.run_summary import RunSummary
 
 ONE = """
 format: 1
@@ -54,3 +56,13 @@ def test_air_goes_out_evenly_and_none_comes_back():
     falls = np.diff(frames[frames[:, 1].argmax() :, 1])
     assert falls.max() < 1e-3 * frames[-1, 1]
     assert falls.min() > -0.05 * frames[:, 1].max()
+
+
+def test_its_load_is_told_as_it_was_before_air_was_let_out():
+    planned = plan(Recipe.parse(ONE.format(overblown=", overblown: 16", inflate=STEADY)))
+    simulation = simulate(planned, device="cpu")
+    summary = RunSummary(planned, tuple(simulation.meshes))
+    for frame in simulation:
+        summary.add(frame)
+    strip = planned.strips["one"]
+    assert summary.wall_load.load == pytest.approx(load_of(strip.rubber, strip.size, 0.16), rel=0.05)
