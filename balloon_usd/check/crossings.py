@@ -93,7 +93,8 @@ def _count(stage: Any, choose: Choose | None, report: CrossingReport) -> None:
         raise UnreadableError(f"has frames {walls.times[0]:g} to {walls.times[-1]:g} only")
     counter = CrossingCounter(walls.walls, len(times), "auto")
     for time in times:
-        report.frames[time] = counter.count(walls.points(time))
+        points = walls.points(time)
+        report.frames[time] = counter.count(points, walls.necks_in(points))
     for time in {report.worst, report.last}:
-        some = report.frames[time].count > 0
-        report.depth[time] = counter.depth(walls.points(time)) if some else 0.0
+        points, some = walls.points(time), report.frames[time].count > 0
+        report.depth[time] = counter.depth(points, walls.necks_in(points)) if some else 0.0

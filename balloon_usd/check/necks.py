@@ -31,6 +31,10 @@ if TYPE_CHECKING:
 
 LIP_RING, KNOT_RING = 3, 7
 """Rings of a tube at which its lip and its knot end."""
+HELD = 0.25
+"""Distance up to which necks are held together by hands, in radii of the blown-up balloon: two closed ones
+side by side are 0.2 apart.
+"""
 ROUNDING = 1e-4
 """Of texture coordinates, as a share of the reach of a neck."""
 MOST_AROUND = 256
@@ -45,6 +49,8 @@ class Neck:
     """Vertices of the ring in its middle."""
     vertices: Numbers
     """All of its vertices."""
+    away: Floats
+    """How far each of them lies from the ring along the balloon, unstressed; in R0, or of capsules in m."""
     rings: Numbers
     """All rings of its balloon, (R, around) vertices."""
     sides: tuple[Side, ...]
@@ -53,7 +59,7 @@ class Neck:
     def moved(self, before: int) -> Neck:
         """Return it with the numbers of its vertices counted on from some before them."""
         sides = tuple(side.moved(before) for side in self.sides)
-        return Neck(self.ring + before, self.vertices + before, self.rings + before, sides)
+        return Neck(self.ring + before, self.vertices + before, self.away, self.rings + before, sides)
 
 
 def necks_of(quads: Numbers, st: Floats, bubbles: Numbers, first: Floats) -> list[Neck]:
@@ -88,30 +94,56 @@ def necks_of(quads: Numbers, st: Floats, bubbles: Numbers, first: Floats) -> lis
         along, radius = _measured(first, rings)
         start, reach = 0, CAPSULE_NECK_REACH * radius
     reach *= 1.0 + ROUNDING
-    found = [Neck(rings[start], np.flatnonzero(along <= reach), rings, ())]
+    found = [_neck(rings, start, np.maximum(along, 0.0), reach, ())]
     for at in meets.tolist():
         beyond = along - along[rings[at]].mean()
         sides = tuple(sides_of_ring(rings[at], beyond))
-        found.append(Neck(rings[at], np.flatnonzero(np.abs(beyond) <= reach), rings, sides))
+        found.append(_neck(rings, at, np.abs(beyond), reach, sides))
     return found
 
 
-def joints_between(necks: Sequence[Neck], points: Floats, vertices: int) -> Numbers:
-    """Return the joint in whose neck each vertex lies, (V,); `NO_NECK` of others.
+def _neck(rings: Numbers, at: int, away: Floats, reach: float, sides: tuple[Side, ...]) -> Neck:
+    """Return a neck in the midst of a ring; `away`: how far all vertices are from it, (V,)."""
+    near = np.flatnonzero(away <= reach)
+    return Neck(rings[at], near, away[near], rings, sides)
 
-    Necks that lie together in some points (V, 3) m belong to one joint.
-    """
-    joint = np.full(vertices, NO_NECK, dtype=np.int64)
-    if not necks:
-        return joint
-    middles = np.array([points[neck.ring].mean(axis=0) for neck in necks])
-    widest = [_radii(points[neck.rings]).max() for neck in necks]
-    apart = np.linalg.norm(middles[:, None] - middles[None], axis=2)
-    near = nx.from_numpy_array(apart <= APART * np.maximum.outer(widest, widest))
-    for number, together in enumerate(nx.connected_components(near)):
-        for index in together:
-            joint[necks[index].vertices] = number
-    return joint
+
+class Necks:
+    """The necks of a stage, and the joints that hold them: those that lie together belong to one."""
+
+    def __init__(self, necks: Sequence[Neck], last: Floats) -> None:
+        """Find the joints that hold in the end; `last`: points of the last frame, (V, 3), m."""
+        self._neck = np.full(len(last), NO_NECK, dtype=np.int64)
+        """The nearest neck of each vertex that lies in one."""
+        nearest = np.full(len(last), np.inf)
+        for index, neck in enumerate(necks):
+            near = neck.vertices[neck.away <= nearest[neck.vertices]]
+            self._neck[near] = index
+            nearest[neck.vertices] = np.minimum(nearest[neck.vertices], neck.away)
+        self._rings = [neck.ring for neck in necks]
+        widest = np.array([_radii(last[neck.rings]).max() for neck in necks])
+        self._reach = np.maximum.outer(widest, widest)
+        """Of pairs, the radius of the wider balloon, m."""
+        self._kept = self._apart(last) <= APART * self._reach
+
+    def joints_in(self, points: Floats) -> Numbers:
+        """Return the joint in whose neck each vertex lies in a frame, (V,); `NO_NECK` of others.
+
+        A joint is what holds in the end, or what hands hold together in this frame even if nothing does then.
+        `points`: (V, 3), m.
+        """
+        if not self._rings:
+            return self._neck
+        near = nx.from_numpy_array(self._kept | (self._apart(points) <= HELD * self._reach))
+        number = np.full(len(self._rings) + 1, NO_NECK)
+        for joint, together in enumerate(nx.connected_components(near)):
+            number[list(together)] = joint
+        return number[self._neck]
+
+    def _apart(self, points: Floats) -> Floats:
+        """Return the distances between all necks, m; `points`: (V, 3), m."""
+        middles = np.array([points[ring].mean(axis=0) for ring in self._rings]).reshape(-1, 3)
+        return np.asarray(np.linalg.norm(middles[:, None] - middles[None], axis=2))
 
 
 def _around(quads: Numbers, vertices: int) -> int:

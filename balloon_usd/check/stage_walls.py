@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from balloon_usd.balloon.tube_mesh import MIRRORED_FACE
-from balloon_usd.check.necks import joints_between, necks_of
+from balloon_usd.check.necks import Necks, necks_of
 from balloon_usd.check.opening import UnreadableError
 from balloon_usd.openusd import Usd, UsdGeom
 from balloon_usd.quality.walls import Walls, walls_from
@@ -97,8 +97,13 @@ class StageWalls:
         """Return where the vertices of all meshes are, (V, 3) float32 m each; raises `UnreadableError`."""
         return [mesh.points(time_code, self._scale) for mesh in self.meshes]
 
+    def necks_in(self, points: list[NDArray[np.float32]]) -> Numbers:
+        """Return the joint in whose neck each vertex lies in a frame, (V,); `points`: of all meshes, m."""
+        return self._necks.joints_in(np.concatenate(points).astype(np.float64))
+
     def _walls(self) -> Walls:
-        quads, bubbles, necks = [], [], []
+        quads, bubbles = [], []
+        necks: list[Neck] = []
         names: list[str] = []
         before = 0
         several = len({mesh.owner for mesh in self.meshes if len(mesh.names) > 1}) > 1
@@ -109,8 +114,9 @@ class StageWalls:
             names += [f"{mesh.owner}.{name}" for name in mesh.names] if several else mesh.names
             before += mesh.vertices
         last = np.concatenate(self.points(self.times[-1])).astype(np.float64)
-        joint = joints_between(necks, last, before)
+        self._necks = Necks(necks, last)
         sides = [side for neck in necks for side in neck.sides]
+        joint = self._necks.joints_in(last)
         return walls_from(np.concatenate(quads), np.concatenate(bubbles), joint, tuple(names), sides)
 
 

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from balloon_usd.quality.pierced_walls import Crossings
     from balloon_usd.quality.walls import Walls
 
+    Numbers = NDArray[np.int64]
+
 FEW = 8
 """Frames up to which NumPy is done sooner than Warp is imported."""
 
@@ -38,18 +40,19 @@ class CrossingCounter:
         self._walls = walls
         self._search = _search(walls, device) if frames > FEW else None
 
-    def count(self, points: Sequence[NDArray[np.float32]], *, held: bool = False) -> Crossings:
-        """Return the crossings of a frame; `points`: (V, 3) float32 of every balloon, m.
+    def count(self, points: Sequence[NDArray[np.float32]], neck: Numbers | None = None) -> Crossings:
+        """Return the crossings of a frame.
 
-        `held`: whether hands still hold together what is meant to slip when they let go.
+        Args:
+            points: (V, 3) float32 of every balloon, m.
+            neck: joint in whose neck each vertex lies then, (V,); None where that is as in the end.
         """
-        walls, pierced = self._pierced(_joined(points))
-        return crossings_in(walls.held() if held else walls, pierced)
+        return crossings_in(*self._pierced(_joined(points), neck))
 
-    def depth(self, points: Sequence[NDArray[np.float32]]) -> float:
-        """Return how deep the deepest vertex at a crossing of a frame lies inside a wall, m."""
+    def depth(self, points: Sequence[NDArray[np.float32]], neck: Numbers | None = None) -> float:
+        """Return how deep the deepest vertex at a crossing of a frame lies inside a wall, m; as `count`."""
         joined = _joined(points)
-        return depth_in(*self._pierced(joined), joined.astype(np.float64))
+        return depth_in(*self._pierced(joined, neck), joined.astype(np.float64))
 
     def in_necks(self, points: Sequence[NDArray[np.float32]]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         """Return the edges of a frame that pierce faces in the neck of one joint, (P, 2) vertices of all
@@ -57,10 +60,11 @@ class CrossingCounter:
         """
         return folded_in_necks(*self._pierced(_joined(points)))
 
-    def _pierced(self, points: NDArray[np.float32]) -> tuple[Walls, Pierced]:
+    def _pierced(self, points: NDArray[np.float32], neck: Numbers | None = None) -> tuple[Walls, Pierced]:
         """Return the walls as they are in a frame, and what is pierced there."""
         pierced = walls_alone(self._search_in(points), self._walls.quads, points)
-        return self._walls.cut_off(points), pierced
+        walls = self._walls if neck is None else self._walls._replace(neck=neck)
+        return walls.cut_off(points), pierced
 
     def _search_in(self, points: NDArray[np.float32]) -> Pierced:
         if self._search is not None:

@@ -77,14 +77,14 @@ class Walls(NamedTuple):
     slipping: tuple[tuple[int, ...], ...] = ()
     """Joints that hands hold together as one until they let go, and nothing does then."""
 
-    def held(self) -> Walls:
-        """Return them as hands hold them: joints that are meant to slip are one."""
-        if not self.slipping:
-            return self
+    def held(self) -> Numbers:
+        """Return the joint in whose neck each vertex lies while hands hold it, (V,): those that are meant to
+        slip are one.
+        """
         neck = self.neck.copy()
         for first, *others in self.slipping:
             neck[np.isin(neck, others)] = first
-        return self._replace(neck=neck)
+        return neck
 
     def cut_off(self, points: NDArray[np.floating]) -> Walls:
         """Return them as in a frame, (V, 3) m: what was cut off lies in the neck from which it was."""

@@ -157,6 +157,29 @@ def test_a_stage_alone_gives_the_numbers_of_its_run(mirror, tmp_path):
     assert min(found.count, found.in_necks) > 10
 
 
+def test_a_lock_that_slips_in_the_end_is_one_joint_of_the_stage_as_long_as_hands_hold_it(tmp_path):
+    plan = plan_of(Recipe.parse(EARS.replace("  - bubbles: {neck", "    turns: 1\n  - bubbles: {neck")))
+    meshes = meshes_of(plan, detail_named("draft"))
+    held = points_of(plan, meshes)
+    # Both necks of the lock are crumpled, and pierce each other.
+    for ring in plan.table.ends("left_ear")[0], plan.table.ends("right_ear")[1]:
+        neck = np.abs(meshes[0].along - plan.table.rings[ring].along) < 1e-5
+        held[neck] += np.random.default_rng(1).uniform(-3e-3, 3e-3, (int(neck.sum()), 3)).astype(np.float32)
+    loose = np.float32([1.0, 0.4, 0.4]) * meshes[0].points
+    bubbles, stretch = (np.ones(count, dtype=np.float32) for count in (len(plan.bubbles), len(held)))
+    frames = [
+        Frame(code, (points,), (stretch,), bubbles, bubbles * 1e-4, "hold")
+        for code, points in enumerate((held, loose), start=1)
+    ]
+    stage = write_plan(plan, frames, tmp_path, detail="draft", flat=True).files[0]
+    report = count_crossings(str(stage))
+    walls = walls_of(plan, meshes)
+    assert walls.slipping
+    apart, together = (CrossingCounter(walls, 1).count((held,), neck) for neck in (None, walls.held()))
+    assert apart.count > together.count
+    assert report.frames[1] == together
+
+
 @pytest.mark.parametrize("recipe", ["kosaka/bubbles", "book/maple_nj", "meshes/heart"])
 def test_necks_are_found_in_tubes_and_capsules_and_shapes_have_none(recipe, tmp_path):
     plan = plan_of(Recipe.load(RECIPES / f"{recipe}.yaml"))
