@@ -269,7 +269,7 @@ class LengthWithin:
     ) -> JsonSchemaValue:
         least = {"minimum" if self.low_included else "exclusiveMinimum": 0} if self.low >= 0.0 else {}
         units, sign = "|".join(METRES), "\\+" if self.low >= 0.0 else "[-+]"
-        text = {"type": "string", "pattern": rf"^\s*{sign}?[0-9.]+([eE][-+]?[0-9]+)?\s*({units})\s*$"}
+        text = {"type": "string", "pattern": rf"^\s*{sign}?[0-9.]+([eE][-+]?[0-9]+)?\s*({units})?\s*$"}
         fraction = {"type": "string", "pattern": rf"^\s*([0-9]+\s+)?[0-9]+/[0-9]+\s*({units})?\s*$"}
         return {"anyOf": [{"type": "number", **least}, text, fraction]}
 

@@ -245,6 +245,14 @@ def test_the_schema_and_the_reader_refuse_the_same_slips_in_repeats(right: str, 
     assert not accepts(SCHEMA, plain(text))
 
 
+def test_the_schema_and_the_reader_take_numbers_in_quotes() -> None:
+    text = (HEAD + ABC).replace("10", "'10'")
+    assert "tail: '10'" in text
+    assert "a: '10'" in text
+    Recipe.parse(text)
+    assert accepts(SCHEMA, plain(text))
+
+
 @pytest.mark.parametrize("text", WRONG)
 def test_the_schema_and_the_reader_refuse_the_same_slips(text: str) -> None:
     with pytest.raises(RecipeError):
