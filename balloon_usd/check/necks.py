@@ -17,7 +17,7 @@ from balloon_usd.balloon.ringed_faces import inner_vertices, ring_starts, ringed
 from balloon_usd.balloon.sizes import NECK_REACH
 from balloon_usd.balloon.tube_mesh import KNOT_LENGTH, LIP_LENGTH, MIRRORED_FACE
 from balloon_usd.quality.joints import APART
-from balloon_usd.quality.walls import CAPSULE_NECK_REACH, NO_NECK, sides_of_ring
+from balloon_usd.quality.walls import CAPSULE_NECK_REACH, NO_NECK, SIDE_BY_SIDE, necks_apart, sides_of_ring
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -31,10 +31,6 @@ if TYPE_CHECKING:
 
 LIP_RING, KNOT_RING = 3, 7
 """Rings of a tube at which its lip and its knot end."""
-HELD = 0.25
-"""Distance up to which necks are held together by hands, in radii of the blown-up balloon: two closed ones
-side by side are 0.2 apart.
-"""
 ROUNDING = 1e-4
 """Of texture coordinates, as a share of the reach of a neck."""
 MOST_AROUND = 256
@@ -129,12 +125,12 @@ class Necks:
     def joints_in(self, points: Floats) -> Numbers:
         """Return the joint in whose neck each vertex lies in a frame, (V,); `NO_NECK` of others.
 
-        A joint is what holds in the end, or what hands hold together in this frame even if nothing does then.
+        A joint is what holds in the end, or what lies side by side in this frame, as hands hold what slips.
         `points`: (V, 3), m.
         """
         if not self._rings:
             return self._neck
-        near = nx.from_numpy_array(self._kept | (self._apart(points) <= HELD * self._reach))
+        near = nx.from_numpy_array(self._kept | (self._apart(points) <= SIDE_BY_SIDE * self._reach))
         number = np.full(len(self._rings) + 1, NO_NECK)
         for joint, together in enumerate(nx.connected_components(near)):
             number[list(together)] = joint
@@ -143,7 +139,7 @@ class Necks:
     def _apart(self, points: Floats) -> Floats:
         """Return the distances between all necks, m; `points`: (V, 3), m."""
         middles = np.array([points[ring].mean(axis=0) for ring in self._rings]).reshape(-1, 3)
-        return np.asarray(np.linalg.norm(middles[:, None] - middles[None], axis=2))
+        return necks_apart(middles)
 
 
 def _around(quads: Numbers, vertices: int) -> int:

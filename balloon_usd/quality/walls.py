@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+import networkx as nx
 import numpy as np
 
 from balloon_usd.balloon.sizes import NECK_REACH
@@ -11,7 +12,7 @@ from balloon_usd.quality.joints import joints_of, made_joints
 from balloon_usd.quality.ring_corners import RingCorners
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -26,6 +27,10 @@ NO_NECK = -1
 STUB_REACH = 1.2
 """How far from the middle of its neck what is left of an end that was cut off lies, at most, in the neck's
 radius: a lid with a nib (`solver.severed`).
+"""
+SIDE_BY_SIDE = 0.25
+"""Distance up to which necks lie side by side, in radii of the blown-up balloon: two closed ones are 0.2
+apart.
 """
 OPEN = 0.3
 """Radius of a neck that has opened again, at least, in how far the rubber before it reaches."""
@@ -57,6 +62,24 @@ class Side(NamedTuple):
         return radius < OPEN * _far(points[self.others], middle)
 
 
+class Slipping(NamedTuple):
+    """Joints that hands hold together as one until they let go, and nothing does then."""
+
+    joints: tuple[int, ...]
+    """Of each of its necks."""
+    rings: tuple[Numbers, ...]
+    """Vertices of the ring in the middle of each neck."""
+    reach: float
+    """How far apart necks side by side are, at most, m."""
+
+    def together(self, points: NDArray[np.floating]) -> list[set[int]]:
+        """Return its joints as they still lie together in a frame; `points`: of all balloons, (V, 3) m."""
+        middles = np.array([points[ring].mean(axis=0, dtype=np.float64) for ring in self.rings])
+        near = nx.from_numpy_array(necks_apart(middles) <= self.reach)
+        near.add_edges_from((self.joints.index(joint), k) for k, joint in enumerate(self.joints))
+        return [{self.joints[k] for k in lump} for lump in nx.connected_components(near)]
+
+
 class Walls(NamedTuple):
     """All balloons of a sculpture together, their vertices one after another."""
 
@@ -74,16 +97,27 @@ class Walls(NamedTuple):
     """Joint in whose neck each vertex lies, (V,); `NO_NECK` of others."""
     sides: tuple[Side, ...] = ()
     """Of all necks but those of knots."""
-    slipping: tuple[tuple[int, ...], ...] = ()
-    """Joints that hands hold together as one until they let go, and nothing does then."""
+    slipping: tuple[Slipping, ...] = ()
 
     def held(self) -> Numbers:
         """Return the joint in whose neck each vertex lies while hands hold it, (V,): those that are meant to
         slip are one.
         """
+        return self._neck_with([set(each.joints) for each in self.slipping])
+
+    def let_go(self, points: Sequence[NDArray[np.floating]]) -> Numbers:
+        """Return the same in a frame after hands have let go: as long as necks lie side by side.
+
+        `points`: (V, 3) of every balloon, m.
+        """
+        joined = np.concatenate(points)
+        return self._neck_with([lump for each in self.slipping for lump in each.together(joined)])
+
+    def _neck_with(self, lumps: list[set[int]]) -> Numbers:
+        """Return the joint in whose neck each vertex lies where the joints of each lump are one, (V,)."""
         neck = self.neck.copy()
-        for first, *others in self.slipping:
-            neck[np.isin(neck, others)] = first
+        for lump in lumps:
+            neck[np.isin(neck, list(lump))] = min(lump)
         return neck
 
     def cut_off(self, points: NDArray[np.floating]) -> Walls:
@@ -124,9 +158,22 @@ def walls_of(plan: Plan, meshes: Sequence[BalloonMesh]) -> Walls:
         before += len(strip.bubbles)
     names = tuple(bubble.name for bubble in plan.bubbles)
     found = walls_from(np.concatenate(quads), np.concatenate(bubbles), np.concatenate(necks), names, sides)
-    joint_of = dict(rings)
-    held = (tuple(dict.fromkeys(joint_of[ring] for ring in each.rings)) for each in made_joints(plan))
-    return found._replace(slipping=tuple(joints for joints in held if len(joints) > 1))
+    return found._replace(slipping=tuple(_slipping(plan, meshes, dict(rings))))
+
+
+def _slipping(plan: Plan, meshes: Sequence[BalloonMesh], joint_of: Mapping[int, int]) -> Iterator[Slipping]:
+    """Yield the joints that a recipe makes one of and that slip; `joint_of`: rings of the plan."""
+    before = dict(zip(plan.strips, np.cumsum([0, *(len(mesh.points) for mesh in meshes)]), strict=False))
+    for made in made_joints(plan):
+        joints = tuple(joint_of[ring] for ring in made.rings)
+        if len(set(joints)) > 1:
+            balloons = [plan.table.rings[ring].balloon for ring in made.rings]
+            rings = tuple(
+                np.r_[RingCorners.of(plan, meshes, ring).vertices] + before[balloon]
+                for ring, balloon in zip(made.rings, balloons, strict=True)
+            )
+            widest = max(plan.strips[balloon].inflated_radius for balloon in balloons)
+            yield Slipping(joints, rings, SIDE_BY_SIDE * widest)
 
 
 def walls_from(
@@ -150,6 +197,11 @@ def sides_of_ring(ring: Numbers, beyond: NDArray[np.floating]) -> list[Side]:
     others[ring] = False
     first, last = (np.flatnonzero(others & (side * beyond > 0.0)) for side in (-1.0, 1.0))
     return [Side(ring, *each) for each in ((first, last), (last, first)) if len(first) and len(last)]
+
+
+def necks_apart(middles: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the distances between necks, (N, N), m; `middles`: (N, 3), m."""
+    return np.asarray(np.linalg.norm(middles[:, None] - middles[None], axis=2))
 
 
 def _far(points: NDArray[np.floating], middle: NDArray[np.float64]) -> float:

@@ -47,10 +47,8 @@ class QualityWatch:
         """
         self._plan, self._meshes = plan, meshes
         self._counted = {*counted, plan.frame_count}
-        walls = walls_of(plan, meshes)
-        self._counter = CrossingCounter(walls, len(self._counted))
-        self._held = walls.held()
-        """Joint in whose neck each vertex lies while hands hold together what slips when they let go."""
+        self._walls = walls_of(plan, meshes)
+        self._counter = CrossingCounter(self._walls, len(self._counted))
         self.crossings = CrossingHistory()
         """In those frames."""
         self._led_apart, self._led_frames = 0.0, 0
@@ -78,10 +76,9 @@ class QualityWatch:
         if frame.shift is not None and (most := float(frame.shift.max(initial=0.0))) > 0.0:
             self._led_apart, self._led_frames = max(self._led_apart, most), self._led_frames + 1
         if frame.time_code in self._counted:
-            held = not any(SLIPPED in told for told in frame.undone)
-            self.crossings.add(
-                frame.time_code, self._counter.count(frame.points, self._held if held else None)
-            )
+            slipped = any(SLIPPED in told for told in frame.undone)
+            neck = self._walls.let_go(frame.points) if slipped else self._walls.held()
+            self.crossings.add(frame.time_code, self._counter.count(frame.points, neck))
         if frame.time_code == self._plan.frame_count:
             self._end = frame
 

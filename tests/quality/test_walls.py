@@ -96,3 +96,17 @@ def test_a_lock_that_is_meant_to_slip_is_one_joint_as_long_as_hands_hold_it(turn
     held = walls.held()
     assert len(set(held[first]) | set(held[last])) == 1
     assert (set(walls.neck[first]) != set(walls.neck[last])) == slips
+
+
+@pytest.mark.parametrize(("apart", "together"), [(0.2, True), (0.3, False)])
+def test_when_hands_have_let_go_it_is_one_as_long_as_its_necks_lie_side_by_side(apart, together):
+    planned = plan(Recipe.parse(PAIR % 1))
+    (mesh,) = made_meshes(planned, DETAILS["draft"])
+    walls = walls_of(planned, [mesh])
+    ends = [planned.table.ends("left")[0], planned.table.ends("right")[1]]
+    first, last = (np.r_[RingCorners.of(planned, [mesh], ring).vertices] for ring in ends)
+    points = mesh.points.copy()
+    points[last] += points[first].mean(axis=0) - points[last].mean(axis=0)
+    points[last, 0] += apart * planned.strips["one"].inflated_radius
+    let_go = walls.let_go([points])
+    assert (let_go[first[0]] == let_go[last[0]]) == together
