@@ -23,6 +23,10 @@ if TYPE_CHECKING:
 
 CAPSULE_NECK_REACH = 0.25
 """The same of a capsule, in radii before it is twisted."""
+ROUND_NECK_REACH = 0.5
+"""The same of a round balloon or a heart, in R0: what is folded up lies within 0.4 where one is twisted or
+tied, and a whole R0 is most of a balloon.
+"""
 NO_NECK = -1
 STUB_REACH = 1.2
 """How far from the middle of its neck what is left of an end that was cut off lies, at most, in the neck's
@@ -216,4 +220,6 @@ def halves(quads: Numbers) -> Numbers:
 
 def neck_reach(strip: Strip) -> float:
     """Return how far from its joint rubber of a neck lies unstressed, at most, m."""
-    return CAPSULE_NECK_REACH * strip.inflated_radius if strip.capsule else NECK_REACH * strip.size.radius
+    if strip.capsule:
+        return CAPSULE_NECK_REACH * strip.inflated_radius
+    return (ROUND_NECK_REACH if strip.is_round else NECK_REACH) * strip.size.radius

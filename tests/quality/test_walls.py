@@ -8,6 +8,7 @@ import pytest
 from balloon_usd.balloon.detail import DETAILS
 from balloon_usd.plan import plan
 from balloon_usd.plan.meshing import made_meshes
+from balloon_usd.quality.crossing_counter import CrossingCounter
 from balloon_usd.quality.joints import joints_of
 from balloon_usd.quality.ring_corners import RingCorners
 from balloon_usd.quality.walls import Side, neck_reach, walls_of
@@ -70,6 +71,18 @@ def test_rubber_between_two_near_necks_lies_in_the_nearer_one(text):
         away = {joint: abs(place - along) for place, joint in rings}
         assert away[walls.neck[vertex]] == pytest.approx(min(away.values()), abs=1e-9)
         assert away[walls.neck[vertex]] <= reach
+
+
+def test_what_crosses_well_away_from_the_joint_of_a_round_balloon_is_no_rubber_folded_in_its_neck():
+    made = plan(Recipe.parse(ROUND))
+    (mesh,) = meshes = made_meshes(made, DETAILS["draft"])
+    joint = made.bubbles[0].rest_end
+    away = np.abs(np.abs(mesh.along - joint) - 0.7 * made.strips["one"].size.radius)
+    vertex = int(np.argmin(away))
+    points = mesh.points.copy()
+    # Through the wall on the other side of the balloon.
+    points[vertex, 1:] *= -1.5
+    assert CrossingCounter(walls_of(made, meshes), 1).count([points]).count > 0
 
 
 PAIR = """
