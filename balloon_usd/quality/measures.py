@@ -83,7 +83,7 @@ MEASURES = _table(
         "1",
         5.0,
         2,
-        "how far from its joint rubber goes through itself, in the reach of a neck; farther out gas draws it in",
+        "how far from its joint rubber goes through itself, in a neck's reach; farther out gas draws it in",
     ),
     Measure("symmetric_volume", "1", 0.05, 4, "largest difference of volume in a pair, as a share of it"),
     Measure(
