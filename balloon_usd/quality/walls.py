@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
     from balloon_usd.balloon.tube_mesh import BalloonMesh
     from balloon_usd.plan import Plan, Strip
+    from balloon_usd.solver.frame import Frame
 
     Numbers = NDArray[np.int64]
 
@@ -71,15 +72,16 @@ class Slipping(NamedTuple):
 
     joints: tuple[int, ...]
     """Of each of its necks."""
-    rings: tuple[Numbers, ...]
-    """Vertices of the ring in the middle of each neck."""
+    rings: tuple[RingCorners, ...]
+    """In the middle of each neck."""
     reach: float
     """How far apart necks side by side are, at most, m."""
 
-    def together(self, points: NDArray[np.floating]) -> list[set[int]]:
-        """Return its joints as they still lie together in a frame; `points`: of all balloons, (V, 3) m."""
-        middles = np.array([points[ring].mean(axis=0, dtype=np.float64) for ring in self.rings])
+    def together(self, frame: Frame) -> list[set[int]]:
+        """Return its joints as they still lie together in a frame."""
+        middles = np.array([ring.places(frame).mean(axis=0) for ring in self.rings])
         near = nx.from_numpy_array(necks_apart(middles) <= self.reach)
+        # Necks of one joint are together wherever they lie.
         near.add_edges_from((self.joints.index(joint), k) for k, joint in enumerate(self.joints))
         return [{self.joints[k] for k in lump} for lump in nx.connected_components(near)]
 
@@ -109,13 +111,9 @@ class Walls(NamedTuple):
         """
         return self._neck_with([set(each.joints) for each in self.slipping])
 
-    def let_go(self, points: Sequence[NDArray[np.floating]]) -> Numbers:
-        """Return the same in a frame after hands have let go: as long as necks lie side by side.
-
-        `points`: (V, 3) of every balloon, m.
-        """
-        joined = np.concatenate(points)
-        return self._neck_with([lump for each in self.slipping for lump in each.together(joined)])
+    def let_go(self, frame: Frame) -> Numbers:
+        """Return the same in a frame after hands have let go: as long as necks lie side by side."""
+        return self._neck_with([lump for each in self.slipping for lump in each.together(frame)])
 
     def _neck_with(self, lumps: list[set[int]]) -> Numbers:
         """Return the joint in whose neck each vertex lies where the joints of each lump are one, (V,)."""
@@ -167,16 +165,11 @@ def walls_of(plan: Plan, meshes: Sequence[BalloonMesh]) -> Walls:
 
 def _slipping(plan: Plan, meshes: Sequence[BalloonMesh], joint_of: Mapping[int, int]) -> Iterator[Slipping]:
     """Yield the joints that a recipe makes one of and that slip; `joint_of`: rings of the plan."""
-    before = dict(zip(plan.strips, np.cumsum([0, *(len(mesh.points) for mesh in meshes)]), strict=False))
     for made in made_joints(plan):
         joints = tuple(joint_of[ring] for ring in made.rings)
         if len(set(joints)) > 1:
-            balloons = [plan.table.rings[ring].balloon for ring in made.rings]
-            rings = tuple(
-                np.r_[RingCorners.of(plan, meshes, ring).vertices] + before[balloon]
-                for ring, balloon in zip(made.rings, balloons, strict=True)
-            )
-            widest = max(plan.strips[balloon].inflated_radius for balloon in balloons)
+            rings = tuple(RingCorners.of(plan, meshes, ring) for ring in made.rings)
+            widest = max(plan.strips[plan.table.rings[ring].balloon].inflated_radius for ring in made.rings)
             yield Slipping(joints, rings, SIDE_BY_SIDE * widest)
 
 

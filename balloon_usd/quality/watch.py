@@ -77,7 +77,7 @@ class QualityWatch:
             self._led_apart, self._led_frames = max(self._led_apart, most), self._led_frames + 1
         if frame.time_code in self._counted:
             slipped = any(SLIPPED in told for told in frame.undone)
-            neck = self._walls.let_go(frame.points) if slipped else self._walls.held()
+            neck = self._walls.let_go(frame) if slipped else self._walls.held()
             self.crossings.add(frame.time_code, self._counter.count(frame.points, neck))
         if frame.time_code == self._plan.frame_count:
             self._end = frame

@@ -13,6 +13,7 @@ from balloon_usd.quality.joints import joints_of
 from balloon_usd.quality.ring_corners import RingCorners
 from balloon_usd.quality.walls import Side, neck_reach, walls_of
 from balloon_usd.recipe import Recipe
+from balloon_usd.solver.frame import Frame
 
 AROUND = 12
 SHORT = """
@@ -121,5 +122,6 @@ def test_when_hands_have_let_go_it_is_one_as_long_as_its_necks_lie_side_by_side(
     points = mesh.points.copy()
     points[last] += points[first].mean(axis=0) - points[last].mean(axis=0)
     points[last, 0] += apart * planned.strips["one"].inflated_radius
-    let_go = walls.let_go([points])
+    ones = np.ones(len(planned.bubbles), dtype=np.float32)
+    let_go = walls.let_go(Frame(1, (points,), (np.ones(len(points), np.float32),), ones, ones, "hold"))
     assert (let_go[first[0]] == let_go[last[0]]) == together
