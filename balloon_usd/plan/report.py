@@ -11,6 +11,7 @@ from balloon_usd.operations.parting import parts_of
 from balloon_usd.operations.workpiece import Contact, Joined, Popped
 from balloon_usd.plan.budget import amount
 from balloon_usd.plan.holding import friction_margin
+from balloon_usd.plan.lungs import blown_by
 from balloon_usd.plan.overblowing import load_of
 from balloon_usd.plan.parking import parked
 from balloon_usd.plan.pumping import pumped
@@ -141,6 +142,8 @@ def _budget_lines(plan: Plan, budget: Budget) -> Iterator[str]:
     if plan.recipe.physics.traits.winds:
         gas += f" at {budget.pressure / 1e3:.1f} kPa, {budget.gas_amount:.3f} mol"
     yield f"  blow up {cm(budget.inflated_length)}, leave {cm(budget.tail)} flat: {gas}"
+    if plan.recipe.physics.traits.winds:
+        yield _opening_line(budget)
     each = f"about {cm((budget.tail_needed - budget.drawn) / max(twists, 1))} each"
     if budget.drawn > 0.0:
         each += f", and {cm(budget.drawn)} that turns draw in"
@@ -159,6 +162,17 @@ def _budget_lines(plan: Plan, budget: Budget) -> Iterator[str]:
             f"to {at_most(budget.longest_inflation)} "
             f"(tail {at_most(budget.most_tail)} to {at_least(budget.tail_needed)})"
         )
+
+
+def _opening_line(budget: Budget) -> str:
+    """Tell at which pressure a balloon begins to grow, as it comes and where its start is stretched."""
+    first, stretched = (
+        f"{pressure / 1e3:.1f} kPa ({blown_by(pressure)})"
+        for pressure in (budget.opening, budget.opening_stretched)
+    )
+    if budget.opening_stretched == budget.opening:
+        return f"  it begins to grow at {first}"
+    return f"  it begins to grow at {first}, and at {stretched} where hands stretched its start before"
 
 
 def _stroke_lines(plan: Plan, balloon: str) -> Iterator[str]:
@@ -376,5 +390,7 @@ def _budget_json(budget: Budget) -> dict[str, Any]:
         "volume": budget.volume,
         "pressure": budget.pressure,
         "gas_amount": budget.gas_amount,
+        "opening_pressure": budget.opening,
+        "opening_pressure_stretched": budget.opening_stretched,
         "twists": [asdict(twist) for twist in budget.twists],
     }

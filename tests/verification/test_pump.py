@@ -9,6 +9,9 @@ from balloon_usd.balloon.air import ATMOSPHERE, GAS_CONSTANT, ROOM_TEMPERATURE
 from balloon_usd.balloon.rubber import rubber_named
 from balloon_usd.balloon.sizes import size_named
 from balloon_usd.balloon.tube_theory import gauge_pressure, maxwell_state
+from balloon_usd.plan import plan
+from balloon_usd.recipe import Recipe
+from balloon_usd.solver.simulation import simulate_many
 from tests.verification.setups import Rig, plain, polygon_factor, ring_stretches, tube
 
 SIZE, LATEX = size_named("260"), plain(rubber_named())
@@ -83,3 +86,39 @@ def test_a_steady_pump_moves_the_front_and_lengthens_the_tube_steadily(verify, p
     # The new bulged tube is 24.7 mm/s; what it was before, thin and a little stretched, is gone.
     thin = STATE.thin.b * slope(time, place)
     verify("V22", "50 mL/s, new bulged length, mm/s", (slope(time, length) + thin) * 1e3, 24.7, 2e-2)
+
+
+LYING = """
+format: 1
+name: blown_up
+units: cm
+balloons:
+  one: {{size: {size}, length: 14, tail: 6}}
+steps:
+  - {{rest: tube, balloon: one}}
+"""
+
+
+@pytest.fixture(scope="module")
+def hardest():
+    """Highest gauge pressure of tubes of four sizes while they are blown up, and what the plan told, Pa."""
+    plans = [plan(Recipe.parse(LYING.format(size=size))) for size in ("160", "260", "350", "646")]
+    simulation = simulate_many(plans, device="cpu")
+    ends = [p.choreography.moves[0].end * p.recipe.fps for p in plans]
+    highest = np.zeros(len(plans))
+    for frames in simulation.frames():
+        blown = [
+            frame.pressure[0] if frame.time_code <= end else 0.0
+            for frame, end in zip(frames, ends, strict=True)
+        ]
+        highest = np.maximum(highest, blown)
+    return {
+        p.strips["one"].size.name: (pressure, p.budgets["one"].opening_stretched)
+        for p, pressure in zip(plans, highest, strict=True)
+    }
+
+
+@pytest.mark.parametrize("size", ["160", "260", "350", "646"])
+def test_a_tube_whose_start_hands_stretched_begins_at_the_pressure_of_the_plan(verify, hardest, size):
+    highest, told = hardest[size]
+    verify("V22", f"{size} with a stretched start, highest pressure, Pa", highest, told, 2e-2)
