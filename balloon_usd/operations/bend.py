@@ -22,7 +22,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from balloon_usd.language.quantities import Units
-    from balloon_usd.operations.score import Layout, Score
+    from balloon_usd.operations.layout import Layout
+    from balloon_usd.operations.score import Score
 
 BEND_SECONDS = 0.9
 """Bending one bubble, s."""

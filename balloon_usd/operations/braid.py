@@ -22,7 +22,8 @@ if TYPE_CHECKING:
 
     from balloon_usd.language.problem import Path
     from balloon_usd.language.quantities import Units
-    from balloon_usd.operations.score import Layout, Score
+    from balloon_usd.operations.layout import Layout
+    from balloon_usd.operations.score import Score
     from balloon_usd.operations.workbench import Workbench
 
 STRANDS = 3

@@ -19,7 +19,8 @@ if TYPE_CHECKING:
 
     from balloon_usd.language.problem import Path
     from balloon_usd.language.quantities import LengthLike, Units
-    from balloon_usd.operations.score import Layout, PlacedBubble, Score
+    from balloon_usd.operations.layout import Layout, PlacedBubble
+    from balloon_usd.operations.score import Score
     from balloon_usd.operations.workbench import Place, Workbench
 
 ROUND = 0.9

@@ -23,7 +23,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from balloon_usd.language.quantities import Units
-    from balloon_usd.operations.score import Layout, PlacedBubble, Score
+    from balloon_usd.operations.layout import Layout, PlacedBubble
+    from balloon_usd.operations.score import Score
     from balloon_usd.operations.workbench import Place, Workbench
     from balloon_usd.operations.workpiece import Workpiece
 

@@ -8,7 +8,7 @@ from balloon_usd.operations.modifiers import OnBalloon, Pointed, Timed
 from balloon_usd.operations.operation import WorksByBubble
 
 if TYPE_CHECKING:
-    from balloon_usd.operations.score import Layout
+    from balloon_usd.operations.layout import Layout
     from balloon_usd.operations.workbench import Place, Workbench
 
 

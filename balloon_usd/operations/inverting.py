@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from balloon_usd.language.problem import Path
-    from balloon_usd.operations.score import Layout
+    from balloon_usd.operations.layout import Layout
     from balloon_usd.operations.workbench import Place, Workbench
     from balloon_usd.operations.workpiece import Workpiece
 

@@ -12,7 +12,7 @@ from balloon_usd.operations.operation import BubbleKind
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from balloon_usd.operations.score import Layout
+    from balloon_usd.operations.layout import Layout
 
 SHORTEST = 2.0
 """Length of the shortest loop, in diameters of its tube: the ends of a shorter one meet before it bends."""

@@ -10,7 +10,7 @@ from balloon_usd.operations.caution import Caution
 from balloon_usd.operations.closing import LENIENCE
 
 if TYPE_CHECKING:
-    from balloon_usd.operations.score import Layout
+    from balloon_usd.operations.layout import Layout
 
 OPEN = 3.6
 """Length of a loop below which nothing stays in its hole, in its widths: in simulations of a 260 an ear of

@@ -19,7 +19,8 @@ from balloon_usd.operations.weaving import WeavesRow
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from balloon_usd.operations.score import Layout, Score
+    from balloon_usd.operations.layout import Layout
+    from balloon_usd.operations.score import Score
     from balloon_usd.operations.workbench import Place, Workbench
 
 

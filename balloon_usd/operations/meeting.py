@@ -14,7 +14,7 @@ from balloon_usd.operations.distances import distances
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from balloon_usd.operations.score import Layout
+    from balloon_usd.operations.layout import Layout
     from balloon_usd.operations.workpiece import Limb, Workpiece
 
 

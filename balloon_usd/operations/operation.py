@@ -15,7 +15,8 @@ if TYPE_CHECKING:
 
     from balloon_usd.language.quantities import LengthLike, Units
     from balloon_usd.operations.caution import Caution
-    from balloon_usd.operations.score import Layout, Score
+    from balloon_usd.operations.layout import Layout
+    from balloon_usd.operations.score import Score
     from balloon_usd.operations.workbench import Place, Workbench
     from balloon_usd.operations.workpiece import Workpiece
 

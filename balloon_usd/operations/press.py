@@ -14,7 +14,8 @@ from balloon_usd.operations.pressing import Pressing
 
 if TYPE_CHECKING:
     from balloon_usd.language.quantities import LengthLike, Units
-    from balloon_usd.operations.score import PlacedBubble, Score
+    from balloon_usd.operations.layout import PlacedBubble
+    from balloon_usd.operations.score import Score
     from balloon_usd.operations.workbench import Place, Workbench
 
 PRESSING = ("depth", "force")

@@ -15,7 +15,7 @@ from balloon_usd.operations.passing import Passing, Ring, depth_of
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from balloon_usd.operations.score import Layout
+    from balloon_usd.operations.layout import Layout
     from balloon_usd.operations.workpiece import ContactKind
 
 SMALL = 5.5

@@ -13,7 +13,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from balloon_usd.language.problem import Path
-    from balloon_usd.operations.score import Layout, PlacedBubble, Score
+    from balloon_usd.operations.layout import Layout, PlacedBubble
+    from balloon_usd.operations.score import Score
     from balloon_usd.operations.workbench import Place, Workbench
     from balloon_usd.operations.workpiece import Workpiece
 

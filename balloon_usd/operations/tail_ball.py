@@ -13,7 +13,8 @@ from balloon_usd.operations.score import SETTLE_SECONDS
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from balloon_usd.operations.score import Layout, Score
+    from balloon_usd.operations.layout import Layout
+    from balloon_usd.operations.score import Score
     from balloon_usd.operations.workbench import Place, Workbench
 
 STRETCH_SECONDS = 1.0

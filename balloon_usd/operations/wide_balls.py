@@ -11,7 +11,7 @@ from balloon_usd.operations.caution import Caution
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from balloon_usd.operations.score import Layout
+    from balloon_usd.operations.layout import Layout
 
 WIDER = 1.2
 """How much wider than the bubbles beside it such a ball is at least: tubes of one size give way."""

@@ -20,7 +20,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from balloon_usd.language.quantities import Units
-    from balloon_usd.operations.score import Layout, Score
+    from balloon_usd.operations.layout import Layout
+    from balloon_usd.operations.score import Score
     from balloon_usd.operations.workbench import Place, Workbench
     from balloon_usd.operations.workpiece import Workpiece
 

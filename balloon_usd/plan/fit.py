@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from balloon_usd.language.problem import Problem
-    from balloon_usd.operations.score import Layout
+    from balloon_usd.operations.layout import Layout
     from balloon_usd.operations.workpiece import Workpiece
     from balloon_usd.plan.strip import Strip
     from balloon_usd.recipe import Recipe

@@ -28,7 +28,7 @@ from balloon_usd.recipe.held_words import EVERY, MUST_HOLD, PLANNED
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from balloon_usd.operations.score import Layout
+    from balloon_usd.operations.layout import Layout
     from balloon_usd.plan.budget import Budget
     from balloon_usd.plan.graph import GraphJoint, SculptureGraph
     from balloon_usd.plan.strip import PlannedBubble, Strip
