@@ -16,6 +16,7 @@ from balloon_usd.operations.modifiers import HOLDING_TURNS, Turned
 from balloon_usd.operations.workpiece import Joined
 from balloon_usd.plan.bent_chains import bends_onto_others
 from balloon_usd.plan.filling import emptier
+from balloon_usd.plan.hard_lobes import hard_lobes
 from balloon_usd.plan.holding import too_slippery
 from balloon_usd.plan.long_sides import long_sides
 from balloon_usd.plan.open_tube import MILLIMETRE, roomy_share, shortened, softened, tail_range
@@ -85,6 +86,7 @@ def _of_latex(
     yield from _turns(recipe, strips)
     yield from _slippery(recipe)
     yield from _short_bubbles(strips)
+    yield from chain.from_iterable(map(hard_lobes, strips.values()))
     yield from chain.from_iterable(_burst(recipe, strips[name], it, graph) for name, it in budgets.items())
     yield from chain.from_iterable(map(_overblown, strips.values()))
     yield from _softening(recipe)
