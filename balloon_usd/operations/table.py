@@ -86,8 +86,9 @@ CALLED: dict[str, str] = {name: each.word for each in OPERATIONS for name in eac
 """Words of operations by what makers call them, too."""
 NOT_THERE: dict[str, str] = {
     "raisin": "a bump twisted off the side of a bubble, expected an ear, or a balloon tied to a joint",
+    "split_apple": "a tulip with a waist, expected tulip, or split, which divides an ear",
     "overblow": "blowing up too far, and letting air out again, expected overblown: of a round balloon",
-    "stretch": "stretching a balloon before it is blown up, expected no such step: the start of each tube is",
+    "stretch": "stretching a balloon before use, expected no such step: hands do it with each tube",
     "string": "a string between two joints, expected tie, which brings them together",
 }
 """What makers do that no operation does, by its word, and what there is instead."""
