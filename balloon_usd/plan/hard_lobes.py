@@ -40,7 +40,8 @@ def hard_lobes(strip: Strip) -> Iterator[Caution]:
 
 def _remedy(strip: Strip, number: int) -> str:
     if number == len(strip.bubbles) - 1:
-        return f"make {strip.bubbles[number - 1].name} shorter"
+        before = strip.bubbles[number - 1]
+        return "twist fewer bubbles off" if (before.pressure or 0.0) > HARD else f"make {before.name} shorter"
     softer = _softer(strip, number)
     return "make it longer" if softer is None else f"make it {at_least(softer)} or longer"
 

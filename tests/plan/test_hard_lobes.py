@@ -44,6 +44,12 @@ def test_where_what_is_left_is_hard_the_bubble_before_it_is_to_be_shorter(planne
     assert caution.remedy == "make a shorter"
 
 
+def test_where_all_parts_are_hard_there_are_too_many(planned):
+    *_, last = told(planned, "R5", 4.5, "a: 2.2, b: 2.7")
+    assert last.what[0] == "z"
+    assert last.remedy == "twist fewer bubbles off"
+
+
 @pytest.mark.parametrize(("size", "width", "length"), [("R5", 6, 3), ("R5", 10, 5), ("R11", 24, 12)])
 def test_parts_of_usual_size_are_not_told(planned, size, width, length):
     assert told(planned, size, width, f"a: {length}") == []
