@@ -9,6 +9,7 @@ from rich.table import Table
 
 from balloon_usd.batch.record import Status
 from balloon_usd.cli.console import Terminal
+from balloon_usd.language.pressures import kilopascals
 from balloon_usd.quality.joints import SLIPPED
 from balloon_usd.quality.line import quality_line
 from balloon_usd.quality.measures import Verdict
@@ -85,7 +86,7 @@ def _warnings(records: Sequence[Record]) -> Iterator[str]:
             remedy = _remedy(_measured(told, "necks"))
             yield f"{record.name}: {told['most_loaded']} would burst: {load}: {remedy}"
         for balloon, (bubble, pressure) in told.get("hard", {}).items():
-            hardest = f"the hardest, {bubble}, has {pressure / 1e3:.1f} kPa"
+            hardest = f"the hardest, {bubble}, has {kilopascals(pressure)}"
             yield f"{record.name}: {balloon} has run out of tail: {hardest}: leave more tail"
         if off := told.get("gas_off"):
             listed = ", ".join(f"{bubble} {share:.0%}" for bubble, share in off.items())

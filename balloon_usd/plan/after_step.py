@@ -6,6 +6,7 @@ from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
 from balloon_usd.language.lengths import cm
+from balloon_usd.language.pressures import kilopascals
 from balloon_usd.plan.graph import sculpture_graph
 from balloon_usd.plan.holding import loose_joints
 from balloon_usd.plan.report import (
@@ -143,7 +144,7 @@ def _left(left: OpenPart | None) -> str:
     if left.pressure is None:
         return f"  left: {cm(left.length)}"
     flat = "" if left.tail is None else f", {cm(left.tail)} flat"
-    return f"  left: {cm(left.length)} blown up at {left.pressure / 1e3:.1f} kPa{flat}"
+    return f"  left: {cm(left.length)} blown up at {kilopascals(left.pressure)}{flat}"
 
 
 def after_step_json(after: AfterStep) -> dict[str, Any]:

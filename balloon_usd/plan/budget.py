@@ -9,7 +9,6 @@ from balloon_usd.balloon.air import ATMOSPHERE, GAS_CONSTANT, ROOM_TEMPERATURE
 from balloon_usd.balloon.bubble_shape import bubble_of_length, twist_cost
 from balloon_usd.balloon.filled_tube import state_at_stretch
 from balloon_usd.balloon.tube_theory import gauge_pressure, maxwell_state
-from balloon_usd.plan.lungs import opening_pressure
 from balloon_usd.plan.open_tube import inflated_tube, softened, tail_range
 
 if TYPE_CHECKING:
@@ -62,10 +61,6 @@ class Budget:
     """Gas volume when blown up, m3."""
     pressure: float
     """Gauge pressure when blown up, Pa: the Maxwell pressure."""
-    opening: float
-    """Gauge pressure at which it begins to grow, Pa, as it comes out of the bag."""
-    opening_stretched: float
-    """The same where hands stretched its start before, Pa."""
 
     @property
     def tail_left(self) -> float:
@@ -145,8 +140,6 @@ def budget_of(strip: Strip) -> Budget:
         flat_length=strip.size.length,
         volume=volume,
         pressure=blown_up_pressure(strip),
-        opening=opening_pressure(strip.size, strip.rubber, stretched=False),
-        opening_stretched=opening_pressure(strip.size, strip.rubber, stretched=True),
     )
 
 

@@ -10,6 +10,7 @@ from balloon_usd.balloon.bubble_shape import smallest_ball, softest_ball
 from balloon_usd.balloon.sizes import size_named
 from balloon_usd.balloon.wound_neck import PACKING_TURNS, holding_friction
 from balloon_usd.language.lengths import at_least, at_most, cm
+from balloon_usd.language.pressures import kilopascals
 from balloon_usd.language.turns import turns_text
 from balloon_usd.operations.caution import Caution
 from balloon_usd.operations.modifiers import HOLDING_TURNS, Turned
@@ -150,7 +151,7 @@ def _short_bubbles(strips: Mapping[str, Strip]) -> Iterator[Caution]:
                     bubble.step,
                     f"{named} will be a hard little ball",
                     f"below {cm(softest)} a {size.name} bubble needs more pressure than the tube has: "
-                    f"{(bubble.pressure or 0.0) / 1e3:.1f} kPa",
+                    f"{kilopascals(bubble.pressure or 0.0)}",
                     f"make it {at_least(softest)} or longer",
                 )
 
@@ -179,7 +180,7 @@ def _tail(recipe: Recipe, strip: Strip, budget: Budget) -> Iterator[Caution]:
         f"{budget.balloon} runs out of tail at the twist that ends {out.bubble}",
         f"{len(budget.twists)} twists fill {cm(budget.tail_needed)} of flat tail, of {cm(budget.tail)} "
         f"left; from there on each makes what is left harder, up to "
-        f"{_kilopascals(budget.twists[-1].pressure)} from {_kilopascals(budget.pressure)}",
+        f"{kilopascals(budget.twists[-1].pressure)} from {kilopascals(budget.pressure)}",
         _more_tail(recipe, strip, budget),
     )
 
@@ -206,7 +207,7 @@ def _burst(recipe: Recipe, strip: Strip, budget: Budget, graph: SculptureGraph) 
     remedy = "press gas out of the folded bubbles (burp: 20 %), or make them longer, or fewer"
     if twist.tail_left <= 0.0:
         why = f"with no tail left the rubber is stretched {twist.hoop_stretch:.1f} times round, at "
-        why += _kilopascals(twist.pressure)
+        why += kilopascals(twist.pressure)
         remedy = _more_tail(recipe, strip, budget)
     yield Caution(
         twist.step,
@@ -232,10 +233,6 @@ def _overblown(strip: Strip) -> Iterator[Caution]:
         why = f"{load:.0%} of the load at which latex tears"
         surely = bursting_width(strip.rubber, strip.size, SURELY_BORNE)
         yield Caution(None, what, why, f"overblown: {at_most(surely)}")
-
-
-def _kilopascals(pressure: float) -> str:
-    return f"{pressure / 1e3:.1f} kPa"
 
 
 def _softening(recipe: Recipe) -> Iterator[Caution]:

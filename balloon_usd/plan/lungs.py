@@ -25,10 +25,8 @@ def opening_pressure(size: BalloonSize, rubber: Rubber, *, stretched: bool) -> f
     Raises:
         ValueError: the rubber has no bulged phase.
     """
-    if not stretched or rubber.softening is None:
-        return gauge_pressure(size, pressure_maximum(rubber).p_star)
-    start = pressure_maximum(inflated_rubber(rubber)).p_star
-    return gauge_pressure(size, max(start, maxwell_state(rubber).p_star))
+    law = inflated_rubber(rubber) if stretched else rubber
+    return gauge_pressure(size, max(pressure_maximum(law).p_star, maxwell_state(rubber).p_star))
 
 
 def blown_by(pressure: float) -> str:

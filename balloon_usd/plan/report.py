@@ -6,12 +6,13 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from balloon_usd.language.lengths import at_least, at_most, cm
+from balloon_usd.language.pressures import kilopascals
 from balloon_usd.operations.moves import LeadIn
 from balloon_usd.operations.parting import parts_of
 from balloon_usd.operations.workpiece import Contact, Joined, Popped
 from balloon_usd.plan.budget import amount
 from balloon_usd.plan.holding import friction_margin
-from balloon_usd.plan.lungs import blown_by
+from balloon_usd.plan.lungs import blown_by, opening_pressure
 from balloon_usd.plan.overblowing import load_of
 from balloon_usd.plan.parking import parked
 from balloon_usd.plan.pumping import pumped
@@ -117,7 +118,7 @@ def _round_lines(strip: Strip, blown: BlownRound, popped: Container[str]) -> Ite
 
 def _gas(blown: BlownRound) -> str:
     pressure, volume = blown.pressure, blown.volume
-    return f"{volume * 1e3:.2f} L at {pressure / 1e3:.1f} kPa, {amount(pressure, volume):.3f} mol"
+    return f"{volume * 1e3:.2f} L at {kilopascals(pressure)}, {amount(pressure, volume):.3f} mol"
 
 
 def _place(strip: Strip) -> str:
@@ -132,7 +133,7 @@ def _shape_lines(strip: Strip, shape: Shaped) -> Iterator[str]:
     yield f"  {1e4 * shape.surface.area:.0f} cm2 of wall, {1e3 * strip.size.thickness:g} mm thick"
     yield (
         f"  blow up to {shape.volume * 1e3:.2f} L in {shape.seconds:.1f} s (swell {shape.swell:g}): "
-        f"a ball would be {ball} wide, at {shape.pressure / 1e3:.1f} kPa"
+        f"a ball would be {ball} wide, at {kilopascals(shape.pressure)}"
     )
 
 
@@ -140,10 +141,10 @@ def _budget_lines(plan: Plan, budget: Budget) -> Iterator[str]:
     twists = len(budget.twists)
     gas = f"{budget.volume * 1e3:.2f} L"
     if plan.recipe.physics.traits.winds:
-        gas += f" at {budget.pressure / 1e3:.1f} kPa, {budget.gas_amount:.3f} mol"
+        gas += f" at {kilopascals(budget.pressure)}, {budget.gas_amount:.3f} mol"
     yield f"  blow up {cm(budget.inflated_length)}, leave {cm(budget.tail)} flat: {gas}"
     if plan.recipe.physics.traits.winds:
-        yield _opening_line(budget)
+        yield _opening_line(plan.strips[budget.balloon])
     each = f"about {cm((budget.tail_needed - budget.drawn) / max(twists, 1))} each"
     if budget.drawn > 0.0:
         each += f", and {cm(budget.drawn)} that turns draw in"
@@ -164,15 +165,18 @@ def _budget_lines(plan: Plan, budget: Budget) -> Iterator[str]:
         )
 
 
-def _opening_line(budget: Budget) -> str:
-    """Tell at which pressure a balloon begins to grow, as it comes and where its start is stretched."""
-    first, stretched = (
-        f"{pressure / 1e3:.1f} kPa ({blown_by(pressure)})"
-        for pressure in (budget.opening, budget.opening_stretched)
-    )
-    if budget.opening_stretched == budget.opening:
+def _opening_line(strip: Strip) -> str:
+    """Tell at which pressure a tube begins to grow, as it comes and where its start is stretched."""
+    first, stretched = (f"{kilopascals(pressure)} ({blown_by(pressure)})" for pressure in _opening(strip))
+    if stretched == first:
         return f"  it begins to grow at {first}"
     return f"  it begins to grow at {first}, and at {stretched} where hands stretched its start before"
+
+
+def _opening(strip: Strip) -> tuple[float, float]:
+    """Return the gauge pressures of `_opening_line`, Pa."""
+    size, rubber = strip.size, strip.rubber
+    return opening_pressure(size, rubber, stretched=False), opening_pressure(size, rubber, stretched=True)
 
 
 def _stroke_lines(plan: Plan, balloon: str) -> Iterator[str]:
@@ -348,7 +352,7 @@ def _balloon_json(strip: Strip, budget: Budget | None) -> dict[str, Any]:
         "inside": strip.inside,
         "shape": None if strip.shape is None else _shape_json(strip.shape),
         "bubbles": [asdict(bubble) | {"drawn": list(bubble.drawn)} for bubble in strip.bubbles],
-        "budget": None if budget is None else _budget_json(budget),
+        "budget": None if budget is None else _budget_json(strip, budget),
     }
 
 
@@ -377,7 +381,8 @@ def _shape_json(shape: Shaped) -> dict[str, Any]:
     }
 
 
-def _budget_json(budget: Budget) -> dict[str, Any]:
+def _budget_json(strip: Strip, budget: Budget) -> dict[str, Any]:
+    first, stretched = _opening(strip)
     return {
         "tail_needed": budget.tail_needed,
         "tail_used": budget.tail_used,
@@ -390,7 +395,7 @@ def _budget_json(budget: Budget) -> dict[str, Any]:
         "volume": budget.volume,
         "pressure": budget.pressure,
         "gas_amount": budget.gas_amount,
-        "opening_pressure": budget.opening,
-        "opening_pressure_stretched": budget.opening_stretched,
+        "opening_pressure": first,
+        "opening_pressure_stretched": stretched,
         "twists": [asdict(twist) for twist in budget.twists],
     }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import math
 from dataclasses import replace
 from functools import lru_cache
 from typing import TYPE_CHECKING
@@ -124,42 +125,42 @@ def _misfit(made: Made, left: OpenRound, balloon: str, lobe: Lobe | None) -> str
     text = f"{quoted(made.bubble)} of {cm(made.length)} is not twisted off {what}"
     if lobe is not None:
         text = f"{quoted(made.bubble)} of {cm(made.length)} would be {cm(lobe.width)} wide, all in folds"
-    heights = _fitting_heights(left)
+    heights = fitting_heights(left)
     if heights is None:
         return f"{text}, expected fewer bubbles, or a balloon that is blown up less"
     less = ", or a balloon that is blown up less" if made.length < heights[0] else ""
     return f"{text}, expected {at_least(heights[0])} to {at_most(heights[1])}{less}"
 
 
-def _fitting_heights(left: OpenRound) -> tuple[float, float] | None:
+def fitting_heights(left: OpenRound, hardest: float = math.inf) -> tuple[float, float] | None:
     """Return the heights (m) of the lowest and the highest bubble that is twisted off what is left of a round
-    balloon; None where hardly any is.
+    balloon, and is no harder than some gauge pressure (Pa); None where hardly any is.
     """
     least, most = left.lengths
     lengths = np.linspace(least, most, LOBES) if least < most else np.zeros(0)
-    fits = [_fitting(left, length) is not None for length in lengths]
+    fits = [_fitting(left, length, hardest) is not None for length in lengths]
     if not any(fits):
         return None
     first, last = fits.index(True), len(fits) - 1 - fits[::-1].index(True)
-    low = _edge(left, lengths[first], lengths[max(first - 1, 0)])
-    high = _edge(left, lengths[last], lengths[min(last + 1, len(fits) - 1)])
+    low = _edge(left, lengths[first], lengths[max(first - 1, 0)], hardest)
+    high = _edge(left, lengths[last], lengths[min(last + 1, len(fits) - 1)], hardest)
     return (low, high) if low + LEAST_RANGE < high else None
 
 
-def _edge(left: OpenRound, fits: float, fails: float) -> float:
+def _edge(left: OpenRound, fits: float, fails: float, hardest: float) -> float:
     """Return the height (m) of the bubble at which those end that fit, between two lengths of wall, m."""
     for _ in range(HALVINGS):
         middle = 0.5 * (fits + fails)
-        fits, fails = (fits, middle) if _fitting(left, middle) is None else (middle, fails)
-    lobe = _fitting(left, fits)
+        fits, fails = (fits, middle) if _fitting(left, middle, hardest) is None else (middle, fails)
+    lobe = _fitting(left, fits, hardest)
     assert lobe is not None, "the first length fits"
     return lobe.height
 
 
-def _fitting(left: OpenRound, length: float) -> Lobe | None:
-    """Return the bubble of a length of wall (m) that is twisted off; None where it is too flat."""
+def _fitting(left: OpenRound, length: float, hardest: float) -> Lobe | None:
+    """Return the bubble of a length of wall (m) that is twisted off; None of one too flat or too hard."""
     with contextlib.suppress(ValueError):
         lobe, _ = left.parted(length)
-        if lobe.width <= MOST_FLAT * lobe.height:
+        if lobe.width <= MOST_FLAT * lobe.height and lobe.pressure <= hardest:
             return lobe
     return None

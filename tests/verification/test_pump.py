@@ -10,6 +10,7 @@ from balloon_usd.balloon.rubber import rubber_named
 from balloon_usd.balloon.sizes import size_named
 from balloon_usd.balloon.tube_theory import gauge_pressure, maxwell_state
 from balloon_usd.plan import plan
+from balloon_usd.plan.lungs import opening_pressure
 from balloon_usd.recipe import Recipe
 from balloon_usd.solver.simulation import simulate_many
 from tests.verification.setups import Rig, plain, polygon_factor, ring_stretches, tube
@@ -113,8 +114,8 @@ def hardest():
         ]
         highest = np.maximum(highest, blown)
     return {
-        p.strips["one"].size.name: (pressure, p.budgets["one"].opening_stretched)
-        for p, pressure in zip(plans, highest, strict=True)
+        strip.size.name: (pressure, opening_pressure(strip.size, strip.rubber, stretched=True))
+        for strip, pressure in zip((p.strips["one"] for p in plans), highest, strict=True)
     }
 
 
